@@ -1,0 +1,41 @@
+#pragma once
+// The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order.
+
+#include "engine/passes/diode_groups.h"
+#include "engine/passes/strip_buffers.h"
+#include "engine/scene.h"
+#include "engine/simulator_options.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+namespace pmdsim {
+
+// What the sum has to model; what a setup does not need is compiled out.
+struct SumModel {
+  std::uint32_t backscatter; // shader::backscatter_*
+  std::uint32_t pattern;     // shader::pattern_*
+  std::uint32_t order;       // of shader::pattern_power
+};
+
+SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light);
+
+class AccumulatePass {
+public:
+  AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
+                 double modulation_hz, const SimulatorOptions &options);
+
+  std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
+  // Interactions (samples times diodes, padding included) of one run over `strip`.
+  std::uint64_t interactions_per_run(const shader::Strip &strip) const;
+  // Adds the runs first ... last - 1 to the strip's sums.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, std::uint32_t first, std::uint32_t last) const;
+
+private:
+  std::vector<DiodeRun> runs_;
+  std::uint32_t blocks_per_run_;
+  double modulation_hz_;
+  vulkan::Buffer diodes_;
+  vulkan::ComputePipeline pipeline_;
+};
+
+} // namespace pmdsim

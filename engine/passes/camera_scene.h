@@ -1,0 +1,44 @@
+#pragma once
+// The scene and the light as the lens sees them: camera frame (x right, y down, z forward, origin at the
+// lens), made in double before anything becomes float.
+
+#include "engine/illuminator.h"
+#include "engine/scene.h"
+#include "engine/sensor.h"
+#include "shaders/interface.h"
+
+#include <array>
+#include <vector>
+
+namespace pmdsim {
+
+struct CameraTriangle {
+  std::array<glm::dvec3, 3> corners_m; // camera frame
+  std::uint32_t id;                    // index into Scene::triangles
+};
+
+// The plane normal . P = offset_m, camera frame, the unit normal turned to the lens (so offset_m < 0).
+struct Plane {
+  glm::dvec3 normal;
+  double offset_m;
+};
+
+struct CameraScene {
+  // The triangles that the lens can see: without those of no area, those seen edge-on and culled back faces.
+  std::vector<CameraTriangle> triangles;
+  std::vector<Plane> planes; // beside `triangles`
+};
+
+CameraScene to_camera(const Scene &scene, const Sensor &sensor);
+
+// The illuminator's diodes with positions and axes in the camera frame.
+std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &sensor);
+
+// The records that the points pass looks up by triangle id, one for each of the scene's triangles.
+std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
+                                                   Backscatter backscatter);
+
+// True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
+bool all_face_the_light(const CameraScene &camera, const std::vector<Diode> &camera_diodes);
+
+} // namespace pmdsim

@@ -1,0 +1,143 @@
+#include "engine/passes/diode_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace pmdsim {
+namespace {
+
+constexpr double largest_phase_rad = 0.5;         // of a group's radius: 8 moments at most
+constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
+constexpr std::uint32_t largest_run_blocks = 16;
+constexpr double remainder = 0x1p-26;
+
+struct Box {
+  glm::dvec3 low_m, high_m;
+};
+
+Box box_of(std::span<const Diode> diodes) {
+  Box box{diodes.front().position_m, diodes.front().position_m};
+  for (const Diode &diode : diodes) {
+    box.low_m = glm::min(box.low_m, diode.position_m);
+    box.high_m = glm::max(box.high_m, diode.position_m);
+  }
+  return box;
+}
+
+struct Group {
+  glm::dvec3 reference_m;
+  double radius_m; // of the sphere around the reference point that holds all its diodes
+};
+
+Group group_of(std::span<const Diode> diodes) {
+  const Box box = box_of(diodes);
+  // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
+  Group group{diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), 0.0};
+  for (const Diode &diode : diodes)
+    group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
+  return group;
+}
+
+// A lower bound of the distance from `point_m` to anything visible.
+double range_at_least_m(const glm::dvec3 &point_m, const std::vector<VisibleBox> &visible) {
+  double range_m = std::numeric_limits<double>::infinity();
+  for (const VisibleBox &box : visible)
+    range_m = std::min(range_m, glm::distance(point_m, glm::clamp(point_m, box.low_m, box.high_m)));
+  return range_m;
+}
+
+shader::GroupDiode dark_diode() { return {glm::vec4(0), glm::vec4(0, 0, 1, 0), 0.0f, -1.0f, glm::vec2(0)}; }
+
+shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
+                               double largest_intensity_w_sr) {
+  const glm::dvec3 position_m = diode.position_m - reference_m;
+  const bool isotropic = diode.pattern.kind == Pattern::Kind::isotropic;
+  return {glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m)),
+          glm::vec4(diode.axis, glm::dot(diode.axis, position_m)),
+          largest_intensity_w_sr > 0.0 ? static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr)
+                                       : 0.0f,
+          isotropic ? -1.0f : static_cast<float>(diode.pattern.order), glm::vec2(0)};
+}
+
+class Grouping {
+public:
+  Grouping(const std::vector<VisibleBox> &visible, double wavenumber_rad_m)
+      : visible_(visible), wavenumber_rad_m_(wavenumber_rad_m) {}
+
+  // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
+  void split(std::span<Diode> diodes) {
+    const Group group = group_of(diodes);
+    if (is_small_enough(group)) {
+      groups_.emplace_back(group, diodes);
+      return;
+    }
+    const Box box = box_of(diodes);
+    const glm::dvec3 spread = box.high_m - box.low_m;
+    const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
+    const auto middle = diodes.begin() + static_cast<std::ptrdiff_t>(diodes.size() / 2);
+    std::ranges::nth_element(diodes, middle, {},
+                             [axis](const Diode &diode) { return diode.position_m[axis]; });
+    split(diodes.first(diodes.size() / 2));
+    split(diodes.subspan(diodes.size() / 2));
+  }
+
+  const std::vector<std::pair<Group, std::span<Diode>>> &groups() const { return groups_; }
+
+private:
+  bool is_small_enough(const Group &group) const {
+    return wavenumber_rad_m_ * group.radius_m <= largest_phase_rad &&
+           group.radius_m <= largest_radius_over_range * range_at_least_m(group.reference_m, visible_);
+  }
+
+  const std::vector<VisibleBox> &visible_;
+  double wavenumber_rad_m_;
+  std::vector<std::pair<Group, std::span<Diode>>> groups_;
+};
+
+std::uint32_t blocks_for(std::size_t diodes) {
+  return static_cast<std::uint32_t>((diodes + shader::diodes_per_block - 1) / shader::diodes_per_block);
+}
+
+} // namespace
+
+std::uint32_t moments_needed(double phase_rad) {
+  std::uint32_t k = 1;
+  for (double term = phase_rad; term > remainder; term *= phase_rad / k)
+    ++k;
+  return k;
+}
+
+DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<VisibleBox> &visible,
+                         double wavenumber_rad_m) {
+  std::vector<Diode> ordered = diodes;
+  Grouping grouping(visible, wavenumber_rad_m);
+  grouping.split(ordered);
+
+  DiodeGroups result;
+  std::uint32_t most_blocks = 1;
+  double radius_m = 0.0;
+  for (const auto &[group, members] : grouping.groups()) {
+    most_blocks = std::max(most_blocks, blocks_for(members.size()));
+    radius_m = std::max(radius_m, group.radius_m);
+  }
+  const std::uint32_t runs_of_largest = (most_blocks + largest_run_blocks - 1) / largest_run_blocks;
+  result.blocks_per_run = (most_blocks + runs_of_largest - 1) / runs_of_largest;
+  result.moments = moments_needed(wavenumber_rad_m * radius_m);
+  for (const Diode &diode : diodes)
+    result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
+
+  const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
+  for (const auto &[group, members] : grouping.groups())
+    for (std::size_t first = 0; first < members.size(); first += run_diodes) {
+      result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size())});
+      for (std::size_t i = first; i < first + run_diodes; ++i)
+        result.diodes.push_back(
+            i < members.size() ? group_diode(members[i], group.reference_m, result.largest_intensity_w_sr)
+                               : dark_diode());
+    }
+  return result;
+}
+
+} // namespace pmdsim

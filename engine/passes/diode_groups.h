@@ -1,0 +1,35 @@
+#pragma once
+// The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
+// fast and nothing cancels, and laid out as the accumulate pass reads them.
+
+#include "engine/illuminator.h"
+#include "engine/passes/projection.h"
+#include "shaders/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// One dispatch of the accumulate pass: a run of whole blocks of diodes that share a reference point.
+struct DiodeRun {
+  glm::dvec3 reference_m; // camera frame
+  std::uint32_t first;    // index into DiodeGroups::diodes
+};
+
+struct DiodeGroups {
+  std::uint32_t moments = 1; // K, the same for every group
+  std::uint32_t blocks_per_run =
+      1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
+  double largest_intensity_w_sr = 0; // what GroupDiode::intensity is relative to
+  std::vector<DiodeRun> runs;
+  std::vector<shader::GroupDiode> diodes;
+};
+
+// `diodes` in the camera frame; `visible` bounds the points that they light; wavenumber = 2 pi f / c, rad/m.
+DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<VisibleBox> &visible,
+                         double wavenumber_rad_m);
+
+// The smallest K whose remainder (kappa * e)^K / K! is below float32's rounding (DESIGN section 4).
+std::uint32_t moments_needed(double phase_rad);
+
+} // namespace pmdsim

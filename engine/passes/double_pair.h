@@ -1,0 +1,24 @@
+#pragma once
+// A double as the two floats that shaders take it in: the nearest float and what is left, 48 bits together.
+
+#include <glm/glm.hpp>
+
+namespace pmdsim {
+
+struct DoublePair {
+  float hi;
+  float lo;
+
+  explicit DoublePair(double value)
+      : hi(static_cast<float>(value)), lo(static_cast<float>(value - static_cast<double>(hi))) {}
+};
+
+struct DoublePair4 {
+  glm::vec4 hi;
+  glm::vec4 lo;
+
+  DoublePair4(const glm::dvec3 &xyz, double w)
+      : hi(xyz, w), lo(xyz - glm::dvec3(hi), w - static_cast<double>(hi.w)) {}
+};
+
+} // namespace pmdsim

@@ -1,0 +1,40 @@
+#include "engine/passes/points.h"
+
+#include "engine/passes/double_pair.h"
+#include "engine/passes/sample_precision.h"
+#include "spirv/points_double_float.h"
+#include "spirv/points_fp64.h"
+
+namespace pmdsim {
+namespace {
+
+// Half a sample's width on the chip over the image distance.
+shader::vec4 slope_of(const Sensor &sensor) {
+  const glm::dvec2 slope = sensor.pixel_pitch_m / (2.0 * sensor.samples * sensor.image_distance_m());
+  const DoublePair x(slope.x), y(slope.y);
+  return {x.hi, x.lo, y.hi, y.lo};
+}
+
+} // namespace
+
+PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, SamplePrecision precision)
+    : slope_(slope_of(sensor)),
+      pipeline_(device,
+                choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
+                sizeof(shader::PointsConstants)) {}
+
+void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                        const StripBuffers &buffers, const vulkan::Buffer &planes) const {
+  const shader::PointsConstants constants{strip,
+                                          slope_,
+                                          words(buffers.tags.address()),
+                                          words(planes.address()),
+                                          words(buffers.position_hi.address()),
+                                          words(buffers.position_lo.address()),
+                                          words(buffers.surface.address()),
+                                          words(buffers.backscatter.address()),
+                                          words(buffers.sum.address())};
+  pipeline_.dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
+}
+
+} // namespace pmdsim

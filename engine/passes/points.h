@@ -1,0 +1,25 @@
+#pragma once
+// The points pass: for every sample the point of the scene that it sees, from its triangle's plane and its
+// exact ray.
+
+#include "engine/passes/strip_buffers.h"
+#include "engine/sensor.h"
+#include "engine/simulator_options.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+namespace pmdsim {
+
+class PointsPass {
+public:
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, SamplePrecision precision);
+
+  // `planes` holds the TrianglePlane of each of the scene's triangles.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, const vulkan::Buffer &planes) const;
+
+private:
+  shader::vec4 slope_;
+  vulkan::ComputePipeline pipeline_;
+};
+
+} // namespace pmdsim

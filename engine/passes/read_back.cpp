@@ -1,0 +1,88 @@
+#include "engine/passes/read_back.h"
+
+#include "engine/vulkan/commands.h"
+
+#include <cstring>
+
+namespace pmdsim {
+namespace {
+
+// Copies a strip's rows of `words` 32-bit words into rows of a frame.
+template <typename T>
+void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t frame_columns,
+                std::vector<T> &to) {
+  static_assert(sizeof(T) == 4);
+  const std::size_t row_bytes = strip.columns * sizeof(T);
+  for (std::uint32_t row = 0; row < strip.rows; ++row)
+    std::memcpy(to.data() + std::size_t{strip.row + row} * frame_columns + strip.column,
+                from + row * row_bytes, row_bytes);
+}
+
+void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
+                            std::vector<std::uint32_t> &to) {
+  const std::size_t columns = std::size_t{strip.columns} * strip.samples,
+                    rows = std::size_t{strip.rows} * strip.samples;
+  const std::size_t frame_columns = std::size_t{strip.resolution_x} * strip.samples;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      shader::uvec2 tag;
+      std::memcpy(&tag, from + (row * columns + column) * sizeof(tag), sizeof(tag));
+      to[(std::size_t{strip.row} * strip.samples + row) * frame_columns + strip.column * strip.samples +
+         column] = tag.x != 0 ? tag.y : no_id;
+    }
+}
+
+} // namespace
+
+Measurement make_measurement(const Sensor &sensor, bool keep_sample_triangles) {
+  Measurement measurement;
+  measurement.resolution = sensor.resolution;
+  const std::size_t pixels = sensor.pixel_count();
+  for (auto *channel : {&measurement.amplitude, &measurement.phase_rad, &measurement.distance_m,
+                        &measurement.range_m, &measurement.z_m, &measurement.coverage})
+    channel->resize(pixels);
+  measurement.triangle_id.resize(pixels);
+  measurement.object_id.resize(pixels);
+  if (keep_sample_triangles)
+    measurement.sample_triangle_id.resize(pixels * sensor.samples * sensor.samples);
+  return measurement;
+}
+
+void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                      const StripBuffers &buffers) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
+                         Access::eTransferRead);
+  const vk::DeviceSize channel_bytes =
+      vk::DeviceSize{strip.padded_pixels} * shader::channel_count * sizeof(float);
+  commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
+                      vk::BufferCopy(0, 0, channel_bytes));
+  if (buffers.tags_read.bytes() > 0) {
+    const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
+    commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
+                        vk::BufferCopy(0, 0, samples * sizeof(shader::uvec2)));
+  }
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measurement &measurement) {
+  const auto channel = [&](std::uint32_t index) {
+    return buffers.channels_read.mapped().data() + std::size_t{index} * strip.padded_pixels * sizeof(float);
+  };
+  const auto store = [&](std::uint32_t index, auto &to) {
+    store_rows(channel(index), strip, strip.resolution_x, to);
+  };
+  store(shader::channel_amplitude, measurement.amplitude);
+  store(shader::channel_phase_rad, measurement.phase_rad);
+  store(shader::channel_distance_m, measurement.distance_m);
+  store(shader::channel_range_m, measurement.range_m);
+  store(shader::channel_z_m, measurement.z_m);
+  store(shader::channel_coverage, measurement.coverage);
+  store(shader::channel_triangle_id, measurement.triangle_id);
+  store(shader::channel_object_id, measurement.object_id);
+  if (!measurement.sample_triangle_id.empty())
+    store_sample_triangles(buffers.tags_read.mapped().data(), strip, measurement.sample_triangle_id);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,19 @@
+#pragma once
+// The read-back: a strip's channels from the device into the measurement.
+
+#include "engine/measurement.h"
+#include "engine/passes/strip_buffers.h"
+
+namespace pmdsim {
+
+// An empty frame of the sensor's size.
+Measurement make_measurement(const Sensor &sensor, bool keep_sample_triangles);
+
+// Copies what the resolve pass (and, if kept, the visibility pass) left to memory that the host can read.
+void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                      const StripBuffers &buffers);
+
+// Once that is done: copies it to its place in the frame.
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measurement &measurement);
+
+} // namespace pmdsim

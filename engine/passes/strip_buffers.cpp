@@ -1,0 +1,34 @@
+#include "engine/passes/strip_buffers.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+
+StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                bool keep_sample_triangles) {
+  using Usage = vk::BufferUsageFlagBits;
+  vk::DeviceSize samples = 0, pixels = 0;
+  for (const auto &[strip, block] : strips) {
+    samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
+    pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
+  }
+  const auto storage = [&](vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
+    return vulkan::Buffer(device, bytes, Usage::eStorageBuffer | more, vulkan::Memory::device);
+  };
+  const auto read = [&](vk::DeviceSize bytes) {
+    return vulkan::Buffer(device, bytes, Usage::eTransferDst, vulkan::Memory::read);
+  };
+  const vk::DeviceSize channel_bytes = pixels * shader::channel_count * sizeof(float);
+  const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
+  return {storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
+          storage(samples * sizeof(shader::vec4)),
+          storage(samples * sizeof(shader::vec4)),
+          storage(samples * sizeof(shader::vec4)),
+          storage(samples * sizeof(float)),
+          storage(samples * sizeof(shader::vec4)),
+          storage(channel_bytes, Usage::eTransferSrc),
+          read(channel_bytes),
+          read(keep_sample_triangles ? tag_bytes : 0)};
+}
+
+} // namespace pmdsim

@@ -1,0 +1,34 @@
+#pragma once
+// The device's buffers for one strip, made once for the largest and used for all.
+
+#include "engine/passes/strips.h"
+#include "engine/vulkan/buffer.h"
+
+namespace pmdsim {
+
+struct StripBuffers {
+  vulkan::Buffer tags; // uvec2 a sample, row-major: pixel id, triangle id
+  vulkan::Buffer
+      position_hi; // vec4 a sample, from here on: sub-sample by sub-sample, each padded_pixels long
+  vulkan::Buffer position_lo;
+  vulkan::Buffer surface;
+  vulkan::Buffer backscatter; // float a sample
+  vulkan::Buffer sum;         // vec4 a sample
+  vulkan::Buffer channels;    // shader::channel_count times padded_pixels words
+  vulkan::Buffer channels_read;
+  vulkan::Buffer tags_read; // empty unless the samples' triangles are asked for
+};
+
+StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                bool keep_sample_triangles);
+
+inline std::uint32_t sample_count(const shader::Strip &strip) {
+  return strip.padded_pixels * strip.samples * strip.samples;
+}
+
+// The address of a buffer as push constants carry it.
+inline shader::uvec2 words(vk::DeviceAddress address) {
+  return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32)};
+}
+
+} // namespace pmdsim

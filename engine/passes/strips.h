@@ -1,0 +1,24 @@
+#pragma once
+// The frame cut into strips that fit the device's buffers.
+
+#include "engine/passes/projection.h"
+#include "engine/sensor.h"
+#include "shaders/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+struct PlannedStrip {
+  shader::Strip strip;
+  std::uint32_t block; // index into Projection::blocks
+};
+
+// Whole rows of the blocks, each strip of at most `max_samples` samples but at least one row of a block.
+std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<RasterBlock> &blocks,
+                                      std::uint32_t max_samples);
+
+// Invocations for `pixels` pixels: whole workgroups.
+std::uint32_t padded(std::uint32_t pixels);
+
+} // namespace pmdsim

@@ -1,0 +1,157 @@
+#include "engine/passes/visibility.h"
+
+#include "engine/vulkan/commands.h"
+#include "engine/vulkan/errors.h"
+#include "spirv/visibility_frag.h"
+#include "spirv/visibility_vert.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace pmdsim {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+
+constexpr auto tag_format = vk::Format::eR32G32Uint;
+constexpr auto depth_format = vk::Format::eD32Sfloat;
+constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+
+vk::Extent2D extent_of(const shader::Strip &strip) {
+  return {strip.columns * strip.samples, strip.rows * strip.samples};
+}
+
+vk::Extent2D largest_extent(const std::vector<PlannedStrip> &strips) {
+  vk::Extent2D largest;
+  for (const auto &[strip, block] : strips) {
+    largest.width = std::max(largest.width, extent_of(strip).width);
+    largest.height = std::max(largest.height, extent_of(strip).height);
+  }
+  return largest;
+}
+
+vk::raii::ShaderModule shader_module(const vulkan::Device &device, std::span<const std::uint32_t> spirv) {
+  return {device.get(), vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data())};
+}
+
+vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
+  return vulkan::checked([&] {
+    const vk::PushConstantRange range(vk::ShaderStageFlagBits::eFragment, 0,
+                                      sizeof(shader::VisibilityConstants));
+    return vk::raii::PipelineLayout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
+  });
+}
+
+vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
+                                 float half_viewport) {
+  return vulkan::checked([&] {
+    const auto vertex = shader_module(device, shader::visibility_vert_spirv);
+    const auto fragment = shader_module(device, shader::visibility_frag_spirv);
+    const vk::SpecializationMapEntry entry(0, 0, sizeof(float));
+    const vk::SpecializationInfo constants(1, &entry, sizeof(float), &half_viewport);
+    const std::array stages{
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main")};
+    const vk::VertexInputBindingDescription binding(0, sizeof(shader::RasterVertex));
+    const std::array attributes{
+        vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32B32Sfloat,
+                                            offsetof(shader::RasterVertex, x_samples)),
+        vk::VertexInputAttributeDescription(1, 0, vk::Format::eR32Uint,
+                                            offsetof(shader::RasterVertex, triangle))};
+    const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    vk::PipelineRasterizationStateCreateInfo raster;
+    raster.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
+    const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
+    // Of triangles at the same depth the one that comes first in the scene stays.
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eGreater);
+    vk::PipelineColorBlendAttachmentState write;
+    write.setColorWriteMask(vk::ColorComponentFlagBits::eR | vk::ColorComponentFlagBits::eG);
+    const vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
+    const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
+    const vk::PipelineRenderingCreateInfo rendering(0, tag_format, depth_format);
+    return vk::raii::Pipeline(device.get(), nullptr,
+                              vk::GraphicsPipelineCreateInfo(
+                                  {}, stages, &input, &assembly, nullptr, &viewport, &raster, &multisample,
+                                  &depth, &blend, &dynamic_state, *layout, {}, 0, {}, 0, &rendering));
+  });
+}
+
+} // namespace
+
+std::uint32_t raster_block_samples(const vulkan::Device &device) {
+  return std::min(std::bit_floor(device.limits().viewport_samples) / 2, device.limits().raster_samples);
+}
+
+VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
+                               const std::vector<PlannedStrip> &strips)
+    : blocks_(projection.blocks),
+      vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
+                               vk::BufferUsageFlagBits::eVertexBuffer)),
+      tags_(device, largest_extent(strips), tag_format,
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+            vk::ImageAspectFlagBits::eColor),
+      depth_(device, largest_extent(strips), depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
+             vk::ImageAspectFlagBits::eDepth),
+      half_viewport_(static_cast<float>(std::bit_floor(device.limits().viewport_samples) / 2)),
+      layout_(make_layout(device)), pipeline_(make_pipeline(device, layout_, half_viewport_)) {}
+
+void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                            const StripBuffers &buffers) const {
+  const vk::Extent2D extent = extent_of(planned.strip);
+  tags_.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
+                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+  depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
+                    Access::eDepthStencilAttachmentWrite, depth_tests,
+                    Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+  const vk::RenderingAttachmentInfo color(tags_.view(), Layout::eColorAttachmentOptimal,
+                                          vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
+                                          vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+                                          vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
+  const vk::RenderingAttachmentInfo depth(
+      depth_.view(), Layout::eDepthAttachmentOptimal, vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
+      vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0.0f));
+  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
+  draw(commands, planned);
+  commands.endRendering();
+  copy_tags(commands, extent, buffers);
+}
+
+void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
+  const shader::Strip &strip = planned.strip;
+  const RasterBlock &block = blocks_[planned.block];
+  if (block.vertex_count == 0)
+    return;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
+  // The block's sample 0 lies a quarter into the viewport; the viewport moves so that the strip starts at 0.
+  // All of these are whole numbers that float holds.
+  const glm::vec2 offset((glm::uvec2(strip.column, strip.row) - block.first_pixel) * strip.samples);
+  const glm::vec2 origin = glm::vec2(-0.5f * half_viewport_) - offset;
+  commands.setViewport(0,
+                       vk::Viewport(origin.x, origin.y, 2 * half_viewport_, 2 * half_viewport_, 0.0f, 1.0f));
+  commands.setScissor(0, vk::Rect2D({0, 0}, extent_of(strip)));
+  commands.pushConstants<shader::VisibilityConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
+                                                      {{strip}});
+  commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
+  commands.draw(block.vertex_count, 1, block.first_vertex, 0);
+}
+
+void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                               const StripBuffers &buffers) const {
+  tags_.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
+                   Access::eTransferRead);
+  const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                   {0, 0, 0}, {extent.width, extent.height, 1});
+  commands.copyImageToBuffer(tags_.get(), Layout::eTransferSrcOptimal, buffers.tags.get(), region);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
+                         Stage::eComputeShader | Stage::eTransfer,
+                         Access::eShaderStorageRead | Access::eTransferRead);
+}
+
+} // namespace pmdsim

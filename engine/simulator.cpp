@@ -1,0 +1,173 @@
+#include "engine/simulator.h"
+
+#include "engine/error.h"
+#include "engine/passes/accumulate.h"
+#include "engine/passes/camera_scene.h"
+#include "engine/passes/diode_groups.h"
+#include "engine/passes/points.h"
+#include "engine/passes/projection.h"
+#include "engine/passes/read_back.h"
+#include "engine/passes/resolve.h"
+#include "engine/passes/strip_buffers.h"
+#include "engine/passes/strips.h"
+#include "engine/passes/visibility.h"
+#include "engine/vulkan/commands.h"
+#include "engine/vulkan/device_choice.h"
+#include "engine/vulkan/pass_timer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::uint32_t default_strip_samples = 1u << 21;
+// One submission's work at most, so that a frame can be stopped and shows its progress.
+constexpr std::uint64_t interactions_per_submission = 2'000'000'000;
+
+DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
+  std::vector<DeviceInfo> devices;
+  for (const auto &device : instance.devices())
+    devices.push_back(vulkan::describe(static_cast<std::uint32_t>(devices.size()), device));
+  return devices[vulkan::choose_device(devices, wanted)];
+}
+
+// What one sensor, illuminator and scene need on the device.
+struct Prepared {
+  Sensor sensor;
+  std::vector<PlannedStrip> strips;
+  vulkan::Buffer planes;
+  StripBuffers buffers;
+  VisibilityPass visibility;
+  PointsPass points;
+  AccumulatePass accumulate;
+  ResolvePass resolve;
+};
+
+Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
+                        const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter) {
+  const CameraScene camera = to_camera(scene, sensor);
+  const std::vector<Diode> diodes = to_camera(illuminator, sensor);
+  const Projection projection = project(camera, sensor, raster_block_samples(device));
+  const double wavenumber_rad_m = 2.0 * std::numbers::pi * sensor.modulation_hz / speed_of_light_m_s;
+  const DiodeGroups groups = group_diodes(diodes, projection.visible, wavenumber_rad_m);
+  const SumModel model = sum_model(diodes, backscatter, all_face_the_light(camera, diodes));
+  const auto strips =
+      plan_strips(sensor, projection.blocks,
+                  options.max_strip_samples > 0 ? options.max_strip_samples : default_strip_samples);
+  const auto planes = triangle_planes(camera, scene, backscatter);
+  return {sensor,
+          strips,
+          vulkan::upload(device, std::as_bytes(std::span(planes)), vk::BufferUsageFlagBits::eStorageBuffer),
+          make_strip_buffers(device, strips, options.keep_sample_triangles),
+          VisibilityPass(device, projection, strips),
+          PointsPass(device, sensor, options.precision),
+          AccumulatePass(device, groups, model, sensor.modulation_hz, options),
+          ResolvePass(device, sensor, groups.largest_intensity_w_sr, options.precision)};
+}
+
+} // namespace
+
+struct Simulator::State {
+  explicit State(const SimulatorOptions &wanted)
+      : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
+        device(instance, std::move(instance.devices()[info.index])), commands(device), timer(device) {}
+
+  void measure_strip(const PlannedStrip &planned, const Progress &progress, double done, double share,
+                     Measurement &measurement);
+  void see(const PlannedStrip &planned);
+  void sum(const PlannedStrip &planned, std::uint32_t first_run, std::uint32_t last_run);
+  void resolve(const PlannedStrip &planned);
+
+  SimulatorOptions options;
+  vulkan::Instance instance;
+  DeviceInfo info;
+  vulkan::Device device;
+  vulkan::Commands commands;
+  vulkan::PassTimer timer;
+  std::optional<Prepared> prepared;
+};
+
+void Simulator::State::see(const PlannedStrip &planned) {
+  const auto &commands_buffer = commands.begin();
+  timer.begin(commands_buffer);
+  prepared->visibility.record(commands_buffer, planned, prepared->buffers);
+  timer.mark(commands_buffer, "visibility");
+  prepared->points.record(commands_buffer, planned.strip, prepared->buffers, prepared->planes);
+  timer.mark(commands_buffer, "points");
+  commands.submit_and_wait();
+  timer.collect();
+}
+
+void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t first_run, std::uint32_t last_run) {
+  const auto &commands_buffer = commands.begin();
+  timer.begin(commands_buffer);
+  prepared->accumulate.record(commands_buffer, planned.strip, prepared->buffers, first_run, last_run);
+  timer.mark(commands_buffer, "accumulate");
+  commands.submit_and_wait();
+  timer.collect();
+}
+
+void Simulator::State::resolve(const PlannedStrip &planned) {
+  const auto &commands_buffer = commands.begin();
+  timer.begin(commands_buffer);
+  prepared->resolve.record(commands_buffer, planned.strip, prepared->buffers, prepared->planes);
+  timer.mark(commands_buffer, "resolve");
+  record_read_back(commands_buffer, planned.strip, prepared->buffers);
+  timer.mark(commands_buffer, "read_back");
+  commands.submit_and_wait();
+  timer.collect();
+}
+
+void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress, double done,
+                                     double share, Measurement &measurement) {
+  see(planned);
+  const std::uint32_t runs = prepared->accumulate.runs();
+  const auto per_submission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+      interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
+  for (std::uint32_t first = 0; first < runs; first += per_submission) {
+    const std::uint32_t last = std::min(runs, first + per_submission);
+    sum(planned, first, last);
+    if (progress)
+      progress(done + share * last / runs);
+  }
+  resolve(planned);
+  store_strip(planned.strip, prepared->buffers, measurement);
+}
+
+Simulator::Simulator(const SimulatorOptions &options) : state_(std::make_unique<State>(options)) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator &&) noexcept = default;
+Simulator &Simulator::operator=(Simulator &&) noexcept = default;
+
+const DeviceInfo &Simulator::device() const { return state_->info; }
+
+void Simulator::prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+                        Backscatter backscatter) {
+  if (illuminator.diodes.empty())
+    throw std::logic_error("an illuminator without diodes");
+  state_->prepared.reset(); // its memory first
+  state_->prepared.emplace(
+      prepare_passes(state_->device, state_->options, scene, sensor, illuminator, backscatter));
+}
+
+Measurement Simulator::measure(const Progress &progress) {
+  if (!state_->prepared)
+    throw std::logic_error("measure() before prepare()");
+  const auto start = std::chrono::steady_clock::now();
+  state_->timer.reset();
+  Measurement measurement = make_measurement(state_->prepared->sensor, state_->options.keep_sample_triangles);
+  const auto &strips = state_->prepared->strips;
+  const double share = 1.0 / static_cast<double>(strips.size());
+  for (std::size_t i = 0; i < strips.size(); ++i)
+    state_->measure_strip(strips[i], progress, share * static_cast<double>(i), share, measurement);
+  measurement.passes = state_->timer.times();
+  measurement.frame_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return measurement;
+}
+
+} // namespace pmdsim

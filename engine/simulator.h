@@ -1,0 +1,40 @@
+#pragma once
+// The simulator: runs the passes of one frame on a Vulkan device, in order, and reads the measurement back.
+
+#include "engine/device_info.h"
+#include "engine/illuminator.h"
+#include "engine/measurement.h"
+#include "engine/scene.h"
+#include "engine/sensor.h"
+#include "engine/simulator_options.h"
+
+#include <functional>
+#include <memory>
+
+namespace pmdsim {
+
+// Called with the fraction of the frame that is done, 0 to 1; may throw to stop the frame.
+using Progress = std::function<void(double fraction)>;
+
+class Simulator {
+public:
+  // Throws Error: no_device where no usable device matches.
+  explicit Simulator(const SimulatorOptions &options);
+  ~Simulator();
+  Simulator(Simulator &&) noexcept;
+  Simulator &operator=(Simulator &&) noexcept;
+
+  const DeviceInfo &device() const;
+
+  // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost.
+  void prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+               Backscatter backscatter);
+  // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost.
+  Measurement measure(const Progress &progress = {});
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace pmdsim

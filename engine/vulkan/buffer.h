@@ -1,0 +1,47 @@
+#pragma once
+// A buffer with its own memory.
+
+#include "engine/vulkan/device.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim::vulkan {
+
+enum class Memory {
+  device, // fast for the device; shaders reach it by its address
+  upload, // written by the host once
+  read,   // read by the host
+};
+
+class Buffer {
+public:
+  Buffer() = default;
+  // `bytes` may be 0, then nothing is allocated. Throws Error (out_of_memory), also beyond the device's
+  // limit.
+  Buffer(const Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, Memory memory);
+  // Moving leaves handles valid; the mapping stays with the memory.
+  Buffer(Buffer &&) = default;
+  Buffer &operator=(Buffer &&) = default;
+
+  vk::Buffer get() const { return *buffer_; }
+  vk::DeviceSize bytes() const { return bytes_; }
+  vk::DeviceAddress address() const { return address_; } // Memory::device only
+  std::span<std::byte> mapped() const {
+    return {mapped_, static_cast<std::size_t>(bytes_)};
+  } // upload and read only
+
+private:
+  vk::DeviceSize bytes_ = 0;
+  vk::raii::DeviceMemory memory_ = nullptr; // before the buffer: destroyed after it
+  vk::raii::Buffer buffer_ = nullptr;
+  vk::DeviceAddress address_ = 0;
+  std::byte *mapped_ = nullptr;
+};
+
+// A device buffer that holds `data`; waits until it is there.
+Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
+
+} // namespace pmdsim::vulkan

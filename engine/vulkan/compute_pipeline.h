@@ -1,0 +1,40 @@
+#pragma once
+// A compute shader, specialised, whose whole interface is its push constants (buffers go by address).
+
+#include "engine/vulkan/device.h"
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim::vulkan {
+
+// Specialization constants: the value of constant_id i stands at index i.
+using Specialization = std::vector<std::uint32_t>;
+
+class ComputePipeline {
+public:
+  ComputePipeline() = default;
+  ComputePipeline(const Device &device, std::span<const std::uint32_t> spirv,
+                  std::uint32_t push_constant_bytes, const Specialization &constants = {});
+
+  // Dispatches `invocations` / `workgroup` workgroups; the former is a multiple of the latter.
+  template <typename Constants>
+  void dispatch(const vk::raii::CommandBuffer &commands, const Constants &constants,
+                std::uint32_t invocations, std::uint32_t workgroup) const {
+    if (sizeof(Constants) != push_constant_bytes_ || invocations % workgroup != 0)
+      throw std::logic_error("a dispatch does not fit its pipeline");
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+    commands.pushConstants<Constants>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, constants);
+    commands.dispatch(invocations / workgroup, 1, 1);
+  }
+
+private:
+  std::uint32_t push_constant_bytes_ = 0;
+  vk::raii::PipelineLayout layout_ = nullptr;
+  vk::raii::Pipeline pipeline_ = nullptr;
+};
+
+} // namespace pmdsim::vulkan

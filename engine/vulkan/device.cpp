@@ -1,0 +1,87 @@
+#include "engine/vulkan/device.h"
+
+#include "engine/vulkan/errors.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace pmdsim::vulkan {
+namespace {
+
+constexpr auto queue_work = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+
+std::optional<std::uint32_t> find_queue_family(const vk::raii::PhysicalDevice &device) {
+  const auto families = device.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i)
+    if ((families[i].queueFlags & queue_work) == queue_work && families[i].timestampValidBits > 0)
+      return i;
+  return std::nullopt;
+}
+
+Limits read_limits(const vk::raii::PhysicalDevice &device) {
+  const auto chain =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+  const vk::PhysicalDeviceLimits &limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
+  return {
+      std::min<vk::DeviceSize>(chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
+                               limits.maxStorageBufferRange),
+      std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D}),
+      std::min(limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]),
+      static_cast<double>(limits.timestampPeriod)};
+}
+
+vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64) {
+  const float priority = 1.0f;
+  const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
+  vk::PhysicalDeviceVulkan13Features vulkan13;
+  vulkan13.setDynamicRendering(true).setSynchronization2(true);
+  vk::PhysicalDeviceVulkan12Features vulkan12;
+  vulkan12.setBufferDeviceAddress(true).setPNext(&vulkan13);
+  vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures().setShaderFloat64(fp64), &vulkan12);
+  return checked([&] {
+    return vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, nullptr, &features));
+  });
+}
+
+} // namespace
+
+std::string what_is_lacking(const vk::raii::PhysicalDevice &device) {
+  if (device.getProperties().apiVersion < VK_API_VERSION_1_3)
+    return "Vulkan 1.3";
+  const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                         vk::PhysicalDeviceVulkan13Features>();
+  if (!chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress)
+    return "bufferDeviceAddress";
+  if (!chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering)
+    return "dynamicRendering";
+  if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
+    return "synchronization2";
+  if (!find_queue_family(device))
+    return "a queue with graphics, compute and timestamps";
+  return "";
+}
+
+Device::Device(const Instance &instance, vk::raii::PhysicalDevice physical)
+    : instance_(&instance), physical_(std::move(physical)), memory_(physical_.getMemoryProperties()),
+      limits_(read_limits(physical_)),
+      is_cpu_(physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu),
+      has_fp64_(physical_.getFeatures().shaderFloat64), queue_family_(find_queue_family(physical_).value()),
+      device_(create(physical_, queue_family_, has_fp64_)), queue_(device_, queue_family_, 0) {}
+
+void Device::require_no_validation_message() const {
+  if (!instance_->messages().empty())
+    throw std::logic_error("Vulkan validation: " + instance_->messages().front());
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags wanted,
+                                  vk::MemoryPropertyFlags needed) const {
+  for (const auto flags : {wanted, needed})
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+      if ((allowed >> i & 1u) && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
+        return i;
+  throw Error(ExitCode::out_of_memory,
+              "the device has no memory of the kind that a buffer or an image needs");
+}
+
+} // namespace pmdsim::vulkan

@@ -1,0 +1,52 @@
+#pragma once
+// One Vulkan device, its one queue (graphics and compute) and what the passes must know of its limits.
+
+#include "engine/vulkan/instance.h"
+
+#include <cstdint>
+#include <string>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim::vulkan {
+
+struct Limits {
+  vk::DeviceSize buffer_bytes = 0;    // of one buffer, at most
+  std::uint32_t raster_samples = 0;   // width and height of an attachment, at most
+  std::uint32_t viewport_samples = 0; // width and height of a viewport, at most
+  double timestamp_ns = 1.0;          // of one tick
+};
+
+// The empty string where the device can run the simulator, else what it lacks.
+std::string what_is_lacking(const vk::raii::PhysicalDevice &device);
+
+class Device {
+public:
+  Device(const Instance &instance, vk::raii::PhysicalDevice physical);
+
+  const vk::raii::PhysicalDevice &physical() const { return physical_; }
+  const vk::raii::Device &get() const { return device_; }
+  const vk::raii::Queue &queue() const { return queue_; }
+  std::uint32_t queue_family() const { return queue_family_; }
+  const Limits &limits() const { return limits_; }
+  bool is_cpu() const { return is_cpu_; }
+  bool has_fp64() const { return has_fp64_; }
+  // Throws std::logic_error with the first of the validation layer's messages, if there is any.
+  void require_no_validation_message() const;
+
+  // The first memory type in `allowed` that has all of `wanted`, or failing that all of `needed`.
+  std::uint32_t memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags wanted,
+                            vk::MemoryPropertyFlags needed) const;
+
+private:
+  const Instance *instance_;
+  vk::raii::PhysicalDevice physical_;
+  vk::PhysicalDeviceMemoryProperties memory_;
+  Limits limits_;
+  bool is_cpu_;
+  bool has_fp64_;
+  std::uint32_t queue_family_;
+  vk::raii::Device device_;
+  vk::raii::Queue queue_;
+};
+
+} // namespace pmdsim::vulkan

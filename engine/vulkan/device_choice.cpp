@@ -1,0 +1,111 @@
+#include "engine/vulkan/device_choice.h"
+
+#include "engine/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+namespace pmdsim::vulkan {
+namespace {
+
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string kind_of(vk::PhysicalDeviceType type) {
+  switch (type) {
+  case vk::PhysicalDeviceType::eDiscreteGpu:
+    return "discrete GPU";
+  case vk::PhysicalDeviceType::eIntegratedGpu:
+    return "integrated GPU";
+  case vk::PhysicalDeviceType::eVirtualGpu:
+    return "virtual GPU";
+  case vk::PhysicalDeviceType::eCpu:
+    return "CPU";
+  default:
+    return "other";
+  }
+}
+
+int preference(const DeviceInfo &device) {
+  const std::array kinds{"discrete GPU", "integrated GPU", "virtual GPU"};
+  return static_cast<int>(std::ranges::find(kinds, device.kind) - kinds.begin());
+}
+
+std::optional<std::uint32_t> as_index(const std::string &text) {
+  std::uint32_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(index) : std::nullopt;
+}
+
+[[noreturn]] void fail(const std::string &why) {
+  throw Error(ExitCode::no_device, "no Vulkan device: " + why);
+}
+
+std::uint32_t require_usable(const DeviceInfo &device) {
+  if (!device.usable)
+    fail(device.name + " lacks " + device.lacks);
+  return device.index;
+}
+
+} // namespace
+
+DeviceInfo describe(std::uint32_t index, const vk::raii::PhysicalDevice &device) {
+  const auto chain =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  const auto &properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto &driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+  const std::string lacks = what_is_lacking(device);
+  return {index,
+          properties.deviceName.data(),
+          kind_of(properties.deviceType),
+          std::string(driver.driverName.data()) + " " + driver.driverInfo.data(),
+          lacks.empty(),
+          lacks};
+}
+
+std::uint32_t choose_device(const std::vector<DeviceInfo> &devices, const std::string &wanted) {
+  if (devices.empty())
+    fail("Vulkan offers none; expected a driver for Vulkan 1.3, e.g. Mesa's lavapipe");
+  if (const auto index = as_index(wanted)) {
+    if (*index >= devices.size())
+      fail("--device " + wanted + " is beyond the last index " + std::to_string(devices.size() - 1));
+    return require_usable(devices[*index]);
+  }
+  const DeviceInfo *best = nullptr;
+  for (const DeviceInfo &device : devices) {
+    if (lower_case(device.name).find(lower_case(wanted)) == std::string::npos)
+      continue;
+    if (best == nullptr ||
+        std::pair(!device.usable, preference(device)) < std::pair(!best->usable, preference(*best)))
+      best = &device;
+  }
+  if (best == nullptr)
+    fail("none has '" + wanted + "' in its name; see `pmdsim devices`");
+  return require_usable(*best);
+}
+
+} // namespace pmdsim::vulkan
+
+namespace pmdsim {
+
+std::vector<DeviceInfo> list_devices() {
+  try {
+    const vulkan::Instance instance(false);
+    std::vector<DeviceInfo> devices;
+    for (const auto &device : instance.devices())
+      devices.push_back(vulkan::describe(static_cast<std::uint32_t>(devices.size()), device));
+    return devices;
+  } catch (const Error &error) {
+    if (error.code() == ExitCode::no_device)
+      return {};
+    throw;
+  }
+}
+
+} // namespace pmdsim

@@ -1,0 +1,29 @@
+#pragma once
+// Vulkan's failures as our errors, so that nothing outside this folder names a Vulkan type.
+
+#include "engine/error.h"
+
+#include <type_traits>
+#include <utility>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim::vulkan {
+
+// Runs `work` and turns what Vulkan throws into an Error: out of memory, device lost, or no usable device.
+// What is none of these is a mistake of ours and stays a std::exception.
+template <typename Work>
+auto checked(Work &&work) -> decltype(work()) {
+  try {
+    return std::forward<Work>(work)();
+  } catch (const vk::OutOfHostMemoryError &error) {
+    throw Error(ExitCode::out_of_memory, std::string("out of host memory: ") + error.what());
+  } catch (const vk::OutOfDeviceMemoryError &error) {
+    throw Error(ExitCode::out_of_memory, std::string("out of device memory: ") + error.what());
+  } catch (const vk::DeviceLostError &error) {
+    throw Error(ExitCode::device_lost, std::string("the device was lost: ") + error.what());
+  } catch (const vk::IncompatibleDriverError &) {
+    throw Error(ExitCode::no_device, "no Vulkan device: no driver answered; expected one with Vulkan 1.3");
+  }
+}
+
+} // namespace pmdsim::vulkan

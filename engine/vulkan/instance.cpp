@@ -1,0 +1,71 @@
+#include "engine/vulkan/instance.h"
+
+#include "engine/vulkan/errors.h"
+
+namespace pmdsim::vulkan {
+namespace {
+
+constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
+
+VkBool32 VKAPI_PTR collect(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                           const VkDebugUtilsMessengerCallbackDataEXT *data, void *messages) {
+  static_cast<ValidationMessages *>(messages)->emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationMessages &messages) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+  return {{},
+          Severity::eWarning | Severity::eError,
+          Type::eValidation | Type::ePerformance | Type::eGeneral,
+          collect,
+          &messages};
+}
+
+vk::raii::Context load() {
+  try {
+    return vk::raii::Context();
+  } catch (const std::exception &error) {
+    throw Error(ExitCode::no_device, std::string("no Vulkan loader (libvulkan.so.1): ") + error.what());
+  }
+}
+
+vk::raii::Instance create(const vk::raii::Context &loader, bool validate, ValidationMessages &messages) {
+  const vk::ApplicationInfo application("pmdsim", 1, nullptr, 0, VK_API_VERSION_1_3);
+  vk::InstanceCreateInfo info({}, &application);
+  const auto synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+  const auto messenger = messenger_info(messages);
+  const vk::ValidationFeaturesEXT features(synchronization, {}, &messenger);
+  const char *extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  if (validate) {
+    info.setPEnabledLayerNames(validation_layer).setPEnabledExtensionNames(extension).setPNext(&features);
+  }
+  return checked([&] {
+    try {
+      return vk::raii::Instance(loader, info);
+    } catch (const vk::LayerNotPresentError &) {
+      throw Error(ExitCode::no_device, std::string(validation_layer) + " is not installed");
+    }
+  });
+}
+
+} // namespace
+
+Instance::Instance(bool validate) : loader_(load()), instance_(create(loader_, validate, messages_)) {
+  if (validate)
+    messenger_.emplace(instance_, messenger_info(messages_));
+}
+
+std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
+  return checked([&]() -> std::vector<vk::raii::PhysicalDevice> {
+    try {
+      vk::raii::PhysicalDevices found(instance_);
+      return {std::make_move_iterator(found.begin()), std::make_move_iterator(found.end())};
+    } catch (const vk::InitializationFailedError &) {
+      return {}; // what the loader says where a driver is listed and none starts
+    }
+  });
+}
+
+} // namespace pmdsim::vulkan

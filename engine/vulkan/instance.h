@@ -1,0 +1,33 @@
+#pragma once
+// The Vulkan loader, the instance and the devices that it offers.
+
+#include <optional>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim::vulkan {
+
+// What the validation layer says, collected until somebody asks.
+using ValidationMessages = std::vector<std::string>;
+
+class Instance {
+public:
+  // With `validate` under VK_LAYER_KHRONOS_validation, synchronization validation included. Throws Error:
+  // no_device where there is no loader, no driver or (with `validate`) no layer.
+  explicit Instance(bool validate);
+  Instance(const Instance &) = delete;
+  Instance &operator=(const Instance &) = delete;
+
+  const vk::raii::Instance &get() const { return instance_; }
+  std::vector<vk::raii::PhysicalDevice> devices() const;
+  const ValidationMessages &messages() const { return messages_; }
+
+private:
+  ValidationMessages messages_;
+  vk::raii::Context loader_;
+  vk::raii::Instance instance_;
+  std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
+};
+
+} // namespace pmdsim::vulkan

@@ -1,0 +1,149 @@
+// What the host and the shaders agree on: structs, workgroup sizes, specialization constants. Read by GLSL
+// and C++ alike. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them out in the
+// same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a uvec2.
+#ifndef PMDSIM_INTERFACE_H
+#define PMDSIM_INTERFACE_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace pmdsim::shader {
+using uint = std::uint32_t;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec4;
+#define PMDSIM_CONSTANT inline constexpr uint
+#else
+#define PMDSIM_CONSTANT const uint
+#endif
+
+PMDSIM_CONSTANT workgroup_size = 64;
+// Diodes are summed in blocks of this size; the blocks' sums are then added (a two-level sum keeps float32
+// exact to a few units in the last place).
+PMDSIM_CONSTANT diodes_per_block = 16;
+PMDSIM_CONSTANT no_triangle = 0xffffffffu;
+
+// Specialization constants of the accumulate pass.
+PMDSIM_CONSTANT constant_moments = 0;     // K, the number of moments
+PMDSIM_CONSTANT constant_backscatter = 1; // one of backscatter_*
+PMDSIM_CONSTANT constant_pattern = 2;     // one of pattern_*
+PMDSIM_CONSTANT constant_order = 3;       // of pattern_power
+PMDSIM_CONSTANT constant_blocks = 4;      // blocks of diodes that one dispatch sums
+
+PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of every surface
+PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
+PMDSIM_CONSTANT backscatter_lambert = 2; // rho / pi * cosine
+PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
+PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
+PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
+
+// A vertex of a triangle as it lies on the chip.
+struct RasterVertex {
+  float x_samples;     // from the raster block's left edge, a multiple of 1/256
+  float y_samples;     // from its top edge, likewise
+  float inverse_depth; // 0.5 * nearest depth of the frame / depth, 0 to 0.5
+  uint triangle;       // id in the scene
+};
+
+// The plane normal . P = offset that a triangle lies in, camera frame; the normal is turned to the lens.
+struct TrianglePlane {
+  vec4 plane_hi;     // normal, offset_m
+  vec4 plane_lo;     // their rests
+  float backscatter; // rho (constant) or rho / pi (lambert), 1/sr
+  uint object;       // id in the scene
+  float depth_min_m; // of the triangle's points, a hair wider than exact
+  float depth_max_m;
+};
+
+// A diode, relative to the reference point of its group, camera frame.
+struct GroupDiode {
+  vec4 position;   // -2 * position_m, |position_m|^2
+  vec4 axis;       // unit axis, axis . position_m
+  float intensity; // over the frame's largest
+  float order;     // of the cosine; below 0: isotropic
+  vec2 padding;
+};
+
+// Where the strip of pixels that is being computed lies in the frame.
+struct Strip {
+  uint column, row;   // of its first pixel
+  uint columns, rows; // pixels
+  uint resolution_x;  // of the whole frame, pixels
+  uint resolution_y;
+  uint samples;       // S
+  uint padded_pixels; // columns * rows, rounded up to whole workgroups
+};
+
+struct VisibilityConstants {
+  Strip strip;
+};
+
+// Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; pixel id is row * resolution_x +
+// column
+// + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) *
+// padded_pixels + p.
+struct PointsConstants {
+  Strip strip;
+  vec4 slope;        // half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  uvec2 tags;        // in: tags
+  uvec2 planes;      // in: TrianglePlane[]
+  uvec2 position_hi; // out: vec4[], point in the camera frame and its distance to the lens (0: nothing hit),
+                     // metres
+  uvec2 position_lo; // out: vec4[], their rests
+  uvec2 surface;     // out: vec4[], normal turned to the lens, distance lens - plane (m)
+  uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
+  uvec2 sum;         // out: vec4[], zero
+};
+
+struct AccumulateConstants {
+  uvec2 position_hi; // in, as the points pass left them
+  uvec2 position_lo;
+  uvec2 surface;
+  uvec2 backscatter;
+  uvec2 sum;         // in and out: vec4[], real, imaginary, and what rounding took from either
+  uvec2 diodes;      // in: GroupDiode[]
+  vec4 reference_hi; // the group's reference point (camera frame, m), and modulation_hz / c
+  vec4 reference_lo; // their rests
+  float wavenumber;  // 2 pi f / c, rad/m
+  uint blocks;       // blocks of diodes to sum, for the looped variant
+};
+
+struct ResolveConstants {
+  uvec2 position_hi;
+  uvec2 position_lo;
+  uvec2 sum;
+  uvec2 tags;
+  uvec2 planes;
+  uvec2 channels;       // out: the channels in this file's order, each padded_pixels values of 32 bits
+  vec4 scale;           // turns per metre of range (2 f / c) hi, lo; amplitude per unit of the mean; unused
+  vec2 phase_limit;     // largest float below 2 pi; unused
+  vec2 ambiguity;       // c / (2 f) hi, lo
+  float distance_limit; // largest float below c / (2 f)
+  uint columns;         // of the strip
+  uint samples;
+  uint padded_pixels;
+  uint pixels; // of the strip
+};
+
+PMDSIM_CONSTANT channel_amplitude = 0;
+PMDSIM_CONSTANT channel_phase_rad = 1;
+PMDSIM_CONSTANT channel_distance_m = 2;
+PMDSIM_CONSTANT channel_range_m = 3;
+PMDSIM_CONSTANT channel_z_m = 4;
+PMDSIM_CONSTANT channel_coverage = 5;
+PMDSIM_CONSTANT channel_triangle_id = 6;
+PMDSIM_CONSTANT channel_object_id = 7;
+PMDSIM_CONSTANT channel_count = 8;
+
+#ifdef __cplusplus
+static_assert(sizeof(RasterVertex) == 16);
+static_assert(sizeof(TrianglePlane) == 48);
+static_assert(sizeof(GroupDiode) == 48);
+static_assert(sizeof(Strip) == 32);
+static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(AccumulateConstants) == 88 && offsetof(AccumulateConstants, reference_hi) == 48);
+} // namespace pmdsim::shader
+#endif
+
+#endif

@@ -1,0 +1,109 @@
+// `Real`: numbers of at least 48 bits, for what is done once a sample. A double where the device has them; with
+// REAL_DOUBLE_FLOAT an unevaluated sum of two floats (Dekker, "A floating-point technique for extending the available
+// precision", 1971). One set of functions, so that the code that uses it is the same for both.
+#ifndef PMDSIM_REAL_GLSL
+#define PMDSIM_REAL_GLSL
+
+#ifdef REAL_DOUBLE_FLOAT
+
+#define Real vec2
+
+// The exact sum and product of two floats. fma() need not be fused, so the product goes by Dekker's split.
+vec2 two_sum(float a, float b) {
+  precise float s = a + b;
+  precise float v = s - a;
+  precise float rest = (a - (s - v)) + (b - v);
+  return vec2(s, rest);
+}
+vec2 quick_two_sum(float a, float b) {
+  precise float s = a + b;
+  precise float rest = b - (s - a);
+  return vec2(s, rest);
+}
+vec2 split(float a) {
+  precise float t = 4097.0 * a;
+  precise float upper = t - (t - a);
+  precise float lower = a - upper;
+  return vec2(upper, lower);
+}
+vec2 two_product(float a, float b) {
+  precise float p = a * b;
+  vec2 x = split(a), y = split(b);
+  precise float rest = ((x.x * y.x - p) + x.x * y.y + x.y * y.x) + x.y * y.y;
+  return vec2(p, rest);
+}
+
+Real real(float hi, float lo) { return vec2(hi, lo); }
+Real real(float a) { return vec2(a, 0.0); }
+float high(Real a) { return a.x; }
+float rest(Real a) { return a.y; }
+Real add(Real a, Real b) {
+  vec2 s = two_sum(a.x, b.x), t = two_sum(a.y, b.y);
+  precise float carry = s.y + t.x;
+  s = quick_two_sum(s.x, carry);
+  precise float last = s.y + t.y;
+  return quick_two_sum(s.x, last);
+}
+Real negate(Real a) { return -a; }
+Real multiply(Real a, Real b) {
+  vec2 p = two_product(a.x, b.x);
+  precise float cross = p.y + (a.x * b.y + a.y * b.x);
+  return quick_two_sum(p.x, cross);
+}
+Real divide(Real a, Real b) {
+  // Two corrections, each of which gains a float's bits, whatever the error of the device's division.
+  float q = a.x / b.x;
+  Real r = add(a, negate(multiply(b, real(q))));
+  float q2 = r.x / b.x;
+  r = add(r, negate(multiply(b, real(q2))));
+  return add(quick_two_sum(q, q2), real(r.x / b.x));
+}
+Real square_root(Real a) {
+  float s = sqrt(a.x);
+  if (s == 0.0)
+    return real(0.0);
+  Real r = add(a, negate(two_product(s, s)));
+  return quick_two_sum(s, high(r) / (2.0 * s));
+}
+Real round_to_whole(Real a) {
+  float hi = roundEven(a.x);
+  return hi == a.x ? quick_two_sum(hi, roundEven(a.y)) : real(hi);
+}
+Real real_clamp(Real a, float low, float up) {
+  if (a.x < low)
+    return real(low);
+  return a.x > up ? real(up) : a;
+}
+
+#else
+
+#define Real double
+
+Real real(float hi, float lo) { return double(hi) + double(lo); }
+Real real(float a) { return double(a); }
+float high(Real a) { return float(a); }
+float rest(Real a) { return float(a - double(float(a))); }
+Real add(Real a, Real b) { return a + b; }
+Real negate(Real a) { return -a; }
+Real multiply(Real a, Real b) { return a * b; }
+Real divide(Real a, Real b) { return a / b; }
+Real square_root(Real a) {
+  // Vulkan leaves the error of a double's sqrt open: one Newton step makes it sure.
+  double s = sqrt(a);
+  return s > 0.0lf ? 0.5lf * (s + a / s) : 0.0lf;
+}
+Real round_to_whole(Real a) { return roundEven(a); }
+Real real_clamp(Real a, float low, float up) { return clamp(a, double(low), double(up)); }
+
+#endif
+
+struct Real3 {
+  Real x, y, z;
+};
+
+Real dot3(Real3 a, Real3 b) { return add(add(multiply(a.x, b.x), multiply(a.y, b.y)), multiply(a.z, b.z)); }
+
+// What is left of `turns` beside whole turns, in [-1/2, 1/2].
+float turn_fraction(Real turns) { return high(add(turns, negate(round_to_whole(turns)))); }
+
+#endif
