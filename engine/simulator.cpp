@@ -11,9 +11,8 @@
 #include "engine/passes/strip_buffers.h"
 #include "engine/passes/strips.h"
 #include "engine/passes/visibility.h"
-#include "engine/vulkan/commands.h"
 #include "engine/vulkan/device_choice.h"
-#include "engine/vulkan/pass_timer.h"
+#include "engine/vulkan/pass_recorder.h"
 
 #include <algorithm>
 #include <chrono>
@@ -74,68 +73,59 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
-        device(instance, std::move(instance.devices()[info.index])), commands(device), timer(device) {}
+        device(instance, std::move(instance.devices()[info.index])), recorder(device) {}
 
-  void measure_strip(const PlannedStrip &planned, const Progress &progress, double done, double share,
-                     Measurement &measurement);
+  void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
   void see(const PlannedStrip &planned);
-  void sum(const PlannedStrip &planned, std::uint32_t first_run, std::uint32_t last_run);
+  void sum(const PlannedStrip &planned, const Progress &progress);
   void resolve(const PlannedStrip &planned);
 
   SimulatorOptions options;
   vulkan::Instance instance;
   DeviceInfo info;
   vulkan::Device device;
-  vulkan::Commands commands;
-  vulkan::PassTimer timer;
+  vulkan::PassRecorder recorder;
   std::optional<Prepared> prepared;
 };
 
 void Simulator::State::see(const PlannedStrip &planned) {
-  const auto &commands_buffer = commands.begin();
-  timer.begin(commands_buffer);
-  prepared->visibility.record(commands_buffer, planned, prepared->buffers);
-  timer.mark(commands_buffer, "visibility");
-  prepared->points.record(commands_buffer, planned.strip, prepared->buffers, prepared->planes);
-  timer.mark(commands_buffer, "points");
-  commands.submit_and_wait();
-  timer.collect();
+  prepared->visibility.record(recorder.commands(), planned, prepared->buffers);
+  recorder.end_pass("visibility");
+  prepared->points.record(recorder.commands(), planned.strip, prepared->buffers, prepared->planes);
+  recorder.end_pass("points");
 }
 
-void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t first_run, std::uint32_t last_run) {
-  const auto &commands_buffer = commands.begin();
-  timer.begin(commands_buffer);
-  prepared->accumulate.record(commands_buffer, planned.strip, prepared->buffers, first_run, last_run);
-  timer.mark(commands_buffer, "accumulate");
-  commands.submit_and_wait();
-  timer.collect();
-}
-
-void Simulator::State::resolve(const PlannedStrip &planned) {
-  const auto &commands_buffer = commands.begin();
-  timer.begin(commands_buffer);
-  prepared->resolve.record(commands_buffer, planned.strip, prepared->buffers, prepared->planes);
-  timer.mark(commands_buffer, "resolve");
-  record_read_back(commands_buffer, planned.strip, prepared->buffers);
-  timer.mark(commands_buffer, "read_back");
-  commands.submit_and_wait();
-  timer.collect();
-}
-
-void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress, double done,
-                                     double share, Measurement &measurement) {
-  see(planned);
+void Simulator::State::sum(const PlannedStrip &planned, const Progress &progress) {
   const std::uint32_t runs = prepared->accumulate.runs();
   const auto per_submission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
       interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
   for (std::uint32_t first = 0; first < runs; first += per_submission) {
     const std::uint32_t last = std::min(runs, first + per_submission);
-    sum(planned, first, last);
-    if (progress)
-      progress(done + share * last / runs);
+    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, first, last);
+    recorder.end_pass("accumulate");
+    if (last < runs) {
+      recorder.finish();
+      progress(static_cast<double>(last) / runs);
+      recorder.begin();
+    }
   }
+}
+
+void Simulator::State::resolve(const PlannedStrip &planned) {
+  prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->planes);
+  recorder.end_pass("resolve");
+  record_read_back(recorder.commands(), planned.strip, prepared->buffers);
+  recorder.end_pass("read_back");
+}
+
+void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement) {
+  recorder.begin();
+  see(planned);
+  sum(planned, progress);
   resolve(planned);
+  recorder.finish();
   store_strip(planned.strip, prepared->buffers, measurement);
+  progress(1.0);
 }
 
 Simulator::Simulator(const SimulatorOptions &options) : state_(std::make_unique<State>(options)) {}
@@ -158,13 +148,17 @@ Measurement Simulator::measure(const Progress &progress) {
   if (!state_->prepared)
     throw std::logic_error("measure() before prepare()");
   const auto start = std::chrono::steady_clock::now();
-  state_->timer.reset();
+  state_->recorder.reset();
   Measurement measurement = make_measurement(state_->prepared->sensor, state_->options.keep_sample_triangles);
   const auto &strips = state_->prepared->strips;
-  const double share = 1.0 / static_cast<double>(strips.size());
-  for (std::size_t i = 0; i < strips.size(); ++i)
-    state_->measure_strip(strips[i], progress, share * static_cast<double>(i), share, measurement);
-  measurement.passes = state_->timer.times();
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const auto of_strip = [&](double fraction) {
+      if (progress)
+        progress((static_cast<double>(i) + fraction) / static_cast<double>(strips.size()));
+    };
+    state_->measure_strip(strips[i], of_strip, measurement);
+  }
+  measurement.passes = state_->recorder.times();
   measurement.frame_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return measurement;

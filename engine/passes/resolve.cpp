@@ -2,6 +2,7 @@
 
 #include "engine/passes/double_pair.h"
 #include "engine/passes/sample_precision.h"
+#include "engine/vulkan/commands.h"
 #include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
 
@@ -27,6 +28,7 @@ ResolvePass::ResolvePass(const vulkan::Device &device, const Sensor &sensor, dou
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                          const StripBuffers &buffers, const vulkan::Buffer &planes) const {
+  vulkan::compute_barrier(commands);
   const DoublePair turns_per_m(1.0 / ambiguity_m_), ambiguity(ambiguity_m_);
   const shader::ResolveConstants constants{words(buffers.position_hi.address()),
                                            words(buffers.position_lo.address()),

@@ -13,6 +13,7 @@ public:
 
   // Opens the command buffer, empty.
   const vk::raii::CommandBuffer &begin();
+  const vk::raii::CommandBuffer &get() const { return buffer_; }
   // Closes it, submits it and returns when the device is done. Throws Error: device_lost, out_of_memory; and
   // std::logic_error where validation had something to say.
   void submit_and_wait();

@@ -35,7 +35,7 @@ vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t 
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features vulkan13;
-  vulkan13.setDynamicRendering(true).setSynchronization2(true);
+  vulkan13.setDynamicRendering(true).setSynchronization2(true).setMaintenance4(true);
   vk::PhysicalDeviceVulkan12Features vulkan12;
   vulkan12.setBufferDeviceAddress(true).setPNext(&vulkan13);
   vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures().setShaderFloat64(fp64), &vulkan12);

@@ -1,0 +1,64 @@
+#include "engine/reference/camera_frame.h"
+
+namespace pmdsim::reference {
+
+namespace {
+
+// The lens is subtracted before anything is rotated: nearby world coordinates cancel exactly, however far
+// away the world's origin is.
+glm::dvec3 point_in_camera(const glm::dvec3 &position_world_m, const Pose &world_from_camera) {
+  return glm::transpose(world_from_camera.rotation) * (position_world_m - world_from_camera.translation_m);
+}
+
+double sample_position_m(std::uint32_t sample, std::uint32_t samples_per_pixel, std::uint32_t pixels,
+                         double pitch_m) {
+  const double pixel = sample / samples_per_pixel;
+  const double k = sample % samples_per_pixel;
+  const double from_pixel_centre = (k + 0.5) / samples_per_pixel - 0.5;
+  return (pixel + 0.5 - 0.5 * pixels + from_pixel_centre) * pitch_m;
+}
+
+} // namespace
+
+std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor &sensor) {
+  std::vector<glm::dvec3> vertices_m;
+  vertices_m.reserve(scene.positions_m.size());
+  for (const glm::dvec3 &position_m : scene.positions_m)
+    vertices_m.push_back(point_in_camera(position_m, sensor.world_from_camera));
+
+  std::vector<CameraTriangle> triangles;
+  triangles.reserve(scene.triangles.size());
+  for (const Triangle &triangle : scene.triangles) {
+    const auto &[a, b, c] = triangle.vertices;
+    const Surface &surface = scene.surfaces[triangle.surface];
+    triangles.push_back(
+        {{vertices_m[a], vertices_m[b], vertices_m[c]}, surface.reflectivity, surface.double_sided});
+  }
+  return triangles;
+}
+
+std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor &sensor) {
+  const Pose &world_from_camera = sensor.world_from_camera;
+  const Pose &world_from_illuminator = illuminator.world_from_illuminator;
+  const glm::dmat3 camera_from_world = glm::transpose(world_from_camera.rotation);
+  const glm::dvec3 lens_to_illuminator_m =
+      world_from_illuminator.translation_m - world_from_camera.translation_m;
+
+  std::vector<Diode> diodes = illuminator.diodes;
+  for (Diode &diode : diodes) {
+    diode.position_m =
+        camera_from_world * (world_from_illuminator.direction(diode.position_m) + lens_to_illuminator_m);
+    diode.axis = camera_from_world * world_from_illuminator.direction(diode.axis);
+  }
+  return diodes;
+}
+
+glm::dvec3 sample_ray(const Sensor &sensor, const glm::uvec2 &sample) {
+  const glm::uvec2 &pixels = sensor.resolution;
+  const glm::dvec2 &pitch_m = sensor.pixel_pitch_m;
+  return glm::normalize(glm::dvec3(sample_position_m(sample.x, sensor.samples, pixels.x, pitch_m.x),
+                                   sample_position_m(sample.y, sensor.samples, pixels.y, pitch_m.y),
+                                   sensor.image_distance_m()));
+}
+
+} // namespace pmdsim::reference

@@ -1,0 +1,49 @@
+#include "engine/reference/path_sum.h"
+
+#include "engine/sensor.h"
+
+#include <numbers>
+
+namespace pmdsim::reference {
+
+namespace {
+
+double backscatter_per_sr(Backscatter backscatter, double reflectivity, double cos_incidence) {
+  if (cos_incidence <= 0)
+    return 0.0;
+  return backscatter == Backscatter::constant ? reflectivity
+                                              : reflectivity * std::numbers::inv_pi * cos_incidence;
+}
+
+double pattern_gain(const Pattern &pattern, double cos_theta) {
+  if (pattern.kind == Pattern::Kind::isotropic)
+    return 1.0;
+  return cos_theta > 0 ? std::pow(cos_theta, pattern.order) : 0.0;
+}
+
+// Whole turns are taken off before 2 pi multiplies, so a long path costs no more than its own rounding.
+double phase_of_path_rad(double path_m, double modulation_hz) {
+  const double turns = path_m * (modulation_hz / speed_of_light_m_s);
+  return 2.0 * std::numbers::pi * (turns - std::floor(turns));
+}
+
+} // namespace
+
+void add_paths(ComplexSum &z, const SurfacePoint &point, const std::vector<Diode> &diodes,
+               Backscatter backscatter, double modulation_hz) {
+  const double lens_range_m = glm::length(point.position_m);
+  for (const Diode &diode : diodes) {
+    const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
+    const double diode_range_m = glm::length(to_diode_m);
+    const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
+    const double cos_theta = -glm::dot(diode.axis, to_diode_m) / diode_range_m;
+    const double returned_w_sr2 = backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
+                                  diode.intensity_w_sr * pattern_gain(diode.pattern, cos_theta);
+    if (returned_w_sr2 == 0)
+      continue;
+    z.add(std::polar(returned_w_sr2 / (diode_range_m * diode_range_m),
+                     phase_of_path_rad(diode_range_m + lens_range_m, modulation_hz)));
+  }
+}
+
+} // namespace pmdsim::reference

@@ -1,0 +1,117 @@
+#include "engine/reference/reference.h"
+
+#include "engine/reference/camera_frame.h"
+#include "engine/reference/channels.h"
+#include "engine/reference/path_sum.h"
+#include "engine/reference/ray_caster.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace pmdsim::reference {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// One frame being computed: everything that the threads read, and the frame that each fills a row at a time.
+class FrameJob {
+public:
+  FrameJob(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter)
+      : scene_(scene), sensor_(sensor), backscatter_(backscatter),
+        triangles_(triangles_in_camera(scene, sensor)), diodes_(diodes_in_camera(illuminator, sensor)),
+        caster_(triangles_), frame_(dark_frame(sensor)) {}
+
+  std::uint32_t rows() const { return sensor_.resolution.y; }
+
+  void compute_row(std::uint32_t row) {
+    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
+      compute_pixel({column, row});
+  }
+
+  Frame take() { return std::move(frame_); }
+
+private:
+  void compute_pixel(const glm::uvec2 &pixel) {
+    PixelSums sums;
+    for (std::uint32_t k_row = 0; k_row < sensor_.samples; ++k_row)
+      for (std::uint32_t k_column = 0; k_column < sensor_.samples; ++k_column)
+        add_sample(sums, pixel * sensor_.samples + glm::uvec2(k_column, k_row));
+    const std::size_t index = std::size_t{pixel.y} * sensor_.resolution.x + pixel.x;
+    set_channels(frame_, index, sums, sensor_.samples * sensor_.samples);
+
+    const std::uint32_t nearest_to_centre = (sensor_.samples - 1) / 2;
+    const std::uint32_t id =
+        frame_.sample_triangle_id[sample_index(pixel * sensor_.samples + nearest_to_centre)];
+    frame_.triangle_id[index] = id;
+    frame_.object_id[index] = id == no_id ? no_id : scene_.triangles[id].object;
+  }
+
+  void add_sample(PixelSums &sums, const glm::uvec2 &sample) {
+    const glm::dvec3 direction = sample_ray(sensor_, sample);
+    const auto hit = caster_.nearest(direction);
+    if (!hit)
+      return;
+    frame_.sample_triangle_id[sample_index(sample)] = hit->triangle;
+    const SurfacePoint point = surface_point(direction, *hit);
+    ++sums.hits;
+    sums.range_m.add(hit->range_m);
+    sums.z_m.add(point.position_m.z);
+    add_paths(sums.z, point, diodes_, backscatter_, sensor_.modulation_hz);
+  }
+
+  SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
+    const CameraTriangle &triangle = triangles_[hit.triangle];
+    const glm::dvec3 front = glm::normalize(triangle.front());
+    return {hit.range_m * direction, glm::dot(front, direction) < 0 ? front : -front, triangle.reflectivity};
+  }
+
+  std::size_t sample_index(const glm::uvec2 &sample) const {
+    return std::size_t{sample.y} * sensor_.samples * sensor_.resolution.x + sample.x;
+  }
+
+  const Scene &scene_;
+  const Sensor &sensor_;
+  Backscatter backscatter_;
+  std::vector<CameraTriangle> triangles_;
+  std::vector<Diode> diodes_;
+  RayCaster caster_;
+  Frame frame_;
+};
+
+// Calls work(row) once for every row, from every core; `progress` from the calling thread between its own
+// rows. Where that throws, the other threads stop after the row that they are at.
+template <class Work>
+void for_each_row(std::uint32_t rows, const Work &work, const std::function<void(double)> &progress) {
+  std::atomic<std::uint32_t> next_row = 0;
+  const auto work_until_done = [&](const std::stop_token &stop) {
+    for (std::uint32_t row = next_row++; row < rows && !stop.stop_requested(); row = next_row++)
+      work(row);
+  };
+  std::vector<std::jthread> helpers;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+    helpers.emplace_back(work_until_done);
+
+  for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
+    work(row);
+    if (progress)
+      progress(static_cast<double>(row + 1) / rows);
+  }
+}
+
+} // namespace
+
+Frame simulate(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+               Backscatter backscatter, const std::function<void(double)> &progress) {
+  const auto start = Clock::now();
+  FrameJob job(scene, sensor, illuminator, backscatter);
+  for_each_row(
+      job.rows(), [&](std::uint32_t row) { job.compute_row(row); }, progress);
+  Frame frame = job.take();
+  frame.frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return frame;
+}
+
+} // namespace pmdsim::reference

@@ -1,0 +1,35 @@
+#pragma once
+// The judge: the same measurement by the CPU in double precision, with its own ray casting and the standard
+// library's trigonometry. Shares no code with the shaders, the passes or their projection.
+
+#include "engine/illuminator.h"
+#include "engine/measurement.h"
+#include "engine/scene.h"
+#include "engine/sensor.h"
+
+#include <complex>
+#include <functional>
+#include <vector>
+
+namespace pmdsim::reference {
+
+// Channels as in Measurement, row-major, before anything is rounded to float. `z` is eq. 5 to 7's mean
+// complex return.
+struct Frame {
+  glm::uvec2 resolution{0, 0};
+  double ambiguity_m = 0.0; // c / (2 f), where distance_m wraps
+  std::vector<std::complex<double>> z;
+  std::vector<double> amplitude, phase_rad, distance_m, range_m, z_m, coverage;
+  std::vector<std::uint32_t> triangle_id, object_id;
+  std::vector<std::uint32_t> sample_triangle_id; // (S*rows) x (S*columns)
+  double frame_ms = 0.0;
+};
+
+// `progress` is called with the fraction done, from one thread only; may throw to stop.
+Frame simulate(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+               Backscatter backscatter, const std::function<void(double)> &progress = {});
+
+// Rounded to the float channels that the simulator gives.
+Measurement to_measurement(const Frame &frame);
+
+} // namespace pmdsim::reference
