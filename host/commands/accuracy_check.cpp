@@ -1,0 +1,74 @@
+#include "host/commands/accuracy_check.h"
+
+#include "engine/reference/reference.h"
+#include "host/commands/camera.h"
+#include "host/commands/progress_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace pmdsim {
+namespace {
+
+constexpr double affordable_interactions = 2e8; // some seconds of the reference
+
+// The same view with fewer pixels, so that the reference stays within what it can afford.
+Sensor coarser(Sensor sensor, std::size_t diode_count) {
+  const double interactions = static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
+                              static_cast<double>(diode_count);
+  if (interactions < affordable_interactions)
+    return sensor;
+  const double factor = std::sqrt(interactions / affordable_interactions);
+  const glm::uvec2 resolution = glm::max(glm::uvec2(glm::dvec2(sensor.resolution) / factor), glm::uvec2(1));
+  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(resolution);
+  sensor.resolution = resolution;
+  return sensor;
+}
+
+// Whether every sample of the pixel hits the same triangle in both.
+bool same_triangles(const Measurement &a, const reference::Frame &b, std::uint32_t column, std::uint32_t row,
+                    std::uint32_t samples) {
+  const std::size_t sample_columns = std::size_t{a.resolution.x} * samples;
+  for (std::size_t y = std::size_t{row} * samples; y < std::size_t{row + 1} * samples; ++y) {
+    const auto first = static_cast<std::ptrdiff_t>(y * sample_columns + std::size_t{column} * samples);
+    const auto begin = a.sample_triangle_id.begin() + first;
+    if (!std::equal(begin, begin + samples, b.sample_triangle_id.begin() + first))
+      return false;
+  }
+  return true;
+}
+
+AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor) {
+  AccuracyCheck check{sensor.resolution, 0, std::numeric_limits<double>::quiet_NaN()};
+  const double darkest = 1e-3 * *std::max_element(truth.amplitude.begin(), truth.amplitude.end());
+  for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
+    for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {
+      const std::size_t pixel = std::size_t{row} * sensor.resolution.x + column;
+      const double difference_m = static_cast<double>(found.distance_m[pixel]) - truth.distance_m[pixel];
+      if (std::isnan(truth.distance_m[pixel]) || !(truth.amplitude[pixel] > darkest) ||
+          !same_triangles(found, truth, column, row, sensor.samples))
+        continue;
+      ++check.pixels;
+      check.distance_max_m =
+          std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, sensor.ambiguity_m())));
+    }
+  return check;
+}
+
+} // namespace
+
+AccuracyCheck check_accuracy(const Setup &setup, const std::string &device) {
+  const Illuminator &illuminator = setup.illuminators.front();
+  const Sensor sensor = coarser(setup.sensors.front(), illuminator.diodes.size());
+  Camera camera(device, Camera::SampleTriangles::keep);
+  camera.prepare(setup.scene, sensor, illuminator, setup.backscatter);
+  const Measurement found = camera.measure("measuring what is checked");
+  ProgressBar bar("checking against the reference");
+  const reference::Frame truth =
+      reference::simulate(setup.scene, sensor, illuminator, setup.backscatter, interruptible_progress(bar));
+  return compare(found, truth, sensor);
+}
+
+} // namespace pmdsim

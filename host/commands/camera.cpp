@@ -1,0 +1,41 @@
+#include "host/commands/camera.h"
+
+#include "engine/reference/reference.h"
+#include "host/commands/interruption.h"
+#include "host/commands/progress_bar.h"
+
+namespace pmdsim {
+
+Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
+  if (device == "reference") {
+    device_ = "reference";
+    driver_ = "pmdsim " PMDSIM_VERSION;
+    return;
+  }
+  SimulatorOptions options;
+  options.device = device;
+  options.keep_sample_triangles = sample_triangles == SampleTriangles::keep;
+  simulator_.emplace(options);
+  device_ = simulator_->device().name;
+  driver_ = simulator_->device().driver;
+}
+
+void Camera::prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+                     Backscatter backscatter) {
+  throw_if_interrupted();
+  prepared_ = {&scene, sensor, illuminator, backscatter};
+  if (simulator_)
+    simulator_->prepare(scene, sensor, illuminator, backscatter);
+}
+
+Measurement Camera::measure(const std::string &label) {
+  ProgressBar bar(label);
+  const auto progress = interruptible_progress(bar);
+  progress(0.0);
+  if (simulator_)
+    return simulator_->measure(progress);
+  return reference::to_measurement(reference::simulate(
+      *prepared_.scene, prepared_.sensor, prepared_.illuminator, prepared_.backscatter, progress));
+}
+
+} // namespace pmdsim

@@ -1,0 +1,46 @@
+#pragma once
+// Whatever computes frames: a Vulkan device or the reference on the CPU, behind one face.
+
+#include "engine/illuminator.h"
+#include "engine/measurement.h"
+#include "engine/scene.h"
+#include "engine/sensor.h"
+#include "engine/simulator.h"
+
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+class Camera {
+public:
+  // Whether Measurement::sample_triangle_id is wanted.
+  enum class SampleTriangles { drop, keep };
+
+  // `device` as SimulatorOptions::device, or "reference". Throws Error (no_device).
+  explicit Camera(const std::string &device, SampleTriangles sample_triangles = SampleTriangles::drop);
+
+  const std::string &device() const { return device_; }
+  const std::string &driver() const { return driver_; }
+  bool is_reference() const { return !simulator_; }
+
+  // What follows measures this. `scene` must outlive it.
+  void prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+               Backscatter backscatter);
+  // One frame; `label` stands beside the progress bar. Throws Error, interrupted among others.
+  Measurement measure(const std::string &label);
+
+private:
+  struct Prepared {
+    const Scene *scene;
+    Sensor sensor;
+    Illuminator illuminator;
+    Backscatter backscatter;
+  };
+
+  std::optional<Simulator> simulator_; // empty: the reference
+  Prepared prepared_{};
+  std::string device_, driver_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,139 @@
+#include "host/commands/commands.h"
+#include "host/commands/loaded_setup.h"
+#include "host/commands/report.h"
+#include "host/output/intrinsics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <numeric>
+
+namespace pmdsim {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct VertexDistances {
+  std::size_t in_view = 0;
+  double min_m = std::numeric_limits<double>::quiet_NaN();
+  double max_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Figures that follow from a setup, lengths in metres.
+struct Findings {
+  std::size_t triangles, diodes;
+  double intensity_w_sr; // of all diodes together, each on its axis
+  double ambiguity_m, image_distance_m;
+  glm::dvec2 field_of_view_deg; // full angles, along the columns and the rows
+  glm::dvec2 footprint_at_1m_m; // of a pixel on a plane across the axis
+  VertexDistances vertices;
+};
+
+bool in_view(const glm::dvec3 &point_camera, const Sensor &sensor) {
+  if (point_camera.z <= 0.0)
+    return false;
+  const auto [fx, fy, cx, cy] = intrinsics_of(sensor);
+  const double u = fx * point_camera.x / point_camera.z + cx;
+  const double v = fy * point_camera.y / point_camera.z + cy;
+  return u >= -0.5 && v >= -0.5 && u <= sensor.resolution.x - 0.5 && v <= sensor.resolution.y - 0.5;
+}
+
+VertexDistances vertex_distances(const Scene &scene, const Sensor &sensor) {
+  VertexDistances distances;
+  const Pose camera_from_world = inverse(sensor.world_from_camera);
+  for (const glm::dvec3 &position_m : scene.positions_m) {
+    const glm::dvec3 point_camera = camera_from_world.point(position_m);
+    if (!in_view(point_camera, sensor))
+      continue;
+    ++distances.in_view;
+    distances.min_m = std::fmin(distances.min_m, glm::length(point_camera));
+    distances.max_m = std::fmax(distances.max_m, glm::length(point_camera));
+  }
+  return distances;
+}
+
+Findings findings_of(const Setup &setup) {
+  const Sensor &sensor = setup.sensors.front();
+  const std::vector<Diode> &diodes = setup.illuminators.front().diodes;
+  const auto add_intensity = [](double sum, const Diode &diode) { return sum + diode.intensity_w_sr; };
+  const double image_distance_m = sensor.image_distance_m();
+  const glm::dvec2 half_chip_m = 0.5 * glm::dvec2(sensor.resolution) * sensor.pixel_pitch_m;
+  return {.triangles = setup.scene.triangles.size(),
+          .diodes = diodes.size(),
+          .intensity_w_sr = std::accumulate(diodes.begin(), diodes.end(), 0.0, add_intensity),
+          .ambiguity_m = sensor.ambiguity_m(),
+          .image_distance_m = image_distance_m,
+          .field_of_view_deg = 2.0 * glm::degrees(glm::atan(half_chip_m / image_distance_m)),
+          .footprint_at_1m_m = sensor.pixel_pitch_m / image_distance_m,
+          .vertices = vertex_distances(setup.scene, sensor)};
+}
+
+// Beyond what loading the setup has warned of already.
+std::vector<std::string> warnings_of(const Findings &findings) {
+  std::vector<std::string> warnings;
+  if (findings.vertices.max_m >= findings.ambiguity_m)
+    warnings.push_back(
+        fmt::format("the scene reaches {:.6g} m, beyond the ambiguity range of {:.6g} m: distances wrap",
+                    findings.vertices.max_m, findings.ambiguity_m));
+  return warnings;
+}
+
+ordered_json report_json(const Setup &setup, const Findings &findings) {
+  std::vector<std::string> warnings = setup.warnings;
+  std::ranges::copy(warnings_of(findings), std::back_inserter(warnings));
+  return {{"triangles", findings.triangles},
+          {"diodes", findings.diodes},
+          {"intensity_w_sr", findings.intensity_w_sr},
+          {"ambiguity_m", findings.ambiguity_m},
+          {"image_distance_m", findings.image_distance_m},
+          {"field_of_view_deg", {findings.field_of_view_deg.x, findings.field_of_view_deg.y}},
+          {"pixel_footprint_at_1m_m", {findings.footprint_at_1m_m.x, findings.footprint_at_1m_m.y}},
+          {"vertices_in_view", findings.vertices.in_view},
+          {"vertex_distance_m", {findings.vertices.min_m, findings.vertices.max_m}},
+          {"warnings", warnings}};
+}
+
+std::string vertices_text(const VertexDistances &vertices) {
+  if (vertices.in_view == 0)
+    return "none in view";
+  return fmt::format("{} in view, {:.6g} m to {:.6g} m from the lens", vertices.in_view, vertices.min_m,
+                     vertices.max_m);
+}
+
+std::string report_text(const Setup &setup, const Findings &findings) {
+  const Sensor &sensor = setup.sensors.front();
+  std::string text = fmt::format("{} is valid\n\n", setup.file.string());
+  const auto add = [&](const char *name, const std::string &value) {
+    text += fmt::format("{:<25}{}\n", name, value);
+  };
+  add("triangles", fmt::format("{}", findings.triangles));
+  add("vertices", vertices_text(findings.vertices));
+  add("diodes", fmt::format("{}, {:.6g} W/sr together", findings.diodes, findings.intensity_w_sr));
+  add("resolution", fmt::format("{} x {}, {} x {} samples a pixel", sensor.resolution.x, sensor.resolution.y,
+                                sensor.samples, sensor.samples));
+  add("field of view",
+      fmt::format("{:.3f}° x {:.3f}°", findings.field_of_view_deg.x, findings.field_of_view_deg.y));
+  add("pixel footprint at 1 m", fmt::format("{:.4g} mm x {:.4g} mm", 1e3 * findings.footprint_at_1m_m.x,
+                                            1e3 * findings.footprint_at_1m_m.y));
+  add("image distance", fmt::format("{:.6g} mm", 1e3 * findings.image_distance_m));
+  add("modulation", fmt::format("{:.6g} MHz", 1e-6 * sensor.modulation_hz));
+  add("ambiguity range", fmt::format("{:.6g} m", findings.ambiguity_m));
+  return text;
+}
+
+} // namespace
+
+void run_check(const Options &options) {
+  const Setup setup = load_for_command(options);
+  const Findings findings = findings_of(setup);
+  for (const std::string &warning : warnings_of(findings))
+    fmt::print(stderr, "pmdsim: warning: {}\n", warning);
+  if (options.json)
+    print(report_json(setup, findings));
+  else
+    print(report_text(setup, findings));
+}
+
+} // namespace pmdsim

@@ -1,0 +1,16 @@
+#pragma once
+// The commands of the program, one file each. All throw Error.
+
+#include "host/options.h"
+
+namespace pmdsim {
+
+void run_command(const Options &options);
+
+void run_render(const Options &options);
+void run_deform(const Options &options);
+void run_check(const Options &options);
+void run_bench(const Options &options);
+void run_devices(const Options &options);
+
+} // namespace pmdsim

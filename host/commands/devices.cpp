@@ -1,0 +1,44 @@
+#include "engine/simulator.h"
+#include "host/commands/commands.h"
+#include "host/commands/report.h"
+
+#include <fmt/format.h>
+
+namespace pmdsim {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json report_json(const std::vector<DeviceInfo> &devices) {
+  ordered_json list = ordered_json::array();
+  for (const DeviceInfo &device : devices)
+    list.push_back({{"index", device.index},
+                    {"name", device.name},
+                    {"kind", device.kind},
+                    {"driver", device.driver},
+                    {"usable", device.usable},
+                    {"lacks", device.lacks}});
+  return {{"devices", list}, {"reference", true}};
+}
+
+std::string report_text(const std::vector<DeviceInfo> &devices) {
+  std::string text;
+  if (devices.empty())
+    text += "Vulkan offers no device; only the reference can measure.\n";
+  for (const DeviceInfo &device : devices)
+    text += fmt::format("{:<10} {} ({}, {}){}\n", device.index, device.name, device.kind, device.driver,
+                        device.usable ? "" : ": not usable, lacks " + device.lacks);
+  return text + "reference  the CPU in double precision, slow: what accuracy is judged by\n";
+}
+
+} // namespace
+
+void run_devices(const Options &options) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  if (options.json)
+    print(report_json(devices));
+  else
+    print(report_text(devices));
+}
+
+} // namespace pmdsim

@@ -1,0 +1,68 @@
+#include "host/commands/frame_writer.h"
+
+#include "engine/error.h"
+#include "host/commands/interruption.h"
+#include "host/output/exr_writer.h"
+#include "host/output/npy_writer.h"
+#include "host/output/preview.h"
+#include "host/output/profile.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace pmdsim {
+namespace {
+
+using Scale = PreviewStyle::Scale;
+
+PreviewStyle preview_style(const Channel &channel) {
+  static const std::map<std::string, std::pair<std::string, Scale>> known{
+      {"amplitude", {"amplitude", Scale::sequential}},
+      {"phase_rad", {"phase", Scale::turn}},
+      {"distance_m", {"distance", Scale::sequential}},
+      {"deformation_mm", {"deformation", Scale::zero_centred}}};
+  const auto &[quantity, scale] = known.at(channel.name);
+  const ColourMap &colours = scale == Scale::turn         ? twilight
+                             : scale == Scale::sequential ? viridis
+                                                          : blue_white_red;
+  return {quantity, channel.unit, colours, scale};
+}
+
+void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
+  const PreviewStyle style = preview_style(channel);
+  const std::string title = fmt::format("{}, {}, frame {}", style.quantity, frame.sensor.name, frame.frame);
+  draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
+      .write_png(file);
+}
+
+} // namespace
+
+std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
+  if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
+    throw Error(ExitCode::input,
+                fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
+  return fmt::format("{}_{:04}", sensor.name, frame);
+}
+
+void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats) {
+  const std::string stem = frame_file_stem(frame.sensor, frame.frame);
+  const auto add = [&](const std::string &name, const auto &write) {
+    throw_if_interrupted();
+    outputs.add(name, write);
+  };
+  if (formats.contains(Format::exr))
+    add(stem + ".exr", [&](OutputFile &file) { write_exr(file, frame.channels); });
+  if (formats.contains(Format::csv))
+    add(stem + ".profile.csv",
+        [&](OutputFile &file) { write_profile_csv(file, frame.channels, frame.sensor); });
+  for (const Channel &channel : frame.channels.channels) {
+    const std::string name = fmt::format("{}.{}", stem, channel.name);
+    if (formats.contains(Format::npy))
+      add(name + ".npy", [&](OutputFile &file) { write_npy(file, channel, frame.channels.resolution); });
+    if (formats.contains(Format::png) && std::ranges::count(frame.previewed, channel.name) != 0)
+      add(name + ".png", [&](OutputFile &file) { write_preview(file, frame, channel); });
+  }
+}
+
+} // namespace pmdsim

@@ -1,0 +1,55 @@
+#include "host/commands/progress_bar.h"
+
+#include "host/commands/interruption.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+constexpr auto least_interval = std::chrono::milliseconds(100);
+constexpr const char *clear_line = "\r\x1b[K";
+
+} // namespace
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_)
+    std::fputs(clear_line, stderr);
+}
+
+void ProgressBar::update(double fraction) {
+  const auto now = Clock::now();
+  if (!on_terminal_ || (shown_ && now - last_shown_ < least_interval))
+    return;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  std::fputs(fmt::format("{}{} {}", clear_line, label_, progress_text(fraction, elapsed_s)).c_str(), stderr);
+  std::fflush(stderr);
+  last_shown_ = now;
+  shown_ = true;
+}
+
+std::function<void(double)> interruptible_progress(ProgressBar &bar) {
+  return [&bar](double fraction) {
+    throw_if_interrupted();
+    bar.update(fraction);
+  };
+}
+
+std::string progress_text(double fraction, double elapsed_s) {
+  constexpr std::size_t width = 30;
+  const double done = std::clamp(fraction, 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(done * width);
+  std::string text = fmt::format("[{:#<{}}{:-<{}}] {:3.0f} %", "", filled, "", width - filled, 100.0 * done);
+  if (done > 0.0)
+    text += fmt::format(", {:.0f} s left", std::ceil(elapsed_s * (1.0 - done) / done));
+  return text;
+}
+
+} // namespace pmdsim

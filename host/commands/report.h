@@ -1,0 +1,24 @@
+#pragma once
+// What commands print on stdout.
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+namespace pmdsim {
+
+// Text as it is, at once. Throws Error (output) where stdout cannot take it.
+void print(const std::string &text);
+void print(const nlohmann::ordered_json &json);
+
+// A number for a table, six significant digits; "-" for NaN.
+std::string table_number(double value);
+
+// Over the values that are finite; NaN where there is none.
+struct Spread {
+  double min, median, max;
+};
+Spread spread_of(std::span<const float> values);
+Spread spread_of(std::span<const double> values);
+
+} // namespace pmdsim

@@ -1,0 +1,109 @@
+#include "host/input/gltf_accessor.h"
+
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <limits>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+namespace {
+
+static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4);
+
+// `count` elements of a known size, `stride_bytes` apart, all of them inside their buffer.
+struct Elements {
+  const unsigned char *first;
+  std::size_t stride_bytes;
+  std::size_t count;
+};
+
+// byteLength and byteOffset are below 2^53, count below 2^32 and the stride below 2^8: nothing overflows.
+Elements checked_elements(const tinygltf::Model &model, const tinygltf::Accessor &accessor,
+                          const Place &place) {
+  const auto view_index = static_cast<std::size_t>(accessor.bufferView);
+  const tinygltf::BufferView &view = model.bufferViews[view_index];
+  const auto &buffer = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (view.byteOffset + view.byteLength > buffer.size())
+    throw input_error(
+        Place{place.file} / "bufferViews" / view_index,
+        fmt::format("ends at byte {}, its buffer has {}", view.byteOffset + view.byteLength, buffer.size()));
+  const auto components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  const auto component_bytes =
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+  const auto element_bytes = static_cast<std::size_t>(components) * static_cast<std::size_t>(component_bytes);
+  const std::size_t stride_bytes = view.byteStride == 0 ? element_bytes : view.byteStride;
+  if (stride_bytes < element_bytes)
+    throw input_error(place, fmt::format("elements of {} bytes lie {} apart", element_bytes, stride_bytes));
+  const std::size_t end = accessor.byteOffset + stride_bytes * (accessor.count - 1) + element_bytes;
+  if (end > view.byteLength)
+    throw input_error(place, fmt::format("{} elements end at byte {}, the bufferView has {}", accessor.count,
+                                         end, view.byteLength));
+  return {buffer.data() + view.byteOffset + accessor.byteOffset, stride_bytes, accessor.count};
+}
+
+template <class T>
+T element(const Elements &elements, std::size_t index) {
+  T value;
+  std::memcpy(&value, elements.first + index * elements.stride_bytes, sizeof value);
+  return value;
+}
+
+template <class T>
+std::vector<std::uint32_t> checked_indices(const Elements &elements, std::size_t vertex_count,
+                                           const Place &place) {
+  std::vector<std::uint32_t> indices(elements.count);
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    const T index = element<T>(elements, i);
+    if (index == std::numeric_limits<T>::max())
+      throw input_error(place, fmt::format("element {} is {}, the primitive restart value", i, index));
+    if (index >= vertex_count)
+      throw input_error(
+          place, fmt::format("element {} is vertex {}, expected one below {}", i, index, vertex_count));
+    indices[i] = index;
+  }
+  return indices;
+}
+
+} // namespace
+
+std::vector<glm::vec3> read_positions(const tinygltf::Model &model, std::size_t index, const Place &root) {
+  const Place place = root / "accessors" / index;
+  const tinygltf::Accessor &accessor = model.accessors[index];
+  if (accessor.type != TINYGLTF_TYPE_VEC3)
+    throw input_error(place / "type", "expected \"VEC3\" for POSITION");
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    throw input_error(place / "componentType",
+                      "quantized positions are not supported yet (expected 5126, float)");
+  const Elements elements = checked_elements(model, accessor, place);
+  std::vector<glm::vec3> positions(elements.count);
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    positions[i] = element<glm::vec3>(elements, i);
+    const glm::vec3 &p = positions[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw input_error(place, fmt::format("element {} is no finite position", i));
+  }
+  return positions;
+}
+
+std::vector<std::uint32_t> read_indices(const tinygltf::Model &model, std::size_t index,
+                                        std::size_t vertex_count, const Place &root) {
+  const Place place = root / "accessors" / index;
+  const tinygltf::Accessor &accessor = model.accessors[index];
+  if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.normalized)
+    throw input_error(place / "type", "expected \"SCALAR\", not normalized, for indices");
+  const Elements elements = checked_elements(model, accessor, place);
+  switch (accessor.componentType) {
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    return checked_indices<std::uint8_t>(elements, vertex_count, place);
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    return checked_indices<std::uint16_t>(elements, vertex_count, place);
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    return checked_indices<std::uint32_t>(elements, vertex_count, place);
+  default:
+    throw input_error(place / "componentType", "expected 5121, 5123 or 5125 for indices");
+  }
+}
+
+} // namespace pmdsim

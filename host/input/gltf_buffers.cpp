@@ -1,0 +1,95 @@
+#include "host/input/gltf_buffers.h"
+
+#include "host/input/regular_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+// RFC 3986 percent-decoding; nothing where a % is not followed by two hexadecimal digits or hides a NUL.
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded.push_back(text[i]);
+      continue;
+    }
+    const std::string_view digits = text.substr(i + 1, 2);
+    unsigned code = 0;
+    const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16).ptr;
+    if (digits.size() != 2 || end != digits.data() + 2 || code == 0)
+      return std::nullopt;
+    decoded.push_back(static_cast<char>(code));
+    i += 2;
+  }
+  return decoded;
+}
+
+bool lies_inside(const fs::path &folder, const fs::path &file) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+fs::path file_in_folder(const std::string &uri, const fs::path &folder, const Place &place) {
+  const std::optional<std::string> name = percent_decoded(uri);
+  if (!name)
+    throw input_error(place, "expected a percent-encoded relative path, found " + in_quotes(uri));
+  std::error_code unresolved;
+  const fs::path inside = fs::weakly_canonical(folder, unresolved);
+  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
+  if (unresolved)
+    throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
+  if (fs::path(*name).is_absolute() || !lies_inside(inside, file))
+    throw input_error(place, fmt::format("{} lies outside the scene's folder", in_quotes(uri)));
+  return file;
+}
+
+Bytes decoded_data_uri(const std::string &uri, std::size_t length_bytes, const Place &place) {
+  Bytes bytes;
+  std::string media_type;
+  if (!tinygltf::IsDataURI(uri) || !tinygltf::DecodeDataURI(&bytes, media_type, uri, length_bytes, true))
+    throw input_error(place, fmt::format("expected a base64 data URI of {} bytes", length_bytes));
+  return bytes;
+}
+
+// The first `length_bytes` of what was found.
+Bytes front(std::string_view found, std::size_t length_bytes, const Place &buffer) {
+  if (found.size() < length_bytes)
+    throw input_error(buffer, fmt::format("expected {} bytes, found {}", length_bytes, found.size()));
+  return {found.begin(), found.begin() + static_cast<std::ptrdiff_t>(length_bytes)};
+}
+
+} // namespace
+
+std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::path &file) {
+  const json buffers = document.json.value("buffers", json::array());
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::vector<Bytes> result;
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const Place place = Place{file} / "buffers" / i;
+    const auto length_bytes = buffers[i].at("byteLength").get<std::size_t>();
+    const auto uri = buffers[i].value("uri", std::string{});
+    if (uri.empty() && (i > 0 || document.binary_chunk.empty()))
+      throw input_error(place, "missing key \"uri\"");
+    if (uri.empty())
+      result.push_back(front(document.binary_chunk, length_bytes, place));
+    else if (uri.starts_with("data:"))
+      result.push_back(decoded_data_uri(uri, length_bytes, place / "uri"));
+    else
+      result.push_back(front(
+          read_regular_file(file_in_folder(uri, folder, place / "uri"), max_gltf_file_bytes, place / "uri"),
+          length_bytes, place));
+  }
+  return result;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,17 @@
+#pragma once
+// The bytes of a glTF document's buffers: from the .glb itself, from data URIs, or from files in the scene's
+// folder.
+
+#include "host/input/gltf_document.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+using Bytes = std::vector<unsigned char>;
+
+// In the document's order, each of the byteLength that it states. Throws Error (input): also for a URI that
+// leads out of the scene's folder, by "..", an absolute path or a link.
+std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const std::filesystem::path &file);
+
+} // namespace pmdsim

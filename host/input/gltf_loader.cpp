@@ -1,0 +1,103 @@
+#include "host/input/gltf_loader.h"
+
+#include "host/input/gltf_buffers.h"
+#include "host/input/gltf_document.h"
+#include "host/input/gltf_material.h"
+#include "host/input/gltf_mesh.h"
+
+#include <fmt/format.h>
+#include <map>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+// tinygltf opens whatever a file names and decodes every image, so it is given only the parts that name no
+// file.
+std::string without_files(const json &document) {
+  json kept = json::object();
+  for (const char *key :
+       {"asset", "scene", "scenes", "nodes", "meshes", "materials", "accessors", "bufferViews"})
+    if (document.contains(key))
+      kept[key] = document.at(key);
+  return kept.dump();
+}
+
+tinygltf::Model read_model(const std::filesystem::path &file, const Place &named_at) {
+  const GltfDocument document = read_gltf_document(file, named_at);
+  const std::string text = without_files(document.json);
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
+  tinygltf::Model model;
+  std::string error, warning;
+  if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                  ""))
+    throw input_error(Place{file}, "no valid glTF 2.0: " + error);
+  for (Bytes &bytes : read_gltf_buffers(document, file))
+    model.buffers.emplace_back().data = std::move(bytes);
+  return model;
+}
+
+// The scene's surfaces, made as they are used: index -1 is glTF's default material, white and single-sided.
+class Surfaces {
+public:
+  Surfaces(const tinygltf::Model &model, const Place &root, Scene &scene)
+      : model_(model), root_(root), scene_(scene) {}
+
+  std::uint32_t operator[](int material) {
+    const auto [known, is_new] =
+        ids_.try_emplace(material, static_cast<std::uint32_t>(scene_.surfaces.size()));
+    if (is_new)
+      scene_.surfaces.push_back(made(material));
+    return known->second;
+  }
+
+private:
+  Surface made(int material) const {
+    if (material < 0)
+      return {};
+    const auto index = static_cast<std::size_t>(material);
+    return surface_of(model_.materials[index], root_ / "materials" / index);
+  }
+
+  const tinygltf::Model &model_;
+  const Place &root_;
+  Scene &scene_;
+  std::map<int, std::uint32_t> ids_;
+};
+
+void append_object(const tinygltf::Model &model, const SceneNode &scene_node, const Place &root,
+                   Surfaces &surfaces, Scene &scene) {
+  const tinygltf::Node &node = model.nodes[scene_node.index];
+  if (node.skin >= 0)
+    throw input_error(root / "nodes" / scene_node.index / "skin", "skins are not supported yet");
+  const auto object = static_cast<std::uint32_t>(scene.objects.size());
+  scene.objects.push_back(node.name.empty() ? fmt::format("node {}", scene_node.index) : node.name);
+  const auto mesh = static_cast<std::size_t>(node.mesh);
+  const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    append_primitive(model, primitives[i], scene_node.world_from_node, surfaces[primitives[i].material],
+                     object, root / "meshes" / mesh / "primitives" / i, scene);
+}
+
+} // namespace
+
+GltfScene load_gltf(const std::filesystem::path &file, const Place &named_at) {
+  const tinygltf::Model model = read_model(file, named_at);
+  const Place root{file};
+  GltfScene result{file, {}, {}};
+  Surfaces surfaces(model, root, result.scene);
+  for (const SceneNode &scene_node : active_nodes(model, root)) {
+    const tinygltf::Node &node = model.nodes[scene_node.index];
+    if (!node.name.empty())
+      result.nodes.push_back({node.name, scene_node.world_from_node});
+    if (node.mesh >= 0)
+      append_object(model, scene_node, root, surfaces, result.scene);
+  }
+  return result;
+}
+
+} // namespace pmdsim

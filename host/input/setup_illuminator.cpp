@@ -1,0 +1,87 @@
+#include "host/input/setup_illuminator.h"
+
+#include "host/input/diode_file.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace pmdsim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+Pattern pattern_of(const ordered_json &pattern) {
+  if (pattern.contains("isotropic"))
+    return {};
+  return {Pattern::Kind::cosine, pattern.at("order").get<double>()};
+}
+
+// `degrees` modulo 360, in [0, 360).
+double full_turn(double degrees) {
+  const double rest = std::fmod(degrees, 360.0);
+  return rest < 0.0 ? rest + 360.0 : rest;
+}
+
+// From the first angle on to the second, both inclusive; a whole turn or more is everything.
+bool is_active(double angle_deg, const ordered_json &active_deg) {
+  constexpr double rounding_deg = 1e-9;
+  const double from_deg = active_deg.at(0).get<double>();
+  const double to_deg = active_deg.at(1).get<double>();
+  if (std::abs(to_deg - from_deg) >= 360.0)
+    return true;
+  const double beyond_deg = full_turn(angle_deg - from_deg);
+  return beyond_deg <= full_turn(to_deg - from_deg) + rounding_deg || beyond_deg >= 360.0 - rounding_deg;
+}
+
+void append_ring(const ordered_json &ring, const Diode &diode, std::vector<Diode> &diodes) {
+  const auto count = ring.at("count").get<std::uint32_t>();
+  const auto radius_m = ring.at("radius_m").get<double>();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double turns = (k + 0.5) / count;
+    if (!is_active(360.0 * turns, ring.at("active_deg")))
+      continue;
+    const double angle_rad = 2.0 * std::numbers::pi * turns;
+    diodes.push_back(diode);
+    diodes.back().position_m = {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 0.0};
+  }
+}
+
+std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, const Place &place) {
+  std::vector<Diode> diodes;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    append_ring(rings[i], diode, diodes);
+    if (diodes.size() > max_diodes)
+      throw input_error(place / i, fmt::format("expected at most {} diodes in all rings", max_diodes));
+  }
+  if (diodes.empty())
+    throw input_error(place, "expected at least one diode, active_deg switches all off");
+  return diodes;
+}
+
+std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place) {
+  std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place);
+  for (std::size_t i = 0; i < diodes.size(); ++i) {
+    diodes[i].intensity_w_sr *= intensity;
+    if (!std::isfinite(diodes[i].intensity_w_sr))
+      throw input_error(place, fmt::format("diode {}: its intensity times intensity_w_sr is not finite", i));
+  }
+  return diodes;
+}
+
+} // namespace
+
+std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place) {
+  const ordered_json &diodes = illuminator.at("diodes");
+  const auto intensity_w_sr = illuminator.at("intensity_w_sr").get<double>();
+  if (diodes.contains("file"))
+    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file");
+  Diode diode;
+  diode.intensity_w_sr = intensity_w_sr;
+  diode.pattern = pattern_of(illuminator.at("pattern"));
+  return diodes.contains("rings") ? ring_diodes(diodes.at("rings"), diode, place / "diodes" / "rings")
+                                  : std::vector<Diode>{diode};
+}
+
+} // namespace pmdsim

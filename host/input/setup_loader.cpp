@@ -1,0 +1,117 @@
+#include "host/input/setup.h"
+
+#include "host/input/gltf_loader.h"
+#include "host/input/json_file.h"
+#include "host/input/regular_file.h"
+#include "host/input/schema_check.h"
+#include "host/input/schema_defaults.h"
+#include "host/input/schemas.h"
+#include "host/input/setup_illuminator.h"
+#include "host/input/setup_pose.h"
+#include "host/input/setup_support.h"
+
+#include <fmt/format.h>
+
+namespace pmdsim {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
+
+bool has_diode_file(const json &illuminator) { return illuminator.at("diodes").contains("file"); }
+
+void refuse_second_pattern(const json &document, const Place &root) {
+  const json &illuminators = document.at("illuminators");
+  for (std::size_t i = 0; i < illuminators.size(); ++i)
+    if (has_diode_file(illuminators[i]) && illuminators[i].contains("pattern"))
+      throw input_error(root / "illuminators" / i / "pattern",
+                        "expected none beside a diode file, which has its own");
+}
+
+// Defaults that depend on more than the key itself are not the schema's to state.
+ordered_json with_all_defaults(json document, const ordered_json &schema) {
+  for (json &illuminator : document.at("illuminators"))
+    if (!illuminator.contains("pose"))
+      illuminator["pose"] = {{"sensor", document.at("sensors").at(0).at("name")}};
+  ordered_json setup = with_defaults(document, schema);
+  for (ordered_json &illuminator : setup.at("illuminators"))
+    if (illuminator.at("diodes").contains("file"))
+      illuminator.erase("pattern");
+  return setup;
+}
+
+ordered_json read_setup(const Place &root) {
+  static const json schema = json::parse(setup_schema_text);
+  static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
+  const std::string text = read_regular_file(root.file, max_setup_bytes, root);
+  const json document = parse_json(text, root.file, Comments::allowed);
+  check_schema(document, schema, root.file);
+  refuse_second_pattern(document, root);
+  ordered_json setup = with_all_defaults(document, ordered_schema);
+  refuse_unsupported(setup, root);
+  return setup;
+}
+
+double focus_distance_m(const ordered_json &sensor, const Place &place) {
+  const ordered_json &focus = sensor.at("focus_distance_m");
+  if (focus.is_null())
+    return std::numeric_limits<double>::infinity();
+  const auto distance_m = focus.get<double>();
+  if (distance_m <= sensor.at("focal_length_m").get<double>())
+    throw input_error(place / "focus_distance_m", fmt::format("expected more than the focal length of {} m",
+                                                              sensor.at("focal_length_m").dump()));
+  return distance_m;
+}
+
+Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene &scene) {
+  Sensor result;
+  result.name = sensor.at("name");
+  result.resolution = {sensor.at("resolution").at(0).get<std::uint32_t>(),
+                       sensor.at("resolution").at(1).get<std::uint32_t>()};
+  result.pixel_pitch_m = {sensor.at("pixel_pitch_m").at(0).get<double>(),
+                          sensor.at("pixel_pitch_m").at(1).get<double>()};
+  result.focal_length_m = sensor.at("focal_length_m");
+  result.focus_distance_m = focus_distance_m(sensor, place);
+  result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", scene, {});
+  result.modulation_hz = sensor.at("modulation_hz").at(0);
+  result.samples = sensor.at("samples");
+  return result;
+}
+
+Illuminator illuminator_of(const ordered_json &illuminator, const Place &place, const GltfScene &scene,
+                           const std::vector<Sensor> &sensors) {
+  return {illuminator.at("name"), world_from_frame(illuminator.at("pose"), place / "pose", scene, sensors),
+          diodes_of(illuminator, place)};
+}
+
+} // namespace
+
+Setup load_setup(const std::filesystem::path &file) {
+  const Place root{file};
+  Setup setup;
+  setup.file = file;
+  setup.as_used = read_setup(root);
+  setup.backscatter =
+      setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
+
+  const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
+  GltfScene scene = load_gltf(scene_file, root / "scene");
+  const ordered_json &sensors = setup.as_used.at("sensors");
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    setup.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
+  const ordered_json &illuminators = setup.as_used.at("illuminators");
+  for (std::size_t i = 0; i < illuminators.size(); ++i)
+    setup.illuminators.push_back(
+        illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.sensors));
+
+  if (scene.scene.triangles.empty())
+    setup.warnings.push_back(
+        fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));
+  setup.scene = std::move(scene.scene);
+  return setup;
+}
+
+} // namespace pmdsim

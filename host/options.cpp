@@ -1,0 +1,172 @@
+#include "host/options.h"
+
+#include "engine/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <map>
+#include <vector>
+
+namespace pmdsim {
+namespace {
+
+const std::map<std::string, Command> command_names{{"render", Command::render},
+                                                   {"deform", Command::deform},
+                                                   {"check", Command::check},
+                                                   {"bench", Command::bench},
+                                                   {"devices", Command::devices}};
+const std::map<std::string, Format> format_names{
+    {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
+
+// The command line before it is checked; what comes later is kept to be refused.
+struct Written {
+  std::string setup, output_directory, device;
+  std::string frames = "0:1", mode = "exact", precision = "fp32", max_error, max_amplitude_error;
+  std::uint32_t samples = 0; // 0: as in the setup
+  std::vector<std::string> formats;
+  bool no_wide_vectors = false, json = false;
+};
+
+void add_setup(CLI::App &command, Written &written) {
+  command.add_option("SETUP", written.setup, "setup file (JSON)")->required();
+}
+
+void add_json(CLI::App &command, Written &written) {
+  command.add_flag("--json", written.json, "print one JSON object on stdout and nothing else there");
+}
+
+void add_measuring(CLI::App &command, Written &written) {
+  command
+      .add_option("--samples", written.samples, "S: S x S samples a pixel, 1 to 16, instead of the setup's")
+      ->check(CLI::Range(1, 16));
+  command.add_option("--device", written.device,
+                     "part of a device's name, its index (see `pmdsim devices`), or `reference`");
+  command.add_option("--mode", written.mode, "exact; reduced and auto are not supported yet")
+      ->check(CLI::IsMember({"exact", "reduced", "auto"}));
+  command.add_option("--max-error", written.max_error,
+                     "largest distance error, e.g. 0.1mm; not supported yet");
+  command.add_option("--max-amplitude-error", written.max_amplitude_error,
+                     "largest relative amplitude error; not supported yet");
+  command.add_option("--precision", written.precision, "fp32; fp64 is not supported yet")
+      ->check(CLI::IsMember({"fp32", "fp64"}));
+  command.add_flag("--no-wide-vectors", written.no_wide_vectors, "not supported yet");
+}
+
+void add_writing(CLI::App &command, Written &written, const std::string &default_formats) {
+  command.add_option(
+      "-o,--output", written.output_directory,
+      fmt::format("output directory [out/SETUP/{}, SETUP without its ending]", command.get_name()));
+  command
+      .add_option("--format", written.formats,
+                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]", default_formats))
+      ->delimiter(',')
+      ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
+  command.add_option("--frames", written.frames, "A:B, frames A to B - 1; only 0:1 is supported yet");
+}
+
+void add_commands(CLI::App &app, Written &written) {
+  CLI::App *render =
+      app.add_subcommand("render", "measure a frame: amplitude, phase, distance and ground truth");
+  add_setup(*render, written);
+  add_writing(*render, written, "exr,png");
+  add_measuring(*render, written);
+
+  CLI::App *deform =
+      app.add_subcommand("deform", "bistatic minus monostatic distance: map, profile, statistics");
+  add_setup(*deform, written);
+  add_writing(*deform, written, "exr,png,csv");
+  add_measuring(*deform, written);
+
+  CLI::App *check = app.add_subcommand("check", "validate a setup and print what follows from it");
+  add_setup(*check, written);
+
+  CLI::App *bench = app.add_subcommand("bench", "time a setup: frames/s, interactions/s, time per pass");
+  bench->add_option("SETUP", written.setup, "setup file (JSON); running without one is not supported yet");
+  add_measuring(*bench, written);
+
+  CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
+  for (CLI::App *command : {render, deform, check, bench, devices})
+    add_json(*command, written);
+
+  app.add_subcommand("tradeoff", "speed against accuracy; not supported yet")->allow_extras();
+  app.add_subcommand("import-calibration", "a sensor from calibration tools' files; not supported yet")
+      ->allow_extras();
+}
+
+void refuse(bool asked_for, const std::string &feature) {
+  if (asked_for)
+    throw Error(ExitCode::usage, feature + " is not supported yet");
+}
+
+void refuse_what_comes_later(const Written &written) {
+  refuse(written.mode != "exact", "--mode " + written.mode);
+  refuse(!written.max_error.empty(), "--max-error");
+  refuse(!written.max_amplitude_error.empty(), "--max-amplitude-error");
+  refuse(written.precision != "fp32", "--precision " + written.precision);
+  refuse(written.frames != "0:1", "--frames " + written.frames);
+  refuse(written.no_wide_vectors, "--no-wide-vectors");
+}
+
+std::filesystem::path output_directory(const Written &written, const std::string &command) {
+  if (!written.output_directory.empty())
+    return written.output_directory;
+  return std::filesystem::path("out") / std::filesystem::path(written.setup).stem() / command;
+}
+
+Options checked(const Written &written, const std::string &command) {
+  refuse(!command_names.contains(command), command);
+  refuse(command == "bench" && written.setup.empty(), "bench without a setup");
+  refuse_what_comes_later(written);
+  Options options;
+  options.command = command_names.at(command);
+  options.setup = written.setup;
+  options.device = written.device;
+  options.json = written.json;
+  if (written.samples != 0)
+    options.samples = written.samples;
+  options.output_directory = output_directory(written, command);
+  for (const std::string &format : written.formats)
+    options.formats.insert(format_names.at(format));
+  if (options.formats.empty() && options.command == Command::render)
+    options.formats = {Format::exr, Format::png};
+  if (options.formats.empty() && options.command == Command::deform)
+    options.formats = {Format::exr, Format::png, Format::csv};
+  return options;
+}
+
+// One line, as CLI11's messages may not be; of an unknown command CLI11 says only that one is missing.
+std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
+  std::string text = app.get_subcommands().empty() && !app.remaining().empty()
+                         ? fmt::format("unknown command or option {}", app.remaining().front())
+                         : error.what();
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  for (char &character : text)
+    if (character == '\n')
+      character = ' ';
+  return text + " (see pmdsim --help)";
+}
+
+} // namespace
+
+std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
+  CLI::App app(
+      "pmdsim: what a continuous-wave time-of-flight (PMD) camera measures by the light of many diodes",
+      "pmdsim");
+  app.set_version_flag("--version", "pmdsim " PMDSIM_VERSION);
+  app.set_help_all_flag("--help-all", "print the help of every command and exit");
+  app.require_subcommand(1);
+  Written written;
+  add_commands(app, written);
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::ParseError &error) {
+    if (error.get_exit_code() != 0)
+      throw Error(ExitCode::usage, parse_failure(app, error));
+    app.exit(error);
+    return std::nullopt;
+  }
+  return checked(written, app.get_subcommands().front()->get_name());
+}
+
+} // namespace pmdsim

@@ -1,0 +1,29 @@
+#pragma once
+// The command line, parsed and checked.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace pmdsim {
+
+enum class Command { render, deform, check, bench, devices };
+enum class Format { exr, npy, png, csv };
+
+struct Options {
+  Command command = Command::devices;
+  std::filesystem::path setup;            // all but devices
+  std::filesystem::path output_directory; // render and deform; filled in where -o is absent
+  std::set<Format> formats;               // render and deform
+  std::string device;                     // as SimulatorOptions::device, or "reference"
+  std::optional<std::uint32_t> samples;   // S, instead of the setup's
+  bool json = false;
+};
+
+// Nothing where --help or --version was asked for and has been answered on stdout. Throws Error (usage) in
+// one line for what is wrong and for what is not supported yet.
+std::optional<Options> parse_options(int argument_count, const char *const *arguments);
+
+} // namespace pmdsim

@@ -1,0 +1,12 @@
+#pragma once
+// One OpenEXR file a frame: scan lines, ZIP, floats as FLOAT and ids as UINT, channels under their own names.
+
+#include "host/output/channel.h"
+#include "host/output/output_file.h"
+
+namespace pmdsim {
+
+// Reads the channels where they lie; memory beyond them is a few scan lines. Throws Error (output).
+void write_exr(OutputFile &file, const ChannelSet &channels);
+
+} // namespace pmdsim

@@ -1,0 +1,106 @@
+#include "host/output/output_file.h"
+
+#include "engine/error.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <random>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+// Hidden, and random because another run may write to the same directory.
+std::filesystem::path temporary_name(const std::filesystem::path &path) {
+  std::random_device random;
+  return path.parent_path() / fmt::format(".{}.{:08x}.partial", path.filename().string(), random());
+}
+
+} // namespace
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)), temporary_(temporary_name(path_)) {
+  const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0)
+    fail(errno);
+  stream_ = ::fdopen(descriptor, "w+b");
+  if (!stream_) {
+    const int error_number = errno;
+    ::close(descriptor);
+    ::unlink(temporary_.c_str());
+    fail(error_number);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (stream_)
+    std::fclose(stream_);
+  if (!temporary_.empty())
+    ::unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(int error_number) const {
+  throw Error(ExitCode::output,
+              fmt::format("{}: cannot be written: {}", path_.string(), reason(error_number)));
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
+    return;
+  if (first_error_ == 0)
+    first_error_ = errno;
+  fail(first_error_);
+}
+
+void OutputFile::seek(std::uint64_t offset) {
+  if (::fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0)
+    return;
+  if (first_error_ == 0)
+    first_error_ = errno;
+  fail(first_error_);
+}
+
+std::uint64_t OutputFile::tell() const {
+  const off_t offset = ::ftello(stream_);
+  if (offset < 0)
+    fail(errno);
+  return static_cast<std::uint64_t>(offset);
+}
+
+void OutputFile::close() {
+  if (std::fflush(stream_) != 0 && first_error_ == 0)
+    first_error_ = errno;
+  if (first_error_ == 0 && ::fsync(::fileno(stream_)) != 0)
+    first_error_ = errno;
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0 && first_error_ == 0)
+    first_error_ = errno;
+  if (first_error_ != 0)
+    fail(first_error_);
+}
+
+void OutputFile::publish() {
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+    fail(errno);
+  temporary_.clear();
+}
+
+void OutputFile::withdraw() noexcept { ::unlink(path_.c_str()); }
+
+void sync_directory(const std::filesystem::path &directory) {
+  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int error_number = errno;
+  if (descriptor >= 0)
+    ::close(descriptor);
+  // EINVAL: a file system that cannot sync directories, where there is nothing left to do.
+  if (!synced && error_number != EINVAL)
+    throw Error(ExitCode::output,
+                fmt::format("{}: cannot be synced: {}", directory.string(), reason(error_number)));
+}
+
+} // namespace pmdsim

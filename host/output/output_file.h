@@ -1,0 +1,46 @@
+#pragma once
+// One file that is written whole or not at all: under a temporary name in the same directory, then renamed.
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace pmdsim {
+
+// Life: construct, write, close (flushed and synced to disk), publish (renamed; an existing file is
+// replaced). The temporary is removed when an OutputFile dies unpublished. Every failure throws Error
+// (output) that names the final path and the operating system's reason.
+class OutputFile {
+public:
+  // Creates the temporary beside `path`; the directory must exist.
+  explicit OutputFile(std::filesystem::path path);
+  ~OutputFile();
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &operator=(const OutputFile &) = delete;
+
+  const std::filesystem::path &path() const { return path_; }
+
+  void write(std::string_view bytes);
+  void seek(std::uint64_t offset);
+  std::uint64_t tell() const;
+
+  // Reports what failed in any earlier write too, even where a library swallowed the exception.
+  void close();
+  void publish();
+  // Takes a published file back; for when a later file of the same set fails.
+  void withdraw() noexcept;
+
+private:
+  [[noreturn]] void fail(int error_number) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_; // empty once renamed or removed
+  std::FILE *stream_ = nullptr;     // null once closed
+  int first_error_ = 0;             // errno of the first write that failed
+};
+
+// Makes renames and removals in a directory last through a power cut. Throws Error (output).
+void sync_directory(const std::filesystem::path &directory);
+
+} // namespace pmdsim

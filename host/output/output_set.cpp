@@ -1,0 +1,95 @@
+#include "host/output/output_set.h"
+
+#include "engine/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/format.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path &directory, const std::error_code &error) {
+  throw Error(ExitCode::output,
+              fmt::format("{}: output directory cannot be written: {}", directory.string(), error.message()));
+}
+
+std::vector<fs::path> missing_directories(const fs::path &directory) {
+  std::vector<fs::path> missing;
+  std::error_code ignored;
+  for (fs::path path = directory; !path.empty() && !fs::exists(path, ignored); path = path.parent_path())
+    missing.insert(missing.begin(), path);
+  return missing;
+}
+
+void remove_if_empty(const std::vector<fs::path> &directories) {
+  std::error_code ignored;
+  for (auto path = directories.rbegin(); path != directories.rend(); ++path)
+    fs::remove(*path, ignored);
+}
+
+// A trailing slash would make parent_path() name the same directory again.
+fs::path without_trailing_slash(fs::path path) {
+  return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
+}
+
+} // namespace
+
+OutputSet::OutputSet(fs::path directory)
+    : directory_(without_trailing_slash(std::move(directory))), created_(missing_directories(directory_)) {
+  std::error_code error;
+  fs::create_directories(directory_, error);
+  if (!error && !fs::is_directory(directory_, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && ::access(directory_.c_str(), W_OK | X_OK) != 0)
+    error = std::error_code(errno, std::generic_category());
+  if (error) {
+    remove_if_empty(created_);
+    fail(directory_, error);
+  }
+}
+
+OutputSet::~OutputSet() {
+  if (published_)
+    return;
+  files_.clear();
+  remove_if_empty(created_);
+}
+
+void OutputSet::add(const std::string &name, const std::function<void(OutputFile &)> &write) {
+  if (name.find('/') != std::string::npos)
+    throw Error(ExitCode::output, fmt::format("{}: expected a file name without '/'", name));
+  auto file = std::make_unique<OutputFile>(directory_ / name);
+  write(*file);
+  file->close();
+  files_.push_back(std::move(file));
+  names_.push_back(name);
+}
+
+std::vector<std::string> OutputSet::paths() const {
+  std::vector<std::string> paths(names_.size());
+  std::transform(names_.begin(), names_.end(), paths.begin(),
+                 [&](const std::string &name) { return (directory_ / name).string(); });
+  return paths;
+}
+
+void OutputSet::publish() {
+  std::size_t renamed = 0;
+  try {
+    for (; renamed < files_.size(); ++renamed)
+      files_[renamed]->publish();
+    sync_directory(directory_);
+  } catch (const Error &) {
+    for (std::size_t i = 0; i < renamed; ++i)
+      files_[i]->withdraw();
+    throw;
+  }
+  published_ = true;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,45 @@
+#pragma once
+// The files that one command leaves in a directory: all of them, or none.
+
+#include "host/output/output_file.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+class OutputSet {
+public:
+  // Creates the directory and its parents. Throws Error (output) where that fails or nothing can be written
+  // there.
+  explicit OutputSet(std::filesystem::path directory);
+  // Unpublished: removes the temporaries and those directories that the constructor made.
+  ~OutputSet();
+  OutputSet(const OutputSet &) = delete;
+  OutputSet &operator=(const OutputSet &) = delete;
+
+  const std::filesystem::path &directory() const { return directory_; }
+
+  // Writes one file by calling `write`; it gets its name only by publish(). `name` is a plain file name.
+  void add(const std::string &name, const std::function<void(OutputFile &)> &write);
+
+  // Names of the files added so far, in order.
+  const std::vector<std::string> &names() const { return names_; }
+  // The same with the directory in front.
+  std::vector<std::string> paths() const;
+
+  // Renames all files to their names. Throws Error (output); then none of them stays.
+  void publish();
+
+private:
+  std::filesystem::path directory_;
+  std::vector<std::filesystem::path> created_; // outermost first
+  std::vector<std::unique_ptr<OutputFile>> files_;
+  std::vector<std::string> names_;
+  bool published_ = false;
+};
+
+} // namespace pmdsim

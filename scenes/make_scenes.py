@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""Writes every glTF file in this folder, byte for byte the same each time. Needs nothing but Python 3."""
+
+import base64
+import json
+import math
+import struct
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SPEED_OF_LIGHT = 299792458.0
+
+ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
+UNSIGNED_SHORT, FLOAT = 5123, 5126
+
+
+class Gltf:
+    """A scene under construction: one buffer that all meshes share, one node an object."""
+
+    def __init__(self):
+        self.data = b""
+        self.json = {
+            "asset": {"version": "2.0", "generator": "pmdsim scenes/make_scenes.py"},
+            "scene": 0,
+            "scenes": [{"nodes": []}],
+            "nodes": [],
+        }
+
+    def _append(self, name, value):
+        self.json.setdefault(name, []).append(value)
+        return len(self.json[name]) - 1
+
+    def _accessor(self, data, target, **accessor):
+        self.data += b"\0" * (-len(self.data) % 4)
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), "target": target}
+        self.data += data
+        return self._append("accessors", {"bufferView": self._append("bufferViews", view), **accessor})
+
+    def node(self, node):
+        self.json["scenes"][0]["nodes"].append(self._append("nodes", node))
+
+    def material(self, name, reflectivity):
+        return self._append("materials", {"name": name, "extras": {"pmdsim_reflectivity": reflectivity}})
+
+    def mesh(self, positions, indices, material):
+        floats = [struct.unpack("<3f", struct.pack("<3f", *p)) for p in positions]
+        position = self._accessor(
+            b"".join(struct.pack("<3f", *p) for p in floats),
+            ARRAY_BUFFER,
+            componentType=FLOAT,
+            count=len(floats),
+            type="VEC3",
+            min=[min(p[axis] for p in floats) for axis in range(3)],
+            max=[max(p[axis] for p in floats) for axis in range(3)],
+        )
+        index = self._accessor(
+            struct.pack(f"<{len(indices)}H", *indices),
+            ELEMENT_ARRAY_BUFFER,
+            componentType=UNSIGNED_SHORT,
+            count=len(indices),
+            type="SCALAR",
+        )
+        primitive = {"attributes": {"POSITION": position}, "indices": index, "material": material}
+        return self._append("meshes", {"primitives": [primitive]})
+
+    def write_gltf(self, name):
+        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
+        self.json["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
+        (HERE / name).write_text(json.dumps(self.json, indent=1) + "\n")
+
+    def write_glb(self, name):
+        self.json["buffers"] = [{"byteLength": len(self.data)}]
+        text = json.dumps(self.json, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        data = self.data + b"\0" * (-len(self.data) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+        (HERE / name).write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+
+def rectangle(left, right, bottom, top):
+    """In the plane z = 0, its front towards +z."""
+    corners = [(left, bottom, 0), (right, bottom, 0), (right, top, 0), (left, top, 0)]
+    return corners, [0, 1, 2, 0, 2, 3]
+
+
+def box(width, height, depth):
+    """Centred on the origin in x and z, standing on y = 0, without its hidden bottom."""
+    x, z = width / 2, depth / 2
+    faces = [
+        [(-x, 0, z), (x, 0, z), (x, height, z), (-x, height, z)],
+        [(x, 0, -z), (-x, 0, -z), (-x, height, -z), (x, height, -z)],
+        [(x, 0, z), (x, 0, -z), (x, height, -z), (x, height, z)],
+        [(-x, 0, -z), (-x, 0, z), (-x, height, z), (-x, height, -z)],
+        [(-x, height, z), (x, height, z), (x, height, -z), (-x, height, -z)],
+    ]
+    positions = [corner for face in faces for corner in face]
+    indices = [4 * face + k for face in range(len(faces)) for k in (0, 1, 2, 0, 2, 3)]
+    return positions, indices
+
+
+def sphere(radius, slices, stacks):
+    """About the origin; poles on the y axis."""
+    positions = [(0, radius, 0)]
+    for stack in range(1, stacks):
+        polar = math.pi * stack / stacks
+        for part in range(slices):
+            around = 2 * math.pi * part / slices
+            positions.append(
+                (
+                    radius * math.sin(polar) * math.sin(around),
+                    radius * math.cos(polar),
+                    radius * math.sin(polar) * math.cos(around),
+                )
+            )
+    positions.append((0, -radius, 0))
+    indices = []
+    last = len(positions) - 1
+    for part in range(slices):
+        following = (part + 1) % slices
+        indices += [0, 1 + part, 1 + following]
+        for stack in range(stacks - 2):
+            upper, lower = 1 + stack * slices, 1 + (stack + 1) * slices
+            indices += [upper + part, lower + part, lower + following]
+            indices += [upper + part, lower + following, upper + following]
+        bottom = 1 + (stacks - 2) * slices
+        indices += [bottom + part, last, bottom + following]
+    return positions, indices
+
+
+def wall(name, size_m, distance_m):
+    """A square that faces a camera in the world's origin."""
+    scene = Gltf()
+    half = size_m / 2
+    mesh = scene.mesh(*rectangle(-half, half, -half, half), scene.material("white", 1.0))
+    scene.node({"name": "wall", "mesh": mesh, "translation": [0, 0, -distance_m]})
+    scene.write_gltf(name)
+
+
+def room():
+    scene = Gltf()
+    camera = {"type": "perspective", "perspective": {"yfov": math.radians(60), "aspectRatio": 1, "znear": 0.01}}
+    scene.json["cameras"] = [camera]
+    tilt = math.radians(-12) / 2
+    scene.node(
+        {
+            "name": "Camera",
+            "camera": 0,
+            "translation": [0, 0.4, 1.0],
+            "rotation": [math.sin(tilt), 0, 0, math.cos(tilt)],
+        }
+    )
+    scene.node(
+        {
+            "name": "wall",
+            "mesh": scene.mesh(*rectangle(-3, 3, 0, 4), scene.material("wall paint", 0.8)),
+            "translation": [0, -1, -3],
+        }
+    )
+    flat = math.radians(-90) / 2
+    scene.node(
+        {
+            "name": "floor",
+            "mesh": scene.mesh(*rectangle(-3, 3, -2, 2), scene.material("carpet", 0.2)),
+            "translation": [0, -1, -1],
+            "rotation": [math.sin(flat), 0, 0, math.cos(flat)],
+        }
+    )
+    turn = math.radians(30) / 2
+    scene.node(
+        {
+            "name": "box",
+            "mesh": scene.mesh(*box(0.6, 0.8, 0.5), scene.material("cardboard", 0.45)),
+            "translation": [-0.7, -1, -1.6],
+            "rotation": [0, math.sin(turn), 0, math.cos(turn)],
+        }
+    )
+    scene.node(
+        {
+            "name": "sphere",
+            "mesh": scene.mesh(*sphere(0.5, 72, 70), scene.material("rubber", 0.6)),
+            "translation": [0.6, -0.5, -1.4],
+        }
+    )
+    scene.write_glb("room.glb")
+
+
+# The cameras of the analytic scenes: square pixels of 10 micrometres behind a lens of 1 m, one row of them. A pixel is
+# so narrow that every sample of it is equally far, to a few nanometres.
+PIXEL_PER_METRE = 10e-6
+
+
+def patch(scene, name, columns, first, last, distance_m, reflectivity):
+    """Fills the columns from edge `first` to edge `last` of a row of `columns` pixels, and a bit beyond the view."""
+    beyond = 2
+    left = first if first > 0 else -beyond
+    right = last if last < columns else columns + beyond
+    pixel_m = PIXEL_PER_METRE * distance_m
+    edges = [(edge - columns / 2) * pixel_m for edge in (left, right)]
+    mesh = scene.mesh(*rectangle(*edges, -beyond * pixel_m, beyond * pixel_m), scene.material(name, reflectivity))
+    scene.node({"name": name, "mesh": mesh, "translation": [0, 0, -distance_m]})
+
+
+def staircase(name, distances_m):
+    """One pixel a distance, from left to right."""
+    scene = Gltf()
+    for column, distance_m in enumerate(distances_m):
+        patch(scene, f"at {distance_m} m", len(distances_m), column, column + 1, distance_m, 1.0)
+    scene.write_gltf(name)
+
+
+def mixed(name, near_m, far_m, near_reflectivity):
+    """Three pixels: the left one on the near patch, the right one on the far one, the middle one half on each."""
+    scene = Gltf()
+    patch(scene, "near", 3, 0, 1.5, near_m, near_reflectivity)
+    patch(scene, "far", 3, 0, 3, far_m, 1.0)
+    scene.write_gltf(name)
+
+
+def main():
+    wall("wall_2m.gltf", 0.4, 2.0)
+    wall("wall_0m3.gltf", 0.45, 0.3)
+    room()
+    staircase("analytic/wrap_10mhz.gltf", [15.0, 20.0, 49.0])
+    staircase("analytic/on_axis_baseline.gltf", [0.5, 1.0, 2.0, 5.0])
+    staircase("analytic/inverse_square.gltf", [0.5, 1.0, 2.0, 4.0, 8.0])
+    mixed("analytic/mixed_equal.gltf", 1.0, 1.5, (1.0 / 1.5) ** 2)
+    mixed("analytic/mixed_inverse_square.gltf", 1.0, 1.5, 1.0)
+    cancelling_m = 1.0 + SPEED_OF_LIGHT / (4 * 20e6)
+    mixed("analytic/cancel.gltf", 1.0, cancelling_m, (1.0 / cancelling_m) ** 2)
+
+
+if __name__ == "__main__":
+    main()
