@@ -1,0 +1,92 @@
+// The folder layout is the architecture: which folder may include which (DESIGN: "The house").
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = PMDSIM_SOURCE_DIR;
+
+// What the files of `folder` may include, as regular expressions over the include's path. The first rule
+// whose folder fits a file counts, so the narrower folders come first.
+struct Rule {
+  std::string folder;
+  std::vector<std::string> allowed;
+};
+
+const std::string plain_engine =
+    "engine/(device_info|error|illuminator|measurement|pass_time|pose|scene|sensor|simulator_options)\\.h";
+const std::string public_engine = "engine/([a-z_]+|reference/reference)\\.h";
+
+const std::vector<Rule> rules{
+    {"engine/vulkan/", {"engine/vulkan/.*", "engine/(device_info|error|pass_time)\\.h", "vulkan/.*"}},
+    {"engine/passes/",
+     {"engine/passes/.*", "engine/vulkan/.*", plain_engine, "shaders/interface\\.h", "spirv/.*",
+      "vulkan/.*"}},
+    {"engine/reference/", {"engine/reference/.*", plain_engine}},
+    {"engine/simulator.cpp", {"engine/passes/.*", "engine/vulkan/.*", public_engine}},
+    {"engine/", {plain_engine}}, // the public headers: plain data, no Vulkan
+    {"host/input/", {"host/input/.*", public_engine}},
+    {"host/output/", {"host/output/.*", public_engine}},
+    {"host/", {"host/.*", public_engine}}, // never Vulkan, never the engine's inside
+    {"shaders/", {}},
+};
+
+// Paths that belong to the project or to Vulkan; any other library is a matter of CMake.
+const std::regex ours("(engine|host|shaders|spirv|tests|vulkan)/.*");
+
+std::vector<std::string> includes_of(const fs::path &file) {
+  static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> found;
+  std::ifstream in(file);
+  std::smatch match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, include) && std::regex_match(match[1].str(), ours))
+      found.push_back(match[1]);
+  return found;
+}
+
+bool is_allowed(const std::string &file, const std::string &include) {
+  for (const Rule &rule : rules)
+    if (file.starts_with(rule.folder)) {
+      for (const std::string &allowed : rule.allowed)
+        if (std::regex_match(include, std::regex(allowed)))
+          return true;
+      return false;
+    }
+  return true;
+}
+
+} // namespace
+
+TEST_CASE("includes follow the allowed arrows") {
+  int files = 0;
+  for (const char *folder : {"engine", "host", "shaders"})
+    for (const auto &entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp")
+        continue;
+      ++files;
+      const std::string file = fs::relative(entry.path(), root);
+      for (const std::string &include : includes_of(entry.path())) {
+        INFO(file << " includes " << include);
+        CHECK(is_allowed(file, include));
+      }
+    }
+  CHECK(files > 50);
+}
+
+TEST_CASE("an arrow against the architecture is noticed") {
+  CHECK_FALSE(is_allowed("host/main.cpp", "vulkan/vulkan_raii.hpp"));
+  CHECK_FALSE(is_allowed("host/commands/render.cpp", "engine/passes/points.h"));
+  CHECK_FALSE(is_allowed("engine/reference/path_sum.cpp", "shaders/interface.h"));
+  CHECK_FALSE(is_allowed("engine/vulkan/device.cpp", "engine/sensor.h"));
+  CHECK_FALSE(is_allowed("engine/simulator.h", "vulkan/vulkan.h"));
+  CHECK(is_allowed("engine/simulator.cpp", "engine/passes/points.h"));
+}

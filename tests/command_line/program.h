@@ -1,0 +1,57 @@
+#pragma once
+// The real binary, run as a user runs it.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pmdsim::test {
+
+struct Run {
+  int exit_code = -1; // 128 + n where signal n ended it
+  std::string output; // stdout
+  std::string errors; // stderr
+  std::int64_t peak_resident_bytes = 0;
+};
+
+struct RunOptions {
+  std::map<std::string, std::string> environment; // beside the test's own
+  std::filesystem::path directory = ".";          // the process's working directory
+  int interrupt_after_ms = 0;                     // SIGINT then; 0: never
+};
+
+// Ends the program after a minute: a hang is an exit code of 128 + SIGALRM.
+Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options = {});
+
+// A directory that lives as long as the test.
+class Workspace {
+public:
+  Workspace();
+  ~Workspace();
+  Workspace(const Workspace &) = delete;
+  Workspace &operator=(const Workspace &) = delete;
+
+  const std::filesystem::path &path() const { return path_; }
+  std::string operator/(const std::string &name) const { return (path_ / name).string(); }
+  // Writes `text` to the file and returns its path.
+  std::string write(const std::string &name, const std::string &text) const;
+  // The names of all files below, sorted.
+  std::vector<std::string> files(const std::string &below = ".") const;
+
+private:
+  std::filesystem::path path_;
+};
+
+// A scene from the repository's scenes/.
+std::string scene(const std::string &name);
+
+// A setup that works: a wall of `scene_file` (written by the test into the same folder) seen by 8 x 8 pixels.
+std::string small_setup(const std::string &scene_file = "wall.gltf");
+// That wall: 0.4 x 0.4 m at 2 m.
+std::string wall_gltf();
+// `text` with `from`, which must be in it, replaced by `to`.
+std::string with(std::string text, const std::string &from, const std::string &to);
+
+} // namespace pmdsim::test

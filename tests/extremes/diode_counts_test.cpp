@@ -1,0 +1,80 @@
+// From one diode to 100,000, and samples from 1 to 256 a pixel, against the reference.
+
+#include "engine/reference/reference.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+using namespace pmdsim;
+
+namespace {
+
+Illuminator disc(int count, const Sensor &sensor) {
+  Illuminator illuminator{"disc", sensor.world_from_camera, {}};
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) {
+    const double radius_m = 0.166 * std::sqrt((i + 0.5) / count), angle = golden_angle * i;
+    Diode diode;
+    diode.position_m = {radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0};
+    illuminator.diodes.push_back(diode);
+  }
+  return illuminator;
+}
+
+// The largest distance error in micrometres and relative amplitude error.
+std::pair<double, double> largest_errors(const Scene &scene, const Sensor &sensor,
+                                         const Illuminator &illuminator) {
+  Simulator simulator = test::make_simulator();
+  simulator.prepare(scene, sensor, illuminator, Backscatter::lambert);
+  const Measurement got = simulator.measure();
+  const reference::Frame truth = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  double distance_um = 0.0, amplitude = 0.0;
+  for (std::size_t i = 0; i < got.distance_m.size(); ++i) {
+    distance_um = std::max(distance_um, 1e6 * std::abs(double(got.distance_m[i]) - truth.distance_m[i]));
+    amplitude = std::max(amplitude, std::abs(double(got.amplitude[i]) / truth.amplitude[i] - 1.0));
+  }
+  return {distance_um, amplitude};
+}
+
+} // namespace
+
+TEST_CASE("1 to 100,000 diodes") {
+  Sensor sensor;
+  sensor.resolution = {16, 16};
+  sensor.pixel_pitch_m = {1.8e-3, 1.8e-3};
+  fmt::print("{:>10} {:>16} {:>16}\n", "diodes", "distance max um", "amplitude max");
+  for (const int count : {1, 15, 16, 17, 240, 256, 257, 4000, 100000}) {
+    const auto [distance_um, amplitude] = largest_errors(test::wall_at(2.0), sensor, disc(count, sensor));
+    fmt::print("{:>10} {:>16.3f} {:>16.1e}\n", count, distance_um, amplitude);
+    CHECK(distance_um <= 2.0);
+    CHECK(amplitude <= 1e-5);
+  }
+}
+
+TEST_CASE("1 to 256 samples a pixel") {
+  Sensor sensor;
+  sensor.resolution = {5, 3};
+  sensor.pixel_pitch_m = {5e-3, 5e-3};
+  fmt::print("{:>10} {:>16} {:>16}\n", "S", "distance max um", "amplitude max");
+  for (const std::uint32_t samples : {1u, 2u, 3u, 7u, 16u}) {
+    sensor.samples = samples;
+    const auto [distance_um, amplitude] = largest_errors(test::wall_at(1.0), sensor, disc(240, sensor));
+    fmt::print("{:>10} {:>16.3f} {:>16.1e}\n", samples, distance_um, amplitude);
+    CHECK(distance_um <= 2.0);
+    CHECK(amplitude <= 1e-5);
+  }
+}
+
+TEST_CASE("a frame of 8192 columns at 16 samples a side is cut into raster blocks as well") {
+  Sensor sensor;
+  sensor.resolution = {8192, 1};
+  sensor.pixel_pitch_m = {1e-5, 1e-5};
+  sensor.samples = 16;
+  const auto [distance_um, amplitude] = largest_errors(test::wall_at(2.0), sensor, disc(1, sensor));
+  CHECK(distance_um <= 2.0);
+  CHECK(amplitude <= 1e-5);
+}

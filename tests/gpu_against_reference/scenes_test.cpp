@@ -1,0 +1,66 @@
+// The shipped scenes on the Vulkan device against the reference, with the figures that the README promises.
+
+#include "host/input/setup.h"
+#include "tests/gpu_against_reference/comparison.h"
+#include "tests/support/simulator.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+struct Variant {
+  std::string name;
+  SamplePrecision precision;
+  DiodeLoop loop;
+};
+
+// What this device is given, and what other devices are.
+const std::vector<Variant> variants{
+    {"", SamplePrecision::automatic, DiodeLoop::automatic},
+    {", float pairs, loop", SamplePrecision::double_float, DiodeLoop::looped},
+};
+
+Comparison compare_variant(const Variant &variant, const Setup &setup, const Sensor &sensor,
+                           const reference::Frame &expected) {
+  Simulator simulator = make_simulator(
+      {.device = {}, .keep_sample_triangles = true, .precision = variant.precision, .loop = variant.loop});
+  simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  return compare(simulator.measure(), expected, setup.scene, sensor);
+}
+
+void check(const Comparison &comparison, const Sensor &sensor) {
+  CHECK(comparison.pixels > sensor.pixel_count() / 2);
+  CHECK(comparison.distance_max_m <= 2e-6);
+  CHECK(comparison.distance_rms_m <= 0.3e-6);
+  CHECK(comparison.amplitude_max_relative <= 1e-5);
+  CHECK(comparison.range_max_relative <= 1e-6);
+  CHECK(comparison.disagreements == 0);
+  CHECK(comparison.differing_fraction() <= 1e-3);
+  CHECK(comparison.differing_far_off == 0);
+}
+
+} // namespace
+
+TEST_CASE("shipped scenes agree with the reference") {
+  fmt::print("{}", comparison_heading());
+  for (const std::string scene : {"paper_ring", "paper_half_ring", "room"}) {
+    const Setup setup = load_setup(std::string(PMDSIM_SCENES "/") + scene + ".json");
+    Sensor sensor = setup.sensors[0];
+    for (const std::uint32_t samples : {1u, 2u, 4u}) {
+      sensor.samples = samples;
+      const auto expected =
+          reference::simulate(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+      for (const Variant &variant : variants) {
+        const std::string name = fmt::format("{}, S = {}{}", scene, samples, variant.name);
+        INFO(name);
+        const Comparison comparison = compare_variant(variant, setup, sensor, expected);
+        fmt::print("{}", comparison_row(name, comparison));
+        check(comparison, sensor);
+      }
+    }
+  }
+}

@@ -1,0 +1,100 @@
+#include "engine/passes/diode_groups.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace pmdsim;
+
+namespace {
+
+const std::vector<VisibleBox> wall_at_2m{{{-0.2, -0.2, 2.0}, {0.2, 0.2, 2.0}}};
+constexpr double wavenumber_20mhz_rad_m = 2.0 * std::numbers::pi * 20e6 / 299792458.0;
+
+std::vector<Diode> ring(int count, double radius_m) {
+  std::vector<Diode> diodes(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * std::numbers::pi * (k + 0.5) / count;
+    diodes[static_cast<std::size_t>(k)].position_m = {radius_m * std::cos(angle), radius_m * std::sin(angle),
+                                                      0.0};
+  }
+  return diodes;
+}
+
+// The diodes of a run with light, put back to where they stand in the camera frame.
+std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
+  std::vector<glm::dvec3> positions;
+  for (const DiodeRun &run : groups.runs)
+    for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
+      if (const auto &diode = groups.diodes[run.first + i]; diode.intensity > 0.0f)
+        positions.push_back(run.reference_m - 0.5 * glm::dvec3(diode.position));
+  return positions;
+}
+
+} // namespace
+
+TEST_CASE("moments are as many as the remainder asks for") {
+  CHECK(moments_needed(0.0) == 1);
+  for (const double phase_rad : {1e-9, 1e-3, 0.07, 0.5}) {
+    const std::uint32_t k = moments_needed(phase_rad);
+    CHECK(std::pow(phase_rad, k) / std::tgamma(k + 1.0) <= 0x1p-26);
+    if (k > 1)
+      CHECK(std::pow(phase_rad, k - 1.0) / std::tgamma(double(k)) > 0x1p-26);
+  }
+}
+
+TEST_CASE("the paper's ring is one group around the lens, summed in one run") {
+  const auto groups = group_diodes(ring(240, 0.166), wall_at_2m, wavenumber_20mhz_rad_m);
+  REQUIRE(groups.runs.size() == 1);
+  CHECK(glm::length(groups.runs[0].reference_m) < 1e-15);
+  CHECK(groups.blocks_per_run == 15);
+  CHECK(groups.diodes.size() == 240);
+  CHECK(groups.moments == 5);
+}
+
+TEST_CASE("every diode is in exactly one group, wherever the groups are cut") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  for (const int count : {1, 2, 17, 256, 257, 1000}) {
+    std::vector<Diode> diodes(static_cast<std::size_t>(count));
+    for (Diode &diode : diodes)
+      diode.position_m = {place(random), place(random), 0.1 * place(random)};
+    const auto groups = group_diodes(diodes, wall_at_2m, 100 * wavenumber_20mhz_rad_m);
+    auto found = lit_positions(groups);
+    REQUIRE(found.size() == diodes.size());
+    for (const Diode &diode : diodes) {
+      const auto near = [&](const glm::dvec3 &p) { return glm::distance(p, diode.position_m) < 1e-7; };
+      const auto match = std::find_if(found.begin(), found.end(), near);
+      REQUIRE(match != found.end());
+      found.erase(match);
+    }
+  }
+}
+
+TEST_CASE("groups shrink with the wavelength and with what is near") {
+  const auto diodes = ring(240, 0.166);
+  const auto far = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto fast = group_diodes(diodes, wall_at_2m, 100 * wavenumber_20mhz_rad_m);
+  const auto near = group_diodes(diodes, {{{-0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}}}, wavenumber_20mhz_rad_m);
+  CHECK(fast.runs.size() > far.runs.size());
+  CHECK(near.runs.size() > far.runs.size());
+  CHECK(fast.moments <= moments_needed(0.5));
+}
+
+TEST_CASE("a diode on its own needs no correction of its path") {
+  const auto groups = group_diodes(ring(1, 3.0), wall_at_2m, wavenumber_20mhz_rad_m);
+  CHECK(groups.moments == 1);
+  CHECK(groups.diodes[0].position == glm::vec4(0.0f));
+}
+
+TEST_CASE("intensities are relative to the largest; dark light stays finite") {
+  auto diodes = ring(2, 0.1);
+  diodes[0].intensity_w_sr = 1e30;
+  diodes[1].intensity_w_sr = 5e29;
+  const auto groups = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
+  CHECK(groups.largest_intensity_w_sr == 1e30);
+  CHECK(groups.diodes[0].intensity + groups.diodes[1].intensity == Approx(1.5f));
+  diodes[0].intensity_w_sr = diodes[1].intensity_w_sr = 0.0;
+  CHECK(group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m).diodes[0].intensity == 0.0f);
+}

@@ -1,0 +1,53 @@
+// The setups that ship in scenes/ load, and hold what their names say.
+
+#include "host/input/setup.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <map>
+
+using namespace pmdsim;
+
+namespace {
+
+struct Contents {
+  std::size_t triangles, diodes;
+};
+
+} // namespace
+
+TEST_CASE("Every setup that ships loads without a warning") {
+  const std::map<std::string, Contents> expected = {
+      {"paper_ring.json", {2, 240}},
+      {"paper_half_ring.json", {2, 120}},
+      {"paper_moire.json", {2, 48}},
+      {"room.json", {9950, 240}},
+      {"analytic/wrap_10mhz.json", {6, 1}},
+      {"analytic/on_axis_baseline.json", {8, 1}},
+      {"analytic/inverse_square.json", {10, 1}},
+      {"analytic/mixed_equal.json", {4, 1}},
+      {"analytic/mixed_inverse_square.json", {4, 1}},
+      {"analytic/cancel.json", {4, 1}},
+  };
+  const std::filesystem::path folder = PMDSIM_SCENES;
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".json")
+      continue;
+    const std::string name = std::filesystem::relative(entry.path(), folder).string();
+    INFO(name);
+    REQUIRE(expected.contains(name));
+    const Setup setup = load_setup(entry.path());
+    CHECK(setup.scene.triangles.size() == expected.at(name).triangles);
+    CHECK(setup.illuminators.at(0).diodes.size() == expected.at(name).diodes);
+    CHECK(setup.warnings.empty());
+  }
+}
+
+TEST_CASE("The room's camera looks down at what stands in it") {
+  const Setup setup = load_setup(std::filesystem::path(PMDSIM_SCENES) / "room.json");
+  CHECK(setup.scene.objects == std::vector<std::string>{"wall", "floor", "box", "sphere"});
+  const glm::dvec3 view = setup.sensors.at(0).world_from_camera.direction({0, 0, 1});
+  CHECK(view.z < -0.9);
+  CHECK(view.y < -0.1);
+  CHECK(view.y > -0.3);
+}

@@ -1,0 +1,111 @@
+// What comes later is refused by name, never ignored.
+
+#include "setup_fixture.h"
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+using Catch::Contains;
+using Catch::EndsWith;
+using nlohmann::json;
+
+namespace {
+
+std::string setup_error(const std::string &pointer, const json &value) {
+  SetupFixture fixture;
+  fixture.setup[json::json_pointer(pointer)] = value;
+  return fixture.error();
+}
+
+std::string scene_error(const std::string &pointer, const json &value) {
+  SetupFixture fixture;
+  fixture.scene[json::json_pointer(pointer)] = value;
+  return fixture.error();
+}
+
+} // namespace
+
+TEST_CASE("Shadows are refused unless switched off in writing") {
+  const std::string expected =
+      "setup.json: /shadows: shadows are not supported yet; write \"shadows\": \"off\"";
+  CHECK_THAT(setup_error("/shadows", "auto"), EndsWith(expected));
+  SetupFixture absent;
+  absent.setup.erase("shadows");
+  CHECK_THAT(absent.error(), EndsWith(expected));
+}
+
+TEST_CASE("Setup keys of later features are refused by name") {
+  CHECK_THAT(setup_error("/sensors/0/distortion", {{"k1", 0.1}}),
+             EndsWith("setup.json: /sensors/0/distortion/k1: not supported yet (expected 0)"));
+  CHECK_THAT(setup_error("/sensors/0/distortion", {{"p2", -1}}),
+             Contains("/distortion/p2: not supported yet"));
+  CHECK_THAT(setup_error("/sensors/0/chip", {{"rotation_deg", {0, 0, 1}}}),
+             EndsWith("/chip/rotation_deg: not supported yet (expected [0,0,0])"));
+  CHECK_THAT(setup_error("/sensors/0/chip", {{"translation_m", {0, 1e-6, 0}}}),
+             Contains("/chip/translation_m: not"));
+  CHECK_THAT(setup_error("/sensors/0/fill_factor", {1, 0.5}), Contains("/fill_factor: not supported yet"));
+  CHECK_THAT(setup_error("/sensors/0/vignetting", "cos4"),
+             Contains("/vignetting: not supported yet (expected \"none\")"));
+  CHECK_THAT(setup_error("/sensors/0/waveform", "square"),
+             Contains("/waveform: not supported yet (expected \"sine\")"));
+  CHECK_THAT(setup_error("/sensors/0/waveform", {{"harmonics", {1, 0.1}}}),
+             Contains("/waveform: not supported yet"));
+  CHECK_THAT(setup_error("/sensors/0/taps", 8), Contains("/taps: not supported yet (expected 4)"));
+  CHECK_THAT(setup_error("/sensors/0/tap_interval_s", 1e-3), Contains("/tap_interval_s: not supported yet"));
+  CHECK_THAT(setup_error("/sensors/0/samples", "auto"), Contains("/samples: not supported yet"));
+  CHECK_THAT(setup_error("/sensors/0/modulation_hz", {20e6, 30e6}),
+             EndsWith("/modulation_hz/1: several frequencies are not supported yet (expected one)"));
+  CHECK_THAT(setup_error("/sensors/1", SetupFixture().sensor()), Contains("/sensors/1: several sensors"));
+  CHECK_THAT(setup_error("/illuminators/1", SetupFixture().illuminator()),
+             Contains("/illuminators/1: several"));
+  CHECK_THAT(setup_error("/illuminators/0/pattern", {{"file", "led.ies"}}),
+             Contains("/pattern/file: not supported yet"));
+  CHECK_THAT(setup_error("/illuminators/0/modulation_phase_deg", 90),
+             Contains("/modulation_phase_deg: not supported yet"));
+  CHECK_THAT(setup_error("/frames", {{"count", 2}, {"rate_hz", 50}}),
+             Contains("/frames/count: not supported yet"));
+  CHECK_THAT(setup_error("/frames", {{"start_s", 1}}),
+             Contains("/frames/start_s: not supported yet (expected 0)"));
+}
+
+TEST_CASE("Setup keys of later features are accepted at their defaults") {
+  SetupFixture fixture;
+  fixture.sensor().update(json::parse(R"({
+    "fill_factor": [1.0, 1.0],
+    "distortion": {"model": "brown", "k1": 0, "k2": 0.0, "p1": 0, "p2": 0, "k3": 0},
+    "chip": {"rotation_deg": [0, 0.0, 0], "translation_m": [0, 0, 0]},
+    "vignetting": "none", "waveform": "sine", "taps": 4, "tap_interval_s": 0.0
+  })"));
+  fixture.illuminator()["modulation_phase_deg"] = 0.0;
+  fixture.setup["frames"] = {{"start_s", 0.0}, {"rate_hz", 50}, {"count", 1}};
+  CHECK_NOTHROW(fixture.load());
+}
+
+TEST_CASE("glTF features of later are refused by name") {
+  CHECK_THAT(scene_error("/extensionsRequired", {"KHR_draco_mesh_compression"}),
+             EndsWith("/extensionsRequired/0: extension \"KHR_draco_mesh_compression\" is not supported"));
+  CHECK_THAT(scene_error("/animations", json::array({json::object()})),
+             EndsWith("/animations: animations are not supported yet"));
+  CHECK_THAT(scene_error("/nodes/0/skin", 0), EndsWith("/nodes/0/skin: skins are not supported yet"));
+  CHECK_THAT(scene_error("/meshes/0/primitives/0/mode", 0), Contains("/mode: points are not supported yet"));
+  for (int lines = 1; lines <= 3; ++lines)
+    CHECK_THAT(scene_error("/meshes/0/primitives/0/mode", lines), Contains("/mode: lines are not supported"));
+  CHECK_THAT(scene_error("/meshes/0/primitives/0/attributes/COLOR_0", 0),
+             Contains("vertex colours are not supported yet"));
+  CHECK_THAT(scene_error("/meshes/0/primitives/0/targets", {{{"POSITION", 0}}}),
+             Contains("morph targets are not"));
+  CHECK_THAT(scene_error("/accessors/0/sparse", json::object()),
+             EndsWith("/accessors/0/sparse: sparse accessors are not supported yet"));
+  CHECK_THAT(scene_error("/accessors/0/componentType", 5122),
+             Contains("quantized positions are not supported yet"));
+  const auto material_error = [](const json &material) {
+    SetupFixture fixture;
+    fixture.scene["materials"] = {material};
+    fixture.scene["meshes"][0]["primitives"][0]["material"] = 0;
+    return fixture.error();
+  };
+  CHECK_THAT(material_error({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}),
+             EndsWith("/materials/0/pbrMetallicRoughness/baseColorTexture: textures are not supported yet"));
+  CHECK_THAT(material_error({{"alphaMode", "MASK"}}),
+             Contains("/materials/0/alphaMode: MASK is not supported yet"));
+  CHECK_THAT(material_error({{"alphaMode", "BLEND"}}), Contains("BLEND is not supported yet"));
+}

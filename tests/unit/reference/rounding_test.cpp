@@ -1,0 +1,79 @@
+// Sums, and what becomes of a frame when it is rounded to float.
+
+#include "engine/reference/channels.h"
+#include "engine/reference/compensated_sum.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/scenes.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <numbers>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+TEST_CASE("a compensated sum keeps what a plain one loses") {
+  reference::CompensatedSum sum;
+  for (const double term : {1.0, 1e100, 1.0, -1e100})
+    sum.add(term);
+  CHECK(sum.value() == 2);
+
+  reference::CompensatedSum tenths;
+  for (int i = 0; i < 1000000; ++i)
+    tenths.add(0.1);
+  CHECK(tenths.value() == 100000);
+}
+
+TEST_CASE("phase and distance stay below their range's end when rounded to float") {
+  reference::Frame frame = reference::dark_frame(axial_sensor());
+  reference::PixelSums sums;
+  sums.z.add(std::polar(1.0, -GENERATE(1e-8, 1e-15, 1e-17, 1e-300)));
+  reference::set_channels(frame, 0, sums, 1);
+  CHECK(frame.phase_rad[0] < 2 * std::numbers::pi);
+  CHECK(frame.distance_m[0] < frame.ambiguity_m);
+
+  const Measurement measurement = reference::to_measurement(frame);
+  CHECK(measurement.phase_rad[0] >= 0);
+  CHECK(static_cast<double>(measurement.phase_rad[0]) < 2 * std::numbers::pi);
+  CHECK(measurement.distance_m[0] >= 0);
+  CHECK(static_cast<double>(measurement.distance_m[0]) < frame.ambiguity_m);
+}
+
+TEST_CASE("a frame is rounded channel by channel") {
+  Sensor sensor = axial_sensor({2, 1});
+  sensor.pixel_pitch_m = glm::dvec2(0.5);
+  SceneBuilder builder;
+  builder.add_wall({2, {0.3}, {-9, -9}, {0, 9}});
+  const auto frame = reference::simulate(
+      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::lambert);
+  const Measurement measurement = reference::to_measurement(frame);
+  CHECK(measurement.resolution == sensor.resolution);
+  CHECK(measurement.amplitude[0] == static_cast<float>(frame.amplitude[0]));
+  CHECK(measurement.phase_rad[0] == static_cast<float>(frame.phase_rad[0]));
+  CHECK(measurement.distance_m[0] == static_cast<float>(frame.distance_m[0]));
+  CHECK(measurement.range_m[0] == static_cast<float>(frame.range_m[0]));
+  CHECK(measurement.z_m[0] == static_cast<float>(frame.z_m[0]));
+  CHECK(measurement.coverage == std::vector<float>{1, 0});
+  CHECK(measurement.triangle_id == frame.triangle_id);
+  CHECK(measurement.object_id == std::vector<std::uint32_t>{0, no_id});
+  CHECK(measurement.amplitude[1] == 0);
+  for (const auto *channel :
+       {&measurement.phase_rad, &measurement.distance_m, &measurement.range_m, &measurement.z_m})
+    CHECK(std::isnan((*channel)[1]));
+}
+
+TEST_CASE("two runs give the same bits") {
+  Random random(21);
+  const Pose world_from_camera = random.pose(5);
+  const Scene scene = random_triangles(random, 80, world_from_camera);
+  const Illuminator illuminator = random_illuminator(random, 20, world_from_camera);
+  Sensor sensor;
+  sensor.resolution = {40, 30};
+  sensor.pixel_pitch_m = glm::dvec2(4e-3);
+  sensor.world_from_camera = world_from_camera;
+  sensor.samples = 2;
+  const auto first = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  const auto second = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  CHECK(std::memcmp(first.z.data(), second.z.data(), first.z.size() * sizeof(first.z[0])) == 0);
+  CHECK(first.sample_triangle_id == second.sample_triangle_id);
+}
