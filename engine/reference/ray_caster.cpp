@@ -3,8 +3,8 @@
 #include "engine/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pmdsim::reference {
 
@@ -56,23 +56,20 @@ void attach(RTCDevice device, RTCScene scene, const std::vector<CameraTriangle> 
   rtcAttachGeometry(scene, geometry.get());
 }
 
-// Kahan's a*b - c*d: right to 1.5 units in the last place, so its sign is exact.
-double cross(const glm::dvec2 &p, const glm::dvec2 &q) {
-  const double subtracted = p.y * q.x;
-  const double rounded_off = std::fma(-p.y, q.x, subtracted);
-  return std::fma(p.x, q.y, -subtracted) + rounded_off;
-}
+// Rounding keeps order, so the sign is right or the result is zero, and swapping p and q negates it exactly.
+double cross(const glm::dvec2 &p, const glm::dvec2 &q) { return p.x * q.y - p.y * q.x; }
 
 } // namespace
 
-RayCaster::RayCaster(const std::vector<CameraTriangle> &triangles)
-    : device_(rtcNewDevice(nullptr), rtcReleaseDevice), scene_(rtcNewScene(device_.get()), rtcReleaseScene) {
+RayCaster::RayCaster(std::vector<CameraTriangle> triangles)
+    : triangles_(std::move(triangles)), device_(rtcNewDevice(nullptr), rtcReleaseDevice),
+      scene_(rtcNewScene(device_.get()), rtcReleaseScene) {
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  attach(device_.get(), scene_.get(), triangles);
+  attach(device_.get(), scene_.get(), triangles_);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
     throw Error(ExitCode::out_of_memory, "reference: expected enough memory for the ray caster's tree over " +
-                                             std::to_string(triangles.size()) + " triangles");
+                                             std::to_string(triangles_.size()) + " triangles");
 }
 
 std::optional<Hit> RayCaster::nearest(const glm::dvec3 &direction) const {
@@ -94,8 +91,7 @@ std::optional<Hit> RayCaster::nearest(const glm::dvec3 &direction) const {
 
 // After S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: seen along the
 // ray every vertex becomes one point of the plane, the same for all triangles that share it, and the ray is
-// the plane's origin. With the exact sign of every edge and zero counting as inside no ray slips through an
-// edge or a vertex.
+// the plane's origin. As zero counts as inside, no ray slips through an edge or a vertex.
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
   const glm::dvec2 slope = glm::dvec2(direction) / direction.z;
   const auto seen_along_ray = [&](const glm::dvec3 &vertex_m) {

@@ -20,15 +20,18 @@ struct Hit {
 
 class RayCaster {
 public:
-  // Keeps a reference to `triangles`. Throws Error: out_of_memory.
-  explicit RayCaster(const std::vector<CameraTriangle> &triangles);
+  // Throws Error: out_of_memory.
+  explicit RayCaster(std::vector<CameraTriangle> triangles);
 
   // The nearest triangle in front of the lens along `direction` (unit length, z > 0) whose face the lens can
   // see; the lowest id where several are equally near. A ray through the edge that two triangles share hits
   // one of them. Any number of threads may call this at once.
   std::optional<Hit> nearest(const glm::dvec3 &direction) const;
 
+  const CameraTriangle &triangle(std::uint32_t id) const { return triangles_[id]; }
+
 private:
+  std::vector<CameraTriangle> triangles_;
   std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };

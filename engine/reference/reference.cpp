@@ -21,8 +21,8 @@ class FrameJob {
 public:
   FrameJob(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter)
       : scene_(scene), sensor_(sensor), backscatter_(backscatter),
-        triangles_(triangles_in_camera(scene, sensor)), diodes_(diodes_in_camera(illuminator, sensor)),
-        caster_(triangles_), frame_(dark_frame(sensor)) {}
+        diodes_(diodes_in_camera(illuminator, sensor)), caster_(triangles_in_camera(scene, sensor)),
+        frame_(dark_frame(sensor)) {}
 
   std::uint32_t rows() const { return sensor_.resolution.y; }
 
@@ -63,7 +63,7 @@ private:
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
-    const CameraTriangle &triangle = triangles_[hit.triangle];
+    const CameraTriangle &triangle = caster_.triangle(hit.triangle);
     const glm::dvec3 front = glm::normalize(triangle.front());
     return {hit.range_m * direction, glm::dot(front, direction) < 0 ? front : -front, triangle.reflectivity};
   }
@@ -75,7 +75,6 @@ private:
   const Scene &scene_;
   const Sensor &sensor_;
   Backscatter backscatter_;
-  std::vector<CameraTriangle> triangles_;
   std::vector<Diode> diodes_;
   RayCaster caster_;
   Frame frame_;
@@ -97,8 +96,11 @@ void for_each_row(std::uint32_t rows, const Work &work, const std::function<void
   for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
     work(row);
     if (progress)
-      progress(static_cast<double>(row + 1) / rows);
+      progress(static_cast<double>(row) / rows);
   }
+  helpers.clear();
+  if (progress)
+    progress(1.0);
 }
 
 } // namespace

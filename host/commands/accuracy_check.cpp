@@ -2,6 +2,7 @@
 
 #include "engine/reference/reference.h"
 #include "host/commands/camera.h"
+#include "host/commands/coarser_sensor.h"
 #include "host/commands/progress_bar.h"
 
 #include <algorithm>
@@ -14,17 +15,11 @@ namespace {
 
 constexpr double affordable_interactions = 2e8; // some seconds of the reference
 
-// The same view with fewer pixels, so that the reference stays within what it can afford.
-Sensor coarser(Sensor sensor, std::size_t diode_count) {
+// With few enough pixels for what the reference can afford.
+Sensor affordable(const Sensor &sensor, std::size_t diode_count) {
   const double interactions = static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
                               static_cast<double>(diode_count);
-  if (interactions < affordable_interactions)
-    return sensor;
-  const double factor = std::sqrt(interactions / affordable_interactions);
-  const glm::uvec2 resolution = glm::max(glm::uvec2(glm::dvec2(sensor.resolution) / factor), glm::uvec2(1));
-  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(resolution);
-  sensor.resolution = resolution;
-  return sensor;
+  return coarser(sensor, std::sqrt(interactions / affordable_interactions));
 }
 
 // Whether every sample of the pixel hits the same triangle in both.
@@ -61,7 +56,7 @@ AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, c
 
 AccuracyCheck check_accuracy(const Setup &setup, const std::string &device) {
   const Illuminator &illuminator = setup.illuminators.front();
-  const Sensor sensor = coarser(setup.sensors.front(), illuminator.diodes.size());
+  const Sensor sensor = affordable(setup.sensors.front(), illuminator.diodes.size());
   Camera camera(device, Camera::SampleTriangles::keep);
   camera.prepare(setup.scene, sensor, illuminator, setup.backscatter);
   const Measurement found = camera.measure("measuring what is checked");

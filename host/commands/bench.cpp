@@ -20,13 +20,17 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr int measured_frames = 7;
-constexpr double largest_plausible_error_m = 1e-3; // beyond it the device computes something else
 
 struct Timing {
   Spread frame_ms;
   std::vector<PassTime> passes; // medians, in the order of the frame
   double interactions_per_s;    // NaN where there is no pass named "accumulate"
 };
+
+// Beyond it the device computes something else: float32 holds a distance to 6e-8 of the ambiguity range.
+double largest_plausible_error_m(const Sensor &sensor) {
+  return std::max(10e-6, 1e-6 * sensor.ambiguity_m());
+}
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -41,11 +45,12 @@ std::optional<AccuracyCheck> check_before_timing(const Setup &setup, const Camer
   if (camera.is_reference())
     return std::nullopt;
   const AccuracyCheck check = check_accuracy(setup, device);
-  if (check.distance_max_m > largest_plausible_error_m)
+  const double limit_m = largest_plausible_error_m(setup.sensors.front());
+  if (check.distance_max_m > limit_m)
     throw Error(
         ExitCode::internal,
         fmt::format("{}: distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
-                    camera.device(), 1e3 * check.distance_max_m, 1e3 * largest_plausible_error_m));
+                    camera.device(), 1e3 * check.distance_max_m, 1e3 * limit_m));
   return check;
 }
 

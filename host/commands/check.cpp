@@ -1,7 +1,8 @@
+#include "engine/reference/reference.h"
+#include "host/commands/coarser_sensor.h"
 #include "host/commands/commands.h"
 #include "host/commands/loaded_setup.h"
 #include "host/commands/report.h"
-#include "host/output/intrinsics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct VertexDistances {
-  std::size_t in_view = 0;
+constexpr double view_columns = 64.0; // rays that look for what is visible, along the frame's longer side
+
+// Distances from the lens; NaN where nothing is visible.
+struct VisibleRange {
   double min_m = std::numeric_limits<double>::quiet_NaN();
   double max_m = std::numeric_limits<double>::quiet_NaN();
 };
@@ -28,30 +31,22 @@ struct Findings {
   double ambiguity_m, image_distance_m;
   glm::dvec2 field_of_view_deg; // full angles, along the columns and the rows
   glm::dvec2 footprint_at_1m_m; // of a pixel on a plane across the axis
-  VertexDistances vertices;
+  VisibleRange visible;
 };
 
-bool in_view(const glm::dvec3 &point_camera, const Sensor &sensor) {
-  if (point_camera.z <= 0.0)
-    return false;
-  const auto [fx, fy, cx, cy] = intrinsics_of(sensor);
-  const double u = fx * point_camera.x / point_camera.z + cx;
-  const double v = fy * point_camera.y / point_camera.z + cy;
-  return u >= -0.5 && v >= -0.5 && u <= sensor.resolution.x - 0.5 && v <= sensor.resolution.y - 0.5;
-}
-
-VertexDistances vertex_distances(const Scene &scene, const Sensor &sensor) {
-  VertexDistances distances;
-  const Pose camera_from_world = inverse(sensor.world_from_camera);
-  for (const glm::dvec3 &position_m : scene.positions_m) {
-    const glm::dvec3 point_camera = camera_from_world.point(position_m);
-    if (!in_view(point_camera, sensor))
-      continue;
-    ++distances.in_view;
-    distances.min_m = std::fmin(distances.min_m, glm::length(point_camera));
-    distances.max_m = std::fmax(distances.max_m, glm::length(point_camera));
+// By a coarse frame of the reference, which needs no device.
+VisibleRange visible_range(const Setup &setup) {
+  const Sensor &fine = setup.sensors.front();
+  Sensor sensor = coarser(fine, std::max(fine.resolution.x, fine.resolution.y) / view_columns);
+  sensor.samples = 1;
+  const reference::Frame frame = reference::simulate(
+      setup.scene, sensor, monostatic_illuminator(sensor.world_from_camera), setup.backscatter);
+  VisibleRange range;
+  for (const double range_m : frame.range_m) {
+    range.min_m = std::fmin(range.min_m, range_m);
+    range.max_m = std::fmax(range.max_m, range_m);
   }
-  return distances;
+  return range;
 }
 
 Findings findings_of(const Setup &setup) {
@@ -67,16 +62,16 @@ Findings findings_of(const Setup &setup) {
           .image_distance_m = image_distance_m,
           .field_of_view_deg = 2.0 * glm::degrees(glm::atan(half_chip_m / image_distance_m)),
           .footprint_at_1m_m = sensor.pixel_pitch_m / image_distance_m,
-          .vertices = vertex_distances(setup.scene, sensor)};
+          .visible = visible_range(setup)};
 }
 
 // Beyond what loading the setup has warned of already.
 std::vector<std::string> warnings_of(const Findings &findings) {
   std::vector<std::string> warnings;
-  if (findings.vertices.max_m >= findings.ambiguity_m)
-    warnings.push_back(
-        fmt::format("the scene reaches {:.6g} m, beyond the ambiguity range of {:.6g} m: distances wrap",
-                    findings.vertices.max_m, findings.ambiguity_m));
+  if (findings.visible.max_m >= findings.ambiguity_m)
+    warnings.push_back(fmt::format(
+        "what is visible reaches {:.6g} m, beyond the ambiguity range of {:.6g} m: distances wrap",
+        findings.visible.max_m, findings.ambiguity_m));
   return warnings;
 }
 
@@ -90,16 +85,14 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
           {"image_distance_m", findings.image_distance_m},
           {"field_of_view_deg", {findings.field_of_view_deg.x, findings.field_of_view_deg.y}},
           {"pixel_footprint_at_1m_m", {findings.footprint_at_1m_m.x, findings.footprint_at_1m_m.y}},
-          {"vertices_in_view", findings.vertices.in_view},
-          {"vertex_distance_m", {findings.vertices.min_m, findings.vertices.max_m}},
+          {"visible_range_m", {findings.visible.min_m, findings.visible.max_m}},
           {"warnings", warnings}};
 }
 
-std::string vertices_text(const VertexDistances &vertices) {
-  if (vertices.in_view == 0)
-    return "none in view";
-  return fmt::format("{} in view, {:.6g} m to {:.6g} m from the lens", vertices.in_view, vertices.min_m,
-                     vertices.max_m);
+std::string visible_text(const VisibleRange &range) {
+  return std::isnan(range.min_m)
+             ? "nothing"
+             : fmt::format("{:.4g} m to {:.4g} m from the lens", range.min_m, range.max_m);
 }
 
 std::string report_text(const Setup &setup, const Findings &findings) {
@@ -109,7 +102,7 @@ std::string report_text(const Setup &setup, const Findings &findings) {
     text += fmt::format("{:<25}{}\n", name, value);
   };
   add("triangles", fmt::format("{}", findings.triangles));
-  add("vertices", vertices_text(findings.vertices));
+  add("visible", visible_text(findings.visible));
   add("diodes", fmt::format("{}, {:.6g} W/sr together", findings.diodes, findings.intensity_w_sr));
   add("resolution", fmt::format("{} x {}, {} x {} samples a pixel", sensor.resolution.x, sensor.resolution.y,
                                 sensor.samples, sensor.samples));

@@ -44,8 +44,6 @@ OutputSet::OutputSet(fs::path directory)
     : directory_(without_trailing_slash(std::move(directory))), created_(missing_directories(directory_)) {
   std::error_code error;
   fs::create_directories(directory_, error);
-  if (!error && !fs::is_directory(directory_, error) && !error)
-    error = std::make_error_code(std::errc::not_a_directory);
   if (!error && ::access(directory_.c_str(), W_OK | X_OK) != 0)
     error = std::error_code(errno, std::generic_category());
   if (error) {

@@ -66,7 +66,7 @@ TEST_CASE("the setup that the others are made from works") {
 TEST_CASE("setups that do not exist or are no JSON") {
   const Workspace work;
   check_refused(work, work / "missing.json", 3, {"missing.json", "no such file"});
-  check_refused(work, work.path().string(), 3, {"regular file"});
+  check_refused(work, work.path().string(), 3, {"is a directory"});
   check_refused(work, work.write("broken.json", "{\n\"scene\": \"a.gltf\",\n\"sensors\": [}\n}"), 3,
                 {"broken.json:3"});
   check_refused(work, work.write("empty.json", ""), 3, {"empty.json"});
@@ -89,7 +89,7 @@ TEST_CASE("values out of range") {
   check_setup_refused("0.0018,", "0.0018, \"focus_distance_m\": 0.001,",
                       {"/sensors/0/focus_distance_m", "focal"});
   check_setup_refused("[20e6]", "[0]", {"/sensors/0/modulation_hz"});
-  check_setup_refused("[20e6]", "[NaN]", {"setup.json:", "NaN"});
+  check_setup_refused("[20e6]", "[NaN]", {"setup.json:10:23"});
   check_setup_refused("[20e6]", "[1e999]", {"setup.json:"});
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("diode files") {
                        {"diodes.csv", "intensity_w_sr"});
   check_diodes_refused(std::string(diode_header) + "0,0,0,0,0,1,1,isotropic\n0,near,0,0,0,1,1,3\n",
                        {"diodes.csv:3", "y_m", "near"});
-  check_diodes_refused(diode_header, {"diodes.csv", "row"});
+  check_diodes_refused(diode_header, {"diodes.csv:2", "at least one diode"});
   check_diodes_refused(std::string(diode_header) + "0,0,0,0,0,0,1,3\n", {"diodes.csv:2", "axis"});
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("buffers outside the scene's folder, or that are no files") {
   std::filesystem::create_symlink("../outside.bin", work / "inside/link.bin");
   refuse_uri("link.bin", {"scene.gltf", "/buffers/0"});
   std::filesystem::create_directory(work / "inside/folder");
-  refuse_uri("folder", {"scene.gltf", "/buffers/0", "regular file"});
+  refuse_uri("folder", {"scene.gltf", "/buffers/0", "is a directory"});
   REQUIRE(::mkfifo((work / "inside/fifo").c_str(), 0600) == 0);
   refuse_uri("fifo", {"scene.gltf", "/buffers/0", "regular file"});
 }

@@ -69,15 +69,17 @@ TEST_CASE("the manifest lets anyone turn distances into points") {
   std::ifstream in(work / "out/manifest.json");
   const json manifest = json::parse(in);
   CHECK(manifest["setup"]["sensors"][0]["samples"] == 1); // a default, filled in
-  const json &frame = manifest["frames"].at(0);
-  CHECK(frame["intrinsics"]["fx"].get<double>() == Approx(0.0018 / 45e-6));
-  CHECK(frame["intrinsics"]["cx"].get<double>() == Approx(3.5));
-  CHECK(frame["world_from_camera"].size() == 4);
+  const json &camera = manifest["frames"].at(0)["camera"];
+  CHECK(camera["fx"].get<double>() == Approx(0.0018 / 45e-6));
+  CHECK(camera["cx"].get<double>() == Approx(3.5));
+  CHECK(camera["world_from_camera"].size() == 4);
 }
 
 TEST_CASE("check needs no device and says what follows from a setup") {
   const json report = run_json({"check", scene("paper_ring.json"), "--json"});
-  CHECK(report["sensors"][0]["ambiguity_m"].get<double>() == Approx(299792458.0 / 40e6));
+  CHECK(report["ambiguity_m"].get<double>() == Approx(299792458.0 / 40e6));
+  CHECK(report["visible_range_m"][0].get<double>() == Approx(2.0).margin(1e-3));
+  CHECK(report["visible_range_m"][1].get<double>() == Approx(2.02).margin(2e-3)); // the corners, sqrt(4.08) m
   const Run run = run_pmdsim({"check", scene("room.json")});
   CHECK(run.exit_code == 0);
   CHECK(run.output.find("240") != std::string::npos);
@@ -96,7 +98,7 @@ TEST_CASE("every setup in scenes/ is valid") {
       const Run run = run_pmdsim({"check", entry.path().string()});
       INFO(entry.path() << ": " << run.errors);
       CHECK(run.exit_code == 0);
-      CHECK(run.errors.empty());
+      CHECK((run.errors.empty() || run.errors.ends_with("distances wrap\n"))); // some shall show just that
       ++setups;
     }
   CHECK(setups >= 4);

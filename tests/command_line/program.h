@@ -17,9 +17,9 @@ struct Run {
 };
 
 struct RunOptions {
-  std::map<std::string, std::string> environment; // beside the test's own
-  std::filesystem::path directory = ".";          // the process's working directory
-  int interrupt_after_ms = 0;                     // SIGINT then; 0: never
+  std::map<std::string, std::string> environment{}; // beside the test's own
+  std::filesystem::path directory = ".";            // the process's working directory
+  int interrupt_after_ms = 0;                       // SIGINT then; 0: never
 };
 
 // Ends the program after a minute: a hang is an exit code of 128 + SIGALRM.

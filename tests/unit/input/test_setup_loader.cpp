@@ -119,6 +119,14 @@ TEST_CASE("Active angles count modulo 360, both ends included") {
   CHECK(active_of_48({3.76, 11.25}) == 1);
 }
 
+TEST_CASE("An end that is written with ten digits is included") {
+  SetupFixture fixture;
+  // The first of seven diodes is at 25.714285714285715 degrees.
+  fixture.illuminator()["diodes"]["rings"] = {
+      {{"radius_m", 0.1}, {"count", 7}, {"active_deg", {25.7142857143, 40}}}};
+  CHECK(diodes_of(fixture.load()).size() == 1);
+}
+
 TEST_CASE("The half ring shines on the right") {
   SetupFixture fixture;
   fixture.illuminator()["diodes"]["rings"][0]["active_deg"] = {-90, 90};

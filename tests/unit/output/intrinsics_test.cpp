@@ -35,8 +35,8 @@ TEST_CASE("a point on a pixel's ray projects onto that pixel") {
 
 TEST_CASE("the manifest's camera takes distances to points of the world") {
   Sensor sensor = small_sensor();
-  // Looks along the world's +x with its y down: camera x is world z.
-  sensor.world_from_camera = {glm::dmat3(0, 0, 1, 0, -1, 0, 1, 0, 0), {10, 20, 30}};
+  // Camera x is the world's z, camera y its x, camera z its y.
+  sensor.world_from_camera = {glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0), {10, 20, 30}};
   const auto camera = camera_json(sensor);
   const auto matrix = [&](std::size_t row, std::size_t column) {
     return camera["camera_matrix"][row][column].get<double>();
@@ -50,8 +50,8 @@ TEST_CASE("the manifest's camera takes distances to points of the world") {
       point_world[static_cast<int>(row)] +=
           camera["world_from_camera"][row][column].get<double>() * point_camera[static_cast<int>(column)];
   const glm::dvec3 direction = glm::normalize(glm::dvec3(1.5e-3, 1e-3, 1.0 / 9.0));
-  CHECK(point_world.x == Approx(10 + 2.0 * direction.z));
-  CHECK(point_world.y == Approx(20 - 2.0 * direction.y));
+  CHECK(point_world.x == Approx(10 + 2.0 * direction.y));
+  CHECK(point_world.y == Approx(20 + 2.0 * direction.z));
   CHECK(point_world.z == Approx(30 + 2.0 * direction.x));
   CHECK(point_world.w == 1.0);
 }

@@ -153,6 +153,22 @@ TEST_CASE("rays through shared edges and vertices always hit") {
   CHECK(misses == 0);
 }
 
+TEST_CASE("rays a nanometre beside an edge hit the triangle on that side") {
+  Random random(9);
+  const auto triangles = triangles_of(bumpy_sheet(random, 20));
+  const RayCaster caster(triangles);
+  int wrong = 0;
+  for (std::uint32_t id = 0; id < triangles.size(); ++id)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &corners_m = triangles[id].corners_m;
+      const glm::dvec3 on_edge = glm::mix(corners_m[i], corners_m[(i + 1) % 3], random.uniform(0.1, 0.9));
+      const glm::dvec3 beside_edge = glm::mix(on_edge, corners_m[(i + 2) % 3], 1e-8);
+      const auto hit = caster.nearest(glm::normalize(beside_edge));
+      wrong += !hit || hit->triangle != id;
+    }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("pixels whose rays run along a wall's diagonal are covered") {
   SceneBuilder builder;
   builder.add_wall({2, {}, {-1, -1}, {1, 1}});
@@ -175,7 +191,7 @@ TEST_CASE("a culled back face is invisible and hides nothing") {
 
 TEST_CASE("what lies behind the lens is not seen, however near") {
   SceneBuilder builder;
-  builder.add_triangle({-5, -5, -0.1}, {-5, 5, -0.1}, {5, 5, -0.1}, {1.0, true});
+  builder.add_triangle({-5, -5, -3}, {-5, 5, -3}, {5, 0, 1}, {1.0, true}); // reaches in front of the lens
   builder.add_wall({2});
   builder.add_triangle({-1e-3, -1e-3, 1e-4}, {-1e-3, 1e-3, 1e-4}, {1e-3, 1e-3, 1e-4});
   const RayCaster caster(triangles_of(builder.scene()));

@@ -1,0 +1,14 @@
+#include "host/commands/coarser_sensor.h"
+
+namespace pmdsim {
+
+Sensor coarser(Sensor sensor, double factor) {
+  if (factor <= 1.0)
+    return sensor;
+  const glm::uvec2 resolution = glm::max(glm::uvec2(glm::dvec2(sensor.resolution) / factor), glm::uvec2(1));
+  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(resolution);
+  sensor.resolution = resolution;
+  return sensor;
+}
+
+} // namespace pmdsim
