@@ -118,7 +118,8 @@ void Simulator::State::resolve(const PlannedStrip &planned) {
   recorder.end_pass("read_back");
 }
 
-void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement) {
+void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress,
+                                     Measurement &measurement) {
   recorder.begin();
   see(planned);
   sum(planned, progress);

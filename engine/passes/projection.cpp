@@ -116,14 +116,16 @@ void project_block(const CameraScene &camera, const Optics &optics, std::uint32_
   Polygon polygon, scratch;
   block.first_vertex = static_cast<std::uint32_t>(projection.vertices.size());
   for (std::size_t i = 0; i < camera.triangles.size(); ++i) {
-    const auto &[corners_m, id] = camera.triangles[i];
-    polygon.assign(corners_m.begin(), corners_m.end());
+    const CameraTriangle &triangle = camera.triangles[i];
+    polygon.assign(triangle.corners_m.begin(), triangle.corners_m.end());
     for (const HalfSpace &half_space : frustum)
       clip(polygon, scratch, half_space);
     if (polygon.size() < 3)
       continue;
     boxes.add(i, polygon);
-    const auto vertex = [&](std::size_t k) { return raster_vertex(polygon[k], optics, first_sample, id); };
+    const auto vertex = [&](std::size_t k) {
+      return raster_vertex(polygon[k], optics, first_sample, triangle.id);
+    };
     for (std::size_t k = 2; k < polygon.size(); ++k)
       projection.vertices.insert(projection.vertices.end(), {vertex(0), vertex(k - 1), vertex(k)});
   }

@@ -20,15 +20,15 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
 
 void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
                             std::vector<std::uint32_t> &to) {
-  const std::size_t columns = std::size_t{strip.columns} * strip.samples,
-                    rows = std::size_t{strip.rows} * strip.samples;
-  const std::size_t frame_columns = std::size_t{strip.resolution_x} * strip.samples;
+  const std::size_t samples = strip.samples;
+  const std::size_t columns = strip.columns * samples, rows = strip.rows * samples;
+  const std::size_t frame_columns = strip.resolution_x * samples;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {
       shader::uvec2 tag;
       std::memcpy(&tag, from + (row * columns + column) * sizeof(tag), sizeof(tag));
-      to[(std::size_t{strip.row} * strip.samples + row) * frame_columns + strip.column * strip.samples +
-         column] = tag.x != 0 ? tag.y : no_id;
+      to[(strip.row * samples + row) * frame_columns + strip.column * samples + column] =
+          tag.x != 0 ? tag.y : no_id;
     }
 }
 

@@ -98,7 +98,7 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
             vk::ImageAspectFlagBits::eColor),
       depth_(device, largest_extent(strips), depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
              vk::ImageAspectFlagBits::eDepth),
-      half_viewport_(static_cast<float>(std::bit_floor(device.limits().viewport_samples) / 2)),
+      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
       layout_(make_layout(device)), pipeline_(make_pipeline(device, layout_, half_viewport_)) {}
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,

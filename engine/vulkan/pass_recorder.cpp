@@ -14,7 +14,8 @@ constexpr auto when_all_is_done = vk::PipelineStageFlagBits2::eAllCommands;
 
 PassRecorder::PassRecorder(const Device &device)
     : device_(&device), commands_(device), pool_(checked([&] {
-        return vk::raii::QueryPool(device.get(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, capacity));
+        return vk::raii::QueryPool(device.get(),
+                                   vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, capacity));
       })) {}
 
 void PassRecorder::begin() {

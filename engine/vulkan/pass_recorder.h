@@ -12,8 +12,9 @@
 
 namespace pmdsim::vulkan {
 
-// On GPUs the passes of one submission are told apart by timestamps. A CPU device (lavapipe) takes its timestamps when
-// the rasteriser is flushed, not when compute work ends: there every pass is a submission of its own, by the clock.
+// On GPUs the passes of one submission are told apart by timestamps. A CPU device (lavapipe) takes its
+// timestamps when the rasteriser is flushed, not when compute work ends: there every pass is a submission of
+// its own, by the clock.
 class PassRecorder {
 public:
   explicit PassRecorder(const Device &device);

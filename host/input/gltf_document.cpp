@@ -74,8 +74,9 @@ void refuse_other_versions(const json &document, const Place &root) {
     throw input_error(root / "asset" / "version", "expected \"2.0\", found " + in_quotes(version));
   const json required = document.value("extensionsRequired", json::array());
   if (!required.empty())
-    throw input_error(root / "extensionsRequired" / 0,
-                      fmt::format("extension {} is not supported", in_quotes(required[0].get<std::string>())));
+    throw input_error(
+        root / "extensionsRequired" / 0,
+        fmt::format("extension {} is not supported", in_quotes(required[0].get<std::string>())));
 }
 
 } // namespace

@@ -61,10 +61,12 @@ Pose at_node(const std::string &name, const Place &place, const GltfScene &scene
   if (node == scene.nodes.end())
     throw input_error(place, fmt::format("no node {} in {}", in_quotes(name), scene.file.string()));
   if (std::find_if(std::next(node), scene.nodes.end(), is_named) != scene.nodes.end())
-    throw input_error(place, fmt::format("more than one node {} in {}", in_quotes(name), scene.file.string()));
+    throw input_error(place,
+                      fmt::format("more than one node {} in {}", in_quotes(name), scene.file.string()));
   const auto rotation = rotation_of(node->world_from_node.linear);
   if (!rotation)
-    throw input_error(place, fmt::format("the transform of node {} is mirrored or singular", in_quotes(name)));
+    throw input_error(place,
+                      fmt::format("the transform of node {} is mirrored or singular", in_quotes(name)));
   return compose({*rotation, node->world_from_node.translation_m}, node_from_camera());
 }
 

@@ -53,8 +53,9 @@ Axis make_axis(const Range &range, int max_ticks) {
   const Step step = round_step(range, max_ticks);
   Axis axis{range, left_out_exponent(range), {}};
   const auto [first, last] = tick_numbers(range, step.value());
-  for (double number = first; number <= last; ++number) {
-    const double value = number * step.value() + 0.0; // + 0.0: no "-0"
+  const int count = static_cast<int>(last - first) + 1;
+  for (int tick = 0; tick < count; ++tick) {
+    const double value = (first + tick) * step.value() + 0.0; // + 0.0: no "-0"
     const double shown = value / std::pow(10.0, axis.exponent);
     std::string label = fmt::format("{:.{}f}", shown, decimals(step, axis.exponent));
     if (label.front() == '-')

@@ -34,14 +34,14 @@ void remove_if_empty(const std::vector<fs::path> &directories) {
 }
 
 // A trailing slash would make parent_path() name the same directory again.
-fs::path without_trailing_slash(fs::path path) {
+fs::path without_trailing_slash(const fs::path &path) {
   return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
 }
 
 } // namespace
 
-OutputSet::OutputSet(fs::path directory)
-    : directory_(without_trailing_slash(std::move(directory))), created_(missing_directories(directory_)) {
+OutputSet::OutputSet(const fs::path &directory)
+    : directory_(without_trailing_slash(directory)), created_(missing_directories(directory_)) {
   std::error_code error;
   fs::create_directories(directory_, error);
   if (!error && ::access(directory_.c_str(), W_OK | X_OK) != 0)

@@ -15,7 +15,7 @@ class OutputSet {
 public:
   // Creates the directory and its parents. Throws Error (output) where that fails or nothing can be written
   // there.
-  explicit OutputSet(std::filesystem::path directory);
+  explicit OutputSet(const std::filesystem::path &directory);
   // Unpublished: removes the temporaries and those directories that the constructor made.
   ~OutputSet();
   OutputSet(const OutputSet &) = delete;

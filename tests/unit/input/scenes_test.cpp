@@ -30,6 +30,7 @@ TEST_CASE("Every setup that ships loads without a warning") {
       {"analytic/cancel.json", {4, 1}},
   };
   const std::filesystem::path folder = PMDSIM_SCENES;
+  std::size_t found = 0;
   for (const auto &entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".json")
       continue;
@@ -40,7 +41,9 @@ TEST_CASE("Every setup that ships loads without a warning") {
     CHECK(setup.scene.triangles.size() == expected.at(name).triangles);
     CHECK(setup.illuminators.at(0).diodes.size() == expected.at(name).diodes);
     CHECK(setup.warnings.empty());
+    ++found;
   }
+  CHECK(found == expected.size());
 }
 
 TEST_CASE("The room's camera looks down at what stands in it") {

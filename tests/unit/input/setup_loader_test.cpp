@@ -11,7 +11,8 @@ namespace {
 
 double distance(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::length(a - b); }
 
-const std::vector<Diode> &diodes_of(const Setup &setup) { return setup.illuminators.at(0).diodes; }
+// By value: a loop over it outlives a setup that is only a temporary.
+std::vector<Diode> diodes_of(const Setup &setup) { return setup.illuminators.at(0).diodes; }
 
 std::size_t active_of_48(const json &active_deg) {
   SetupFixture fixture;
@@ -130,7 +131,9 @@ TEST_CASE("An end that is written with ten digits is included") {
 TEST_CASE("The half ring shines on the right") {
   SetupFixture fixture;
   fixture.illuminator()["diodes"]["rings"][0]["active_deg"] = {-90, 90};
-  for (const Diode &diode : diodes_of(fixture.load()))
+  const Setup setup = fixture.load();
+  CHECK(diodes_of(setup).size() == 4);
+  for (const Diode &diode : diodes_of(setup))
     CHECK(diode.position_m.x > 0);
 }
 
