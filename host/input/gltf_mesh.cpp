@@ -57,12 +57,6 @@ std::vector<glm::dvec3> world_positions(const std::vector<glm::vec3> &positions,
   return world;
 }
 
-bool has_area(const std::vector<glm::dvec3> &positions, const std::array<std::uint32_t, 3> &vertices) {
-  const glm::dvec3 &a = positions[vertices[0]];
-  const glm::dvec3 normal = glm::cross(positions[vertices[1]] - a, positions[vertices[2]] - a);
-  return glm::dot(normal, normal) > 0.0;
-}
-
 } // namespace
 
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
@@ -89,12 +83,8 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
        triangle_corners(primitive.mode, static_cast<std::uint32_t>(indices.size()), place)) {
     if (mirrored)
       std::swap(corners[1], corners[2]);
-    const Corners vertices{indices[corners[0]], indices[corners[1]], indices[corners[2]]};
-    if (has_area(world, vertices))
-      scene.triangles.push_back(
-          {{first_vertex + vertices[0], first_vertex + vertices[1], first_vertex + vertices[2]},
-           surface,
-           object});
+    const auto vertex = [&](std::size_t k) { return first_vertex + indices[corners[k]]; };
+    scene.triangles.push_back({{vertex(0), vertex(1), vertex(2)}, surface, object});
   }
   scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());
 }

@@ -53,10 +53,10 @@ TEST_CASE("A strip's triangles all show the same side") {
     CHECK(normal_of(scene, triangle).z == Approx(-1.0));
 }
 
-TEST_CASE("Triangles without an area are left out") {
+TEST_CASE("Triangles without an area stay, so that ids count what the file holds") {
   // Two triangles, stitched by repeated vertices.
-  CHECK(vertices_of(load(document(zigzag, {0, 1, 2, 2, 2, 3, 4}, 5))) == Ids{{0, 1, 2}, {2, 3, 4}});
-  CHECK(vertices_of(load(document(zigzag, {0, 0, 1, 0, 1, 2}, 4))) == Ids{{0, 1, 2}});
+  CHECK(vertices_of(load(document(zigzag, {0, 1, 2, 2, 2, 3, 4}, 5))).size() == 5);
+  CHECK(vertices_of(load(document(zigzag, {0, 0, 1, 0, 1, 2}, 4))) == Ids{{0, 0, 1}, {0, 1, 2}});
 }
 
 TEST_CASE("Indices of 8, 16 and 32 bit") {
