@@ -84,7 +84,8 @@ lint() {
   find "${folders[@]}" -name '*.cpp' -o -name '*.h' | xargs clang-format --dry-run -Werror
   mapfile -t sources < <(find "$root/engine" "$root/host" -name '*.cpp' | sort)
   say "clang-tidy over ${#sources[@]} files"
-  printf '%s\0' "${sources[@]}" | xargs -0 -n 2 -P "$(nproc)" clang-tidy -p "$build" --quiet
+  printf '%s\0' "${sources[@]}" | xargs -0 -n 2 -P "$(nproc)" clang-tidy -p "$build" --quiet \
+    2> >(grep -v ' warnings generated' >&2)
 }
 
 command=${1:-}

@@ -104,8 +104,9 @@ std::uint32_t blocks_for(std::size_t diodes) {
 
 std::uint32_t moments_needed(double phase_rad) {
   std::uint32_t k = 1;
-  for (double term = phase_rad; term > remainder; term *= phase_rad / k)
-    ++k;
+  double term = phase_rad; // (kappa e)^k / k!
+  while (term > remainder)
+    term *= phase_rad / ++k;
   return k;
 }
 

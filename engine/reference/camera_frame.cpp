@@ -12,7 +12,7 @@ glm::dvec3 point_in_camera(const glm::dvec3 &position_world_m, const Pose &world
 
 double sample_position_m(std::uint32_t sample, std::uint32_t samples_per_pixel, std::uint32_t pixels,
                          double pitch_m) {
-  const double pixel = sample / samples_per_pixel;
+  const std::uint32_t pixel = sample / samples_per_pixel;
   const double k = sample % samples_per_pixel;
   const double from_pixel_centre = (k + 0.5) / samples_per_pixel - 0.5;
   return (pixel + 0.5 - 0.5 * pixels + from_pixel_centre) * pitch_m;

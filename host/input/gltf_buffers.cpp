@@ -45,7 +45,7 @@ fs::path file_in_folder(const std::string &uri, const fs::path &folder, const Pl
     throw input_error(place, "expected a percent-encoded relative path, found " + in_quotes(uri));
   std::error_code unresolved;
   const fs::path inside = fs::weakly_canonical(folder, unresolved);
-  const fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
+  fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);
   if (unresolved)
     throw input_error(place, fmt::format("{}: {}", in_quotes(uri), unresolved.message()));
   if (fs::path(*name).is_absolute() || !lies_inside(inside, file))

@@ -1,7 +1,7 @@
 #include "host/input/regular_file.h"
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -27,7 +27,7 @@ private:
 };
 
 std::string reason(int error) {
-  return error == ENOENT ? "no such file" : fmt::format("cannot be read ({})", std::strerror(error));
+  return error == ENOENT ? "no such file" : fmt::format("cannot be read ({})", std::generic_category().message(error));
 }
 
 std::string read_all(int descriptor, std::size_t size_bytes) {

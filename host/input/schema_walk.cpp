@@ -18,7 +18,7 @@ bool has_type(const json &value, const std::string &type) {
 }
 
 std::string number_expectation(const json &schema) {
-  const std::string noun = schema.at("type") == "integer" ? "an integer" : "a number";
+  std::string noun = schema.at("type") == "integer" ? "an integer" : "a number";
   if (schema.contains("minimum") && schema.contains("maximum"))
     return fmt::format("{} from {} to {}", noun, schema.at("minimum").dump(), schema.at("maximum").dump());
   if (schema.contains("minimum"))
