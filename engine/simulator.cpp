@@ -23,7 +23,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::uint32_t default_strip_samples = 1u << 21;
+constexpr std::uint32_t default_strip_samples = 1u << 20;
 // One submission's work at most, so that a frame can be stopped and shows its progress.
 constexpr std::uint64_t interactions_per_submission = 2'000'000'000;
 
@@ -60,7 +60,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto planes = triangle_planes(camera, scene, backscatter);
   return {sensor,
           strips,
-          vulkan::upload(device, std::as_bytes(std::span(planes)), vk::BufferUsageFlagBits::eStorageBuffer),
+          vulkan::upload(device, std::as_bytes(std::span(planes))),
           make_strip_buffers(device, strips, options.keep_sample_triangles),
           VisibilityPass(device, projection, strips),
           PointsPass(device, sensor, options.precision),
@@ -75,9 +75,10 @@ struct Simulator::State {
       : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device) {}
 
+  void warm_up();
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
   void see(const PlannedStrip &planned);
-  void sum(const PlannedStrip &planned, const Progress &progress);
+  void sum(const PlannedStrip &planned, std::uint32_t runs, const Progress &progress);
   void resolve(const PlannedStrip &planned);
 
   SimulatorOptions options;
@@ -95,8 +96,7 @@ void Simulator::State::see(const PlannedStrip &planned) {
   recorder.end_pass("points");
 }
 
-void Simulator::State::sum(const PlannedStrip &planned, const Progress &progress) {
-  const std::uint32_t runs = prepared->accumulate.runs();
+void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t runs, const Progress &progress) {
   const auto per_submission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
       interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
   for (std::uint32_t first = 0; first < runs; first += per_submission) {
@@ -118,11 +118,23 @@ void Simulator::State::resolve(const PlannedStrip &planned) {
   recorder.end_pass("read_back");
 }
 
+// lavapipe compiles a shader at its first dispatch: every pass runs once, over a single pixel.
+void Simulator::State::warm_up() {
+  PlannedStrip pixel = prepared->strips.front();
+  pixel.strip.columns = pixel.strip.rows = 1;
+  pixel.strip.padded_pixels = padded(1);
+  recorder.begin();
+  see(pixel);
+  sum(pixel, 1, {});
+  resolve(pixel);
+  recorder.finish();
+}
+
 void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress,
                                      Measurement &measurement) {
   recorder.begin();
   see(planned);
-  sum(planned, progress);
+  sum(planned, prepared->accumulate.runs(), progress);
   resolve(planned);
   recorder.finish();
   store_strip(planned.strip, prepared->buffers, measurement);
@@ -143,6 +155,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor, const Illumina
   state_->prepared.reset(); // its memory first
   state_->prepared.emplace(
       prepare_passes(state_->device, state_->options, scene, sensor, illuminator, backscatter));
+  state_->warm_up();
 }
 
 Measurement Simulator::measure(const Progress &progress) {

@@ -17,7 +17,7 @@ struct Options {
   std::filesystem::path setup;            // all but devices
   std::filesystem::path output_directory; // render and deform; filled in where -o is absent
   std::set<Format> formats;               // render and deform
-  std::string device;                     // as SimulatorOptions::device, or "reference"
+  std::string device;                     // as SimulatorOptions::device, or "reference" in any case
   std::optional<std::uint32_t> samples;   // S, instead of the setup's
   bool json = false;
 };

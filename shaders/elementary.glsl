@@ -52,6 +52,7 @@ float log_of(float x, float s) {
 
 // e^x for x <= 0; 0 below 2^-126.
 float exp_of(float x) {
+  x = max(x, -128.0); // further down the polynomial would overflow, and infinity times 0 is no number
   float k = max(roundEven(x * 1.44269504), -127.0);
   float f = (x - k * 0.693359375) + k * 2.12194440e-4; // x - k ln 2, ln 2 in two parts (Cody and Waite)
   float p = 1.0 + f * (1.0 + f * (0.5 + f * (0.1666641551 + f * (0.0416663529 + f * (0.008375126398 +

@@ -79,10 +79,9 @@ struct VisibilityConstants {
   Strip strip;
 };
 
-// Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; pixel id is row * resolution_x +
-// column
-// + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) *
-// padded_pixels + p.
+// Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; the pixel id is
+// row * resolution_x + column + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is stored at
+// (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
   vec4 slope;        // half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
@@ -115,12 +114,12 @@ struct ResolveConstants {
   uvec2 sum;
   uvec2 tags;
   uvec2 planes;
-  uvec2 channels;       // out: the channels in this file's order, each padded_pixels values of 32 bits
-  vec4 scale;           // turns per metre of range (2 f / c) hi, lo; amplitude per unit of the mean; unused
-  vec2 phase_limit;     // largest float below 2 pi; unused
-  vec2 ambiguity;       // c / (2 f) hi, lo
-  float distance_limit; // largest float below c / (2 f)
-  uint columns;         // of the strip
+  uvec2 channels;        // out: channel by channel (channel_*), each padded_pixels values of 32 bits
+  vec2 turns_per_m;      // of range, 2 f / c: hi, lo
+  vec2 ambiguity_m;      // c / (2 f): hi, lo
+  vec2 limits;           // the largest floats below 2 pi and below c / (2 f)
+  float amplitude_scale; // amplitude per unit of the mean return
+  uint columns;          // of the strip
   uint samples;
   uint padded_pixels;
   uint pixels; // of the strip
@@ -143,6 +142,7 @@ static_assert(sizeof(GroupDiode) == 48);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(AccumulateConstants) == 88 && offsetof(AccumulateConstants, reference_hi) == 48);
+static_assert(sizeof(ResolveConstants) == 92 && offsetof(ResolveConstants, turns_per_m) == 48);
 } // namespace pmdsim::shader
 #endif
 

@@ -62,15 +62,17 @@ Real square_root(Real a) {
   float s = sqrt(a.x);
   if (s == 0.0)
     return real(0.0);
-  Real r = add(a, negate(two_product(s, s)));
-  return quick_two_sum(s, high(r) / (2.0 * s));
+  // Newton twice: the first step starts from a root that a device may leave 2.5 units wrong.
+  Real root = quick_two_sum(s, high(add(a, negate(two_product(s, s)))) / (2.0 * s));
+  Real left = add(a, negate(multiply(root, root)));
+  return add(root, real(high(left) / (2.0 * s)));
 }
 Real round_to_whole(Real a) {
   float hi = roundEven(a.x);
   return hi == a.x ? quick_two_sum(hi, roundEven(a.y)) : real(hi);
 }
 Real real_clamp(Real a, float low, float up) {
-  if (a.x < low)
+  if (!(a.x >= low)) // not a number counts as too low
     return real(low);
   return a.x > up ? real(up) : a;
 }
@@ -93,7 +95,7 @@ Real square_root(Real a) {
   return s > 0.0lf ? 0.5lf * (s + a / s) : 0.0lf;
 }
 Real round_to_whole(Real a) { return roundEven(a); }
-Real real_clamp(Real a, float low, float up) { return clamp(a, double(low), double(up)); }
+Real real_clamp(Real a, float low, float up) { return a >= double(low) ? min(a, double(up)) : double(low); }
 
 #endif
 

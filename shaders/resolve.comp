@@ -23,7 +23,7 @@ struct PixelSum {
 
 PixelSum sum_samples(uint pixel) {
   PixelSum sum = PixelSum(vec4(0.0), real(0.0), real(0.0), real(0.0), 0u);
-  Real turns_per_m = real(constants.scale.x, constants.scale.y);
+  Real turns_per_m = real(constants.turns_per_m.x, constants.turns_per_m.y);
   uint count = constants.samples * constants.samples;
   for (uint s = 0; s < count; ++s) {
     uint i = s * constants.padded_pixels + pixel;
@@ -51,30 +51,32 @@ void store(uint channel, uint pixel, float value) { store(channel, pixel, floatB
 
 // |z| without overflow or underflow of the squares.
 float magnitude(vec2 z) {
+  if (z == vec2(0.0))
+    return 0.0;
   float larger = max(abs(z.x), abs(z.y));
   vec2 scaled = z / larger;
-  return larger > 0.0 ? larger * sqrt(dot(scaled, scaled)) : 0.0;
+  return larger * sqrt(dot(scaled, scaled));
 }
 
 void store_return(uint pixel, PixelSum sum) {
   vec2 z = compensated_value(sum.z);
-  float amplitude = constants.scale.z * magnitude(z) / float(constants.samples * constants.samples);
+  float amplitude = constants.amplitude_scale * magnitude(z) / float(constants.samples * constants.samples);
   store(channel_amplitude, pixel, amplitude);
   if (amplitude == 0.0) {
     store(channel_phase_rad, pixel, nan());
     store(channel_distance_m, pixel, nan());
     return;
   }
-  Real turns = multiply(sum.reference_m, real(constants.scale.x, constants.scale.y));
+  Real turns = multiply(sum.reference_m, real(constants.turns_per_m.x, constants.turns_per_m.y));
   turns = add(turns, negate(round_to_whole(turns)));
   turns = add(turns, real(angle_turns(z)));
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
   Real two_pi = real(6.2831855, -1.7484555e-7);
   // Rounding to float must not reach the end of the half-open interval.
-  store(channel_phase_rad, pixel, clamp(high(multiply(turns, two_pi)), 0.0, constants.phase_limit.x));
-  Real distance = multiply(turns, real(constants.ambiguity.x, constants.ambiguity.y));
-  store(channel_distance_m, pixel, clamp(high(distance), 0.0, constants.distance_limit));
+  store(channel_phase_rad, pixel, clamp(high(multiply(turns, two_pi)), 0.0, constants.limits.x));
+  Real distance = multiply(turns, real(constants.ambiguity_m.x, constants.ambiguity_m.y));
+  store(channel_distance_m, pixel, clamp(high(distance), 0.0, constants.limits.y));
 }
 
 void store_ground_truth(uint pixel, PixelSum sum) {

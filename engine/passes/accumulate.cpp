@@ -51,8 +51,7 @@ SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bo
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                                double modulation_hz, const SimulatorOptions &options)
     : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), modulation_hz_(modulation_hz),
-      diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)),
-                             vk::BufferUsageFlagBits::eStorageBuffer)),
+      diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
       pipeline_(device, accumulate_spirv(device, options), sizeof(shader::AccumulateConstants),
                 {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run}) {}
 

@@ -11,6 +11,8 @@ namespace {
 constexpr double largest_phase_rad = 0.5;         // of a group's radius: 8 moments at most
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 constexpr std::uint32_t largest_run_blocks = 16;
+// What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
+constexpr std::uint64_t run_overhead_blocks = 4;
 constexpr double remainder = 0x1p-26;
 
 struct Box {
@@ -100,6 +102,21 @@ std::uint32_t blocks_for(std::size_t diodes) {
   return static_cast<std::uint32_t>((diodes + shader::diodes_per_block - 1) / shader::diodes_per_block);
 }
 
+// All runs have the same length, so short groups are padded and long ones cut: the length that costs least.
+std::uint32_t cheapest_run_blocks(const std::vector<std::uint32_t> &group_blocks) {
+  const auto cost = [&](std::uint32_t run_blocks) {
+    std::uint64_t runs = 0;
+    for (const std::uint32_t blocks : group_blocks)
+      runs += (blocks + run_blocks - 1) / run_blocks;
+    return runs * (run_blocks + run_overhead_blocks);
+  };
+  std::uint32_t cheapest = 1;
+  for (std::uint32_t run_blocks = 2; run_blocks <= largest_run_blocks; ++run_blocks)
+    if (cost(run_blocks) < cost(cheapest))
+      cheapest = run_blocks;
+  return cheapest;
+}
+
 } // namespace
 
 std::uint32_t moments_needed(double phase_rad) {
@@ -117,14 +134,13 @@ DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<Vis
   grouping.split(ordered);
 
   DiodeGroups result;
-  std::uint32_t most_blocks = 1;
+  std::vector<std::uint32_t> group_blocks;
   double radius_m = 0.0;
   for (const auto &[group, members] : grouping.groups()) {
-    most_blocks = std::max(most_blocks, blocks_for(members.size()));
+    group_blocks.push_back(blocks_for(members.size()));
     radius_m = std::max(radius_m, group.radius_m);
   }
-  const std::uint32_t runs_of_largest = (most_blocks + largest_run_blocks - 1) / largest_run_blocks;
-  result.blocks_per_run = (most_blocks + runs_of_largest - 1) / runs_of_largest;
+  result.blocks_per_run = cheapest_run_blocks(group_blocks);
   result.moments = moments_needed(wavenumber_rad_m * radius_m);
   for (const Diode &diode : diodes)
     result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);

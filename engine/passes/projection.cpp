@@ -75,28 +75,31 @@ void clip(Polygon &polygon, Polygon &scratch, const HalfSpace &half_space) {
   std::swap(polygon, scratch);
 }
 
-// Grows the boxes of consecutive triangles; how many share one follows from how many there are.
+// Boxes around what is visible of consecutive triangles; how many share one follows from how many there are.
 class BoxBuilder {
 public:
-  BoxBuilder(std::vector<VisibleBox> &boxes, std::size_t triangles)
-      : boxes_(boxes), triangles_per_box_(std::max<std::size_t>(1, triangles / boxes_at_most)) {}
+  explicit BoxBuilder(std::size_t triangles)
+      : triangles_per_box_(triangles / boxes_at_most + 1),
+        boxes_(triangles / triangles_per_box_ + 1, {glm::dvec3(infinity), glm::dvec3(-infinity)}) {}
 
   void add(std::size_t triangle, const Polygon &polygon) {
-    const std::size_t box = triangle / triangles_per_box_;
-    if (box != open_box_) {
-      boxes_.push_back({polygon.front(), polygon.front()});
-      open_box_ = box;
-    }
+    VisibleBox &box = boxes_[triangle / triangles_per_box_];
     for (const glm::dvec3 &p : polygon) {
-      boxes_.back().low_m = glm::min(boxes_.back().low_m, p);
-      boxes_.back().high_m = glm::max(boxes_.back().high_m, p);
+      box.low_m = glm::min(box.low_m, p);
+      box.high_m = glm::max(box.high_m, p);
     }
   }
 
+  std::vector<VisibleBox> take() {
+    std::erase_if(boxes_, [](const VisibleBox &box) { return box.low_m.x > box.high_m.x; });
+    return std::move(boxes_);
+  }
+
 private:
-  std::vector<VisibleBox> &boxes_;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   std::size_t triangles_per_box_;
-  std::size_t open_box_ = std::numeric_limits<std::size_t>::max();
+  std::vector<VisibleBox> boxes_; // low above high: nothing visible
 };
 
 shader::RasterVertex raster_vertex(const glm::dvec3 &p, const Optics &optics, const glm::dvec2 &first_sample,
@@ -108,18 +111,17 @@ shader::RasterVertex raster_vertex(const glm::dvec3 &p, const Optics &optics, co
 }
 
 void project_block(const CameraScene &camera, const Optics &optics, std::uint32_t samples, RasterBlock &block,
-                   Projection &projection) {
+                   Projection &projection, BoxBuilder &boxes) {
   const glm::dvec2 first_sample = glm::dvec2(block.first_pixel * samples);
   const Frustum frustum =
       frustum_of(optics, first_sample, glm::dvec2((block.first_pixel + block.pixels) * samples));
-  BoxBuilder boxes(projection.visible, camera.triangles.size());
   Polygon polygon, scratch;
   block.first_vertex = static_cast<std::uint32_t>(projection.vertices.size());
   for (std::size_t i = 0; i < camera.triangles.size(); ++i) {
     const CameraTriangle &triangle = camera.triangles[i];
     polygon.assign(triangle.corners_m.begin(), triangle.corners_m.end());
-    for (const HalfSpace &half_space : frustum)
-      clip(polygon, scratch, half_space);
+    for (std::size_t side = 0; side < frustum.size() && !polygon.empty(); ++side)
+      clip(polygon, scratch, frustum[side]);
     if (polygon.size() < 3)
       continue;
     boxes.add(i, polygon);
@@ -132,13 +134,16 @@ void project_block(const CameraScene &camera, const Optics &optics, std::uint32_
   block.vertex_count = static_cast<std::uint32_t>(projection.vertices.size()) - block.first_vertex;
 }
 
+// Into blocks as even as can be: a strip's image is as wide as the widest and as high as the highest of them.
 std::vector<RasterBlock> cut_into_blocks(const Sensor &sensor, std::uint32_t block_samples) {
-  const std::uint32_t block_pixels = block_samples / sensor.samples;
+  const glm::uvec2 largest(block_samples / sensor.samples);
+  const glm::uvec2 counts = (sensor.resolution + largest - 1u) / largest;
+  const glm::uvec2 size = (sensor.resolution + counts - 1u) / counts;
   std::vector<RasterBlock> blocks;
-  for (std::uint32_t row = 0; row < sensor.resolution.y; row += block_pixels)
-    for (std::uint32_t column = 0; column < sensor.resolution.x; column += block_pixels) {
+  for (std::uint32_t row = 0; row < sensor.resolution.y; row += size.y)
+    for (std::uint32_t column = 0; column < sensor.resolution.x; column += size.x) {
       const glm::uvec2 first(column, row);
-      blocks.push_back({first, glm::min(glm::uvec2(block_pixels), sensor.resolution - first), 0, 0});
+      blocks.push_back({first, glm::min(size, sensor.resolution - first), 0, 0});
     }
   return blocks;
 }
@@ -158,9 +163,11 @@ Projection project(const CameraScene &camera, const Sensor &sensor, std::uint32_
   const Optics optics = optics_of(sensor);
   Projection projection;
   projection.blocks = cut_into_blocks(sensor, block_samples);
+  BoxBuilder boxes(camera.triangles.size());
   for (RasterBlock &block : projection.blocks)
-    project_block(camera, optics, sensor.samples, block, projection);
+    project_block(camera, optics, sensor.samples, block, projection, boxes);
   scale_depths(projection);
+  projection.visible = boxes.take();
   return projection;
 }
 

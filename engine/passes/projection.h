@@ -19,7 +19,7 @@ struct RasterBlock {
   std::uint32_t vertex_count;
 };
 
-// What is visible at most (nothing hides anything yet) of some consecutive triangles.
+// Holds what is visible of some consecutive triangles, before one hides another.
 struct VisibleBox {
   glm::dvec3 low_m; // camera frame
   glm::dvec3 high_m;
@@ -28,7 +28,7 @@ struct VisibleBox {
 struct Projection {
   std::vector<RasterBlock> blocks; // row-major; together they are the frame
   std::vector<shader::RasterVertex> vertices;
-  std::vector<VisibleBox> visible; // a few at most, whatever the number of triangles
+  std::vector<VisibleBox> visible; // some 1,000 at most, whatever the number of triangles
 };
 
 Projection project(const CameraScene &camera, const Sensor &sensor, std::uint32_t block_samples);

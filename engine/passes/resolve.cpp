@@ -30,20 +30,21 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
                          const StripBuffers &buffers, const vulkan::Buffer &planes) const {
   vulkan::compute_barrier(commands);
   const DoublePair turns_per_m(1.0 / ambiguity_m_), ambiguity(ambiguity_m_);
-  const shader::ResolveConstants constants{words(buffers.position_hi.address()),
-                                           words(buffers.position_lo.address()),
-                                           words(buffers.sum.address()),
-                                           words(buffers.tags.address()),
-                                           words(planes.address()),
-                                           words(buffers.channels.address()),
-                                           {turns_per_m.hi, turns_per_m.lo, amplitude_scale_, 0.0f},
-                                           {largest_float_below(2.0 * std::numbers::pi), 0.0f},
-                                           {ambiguity.hi, ambiguity.lo},
-                                           largest_float_below(ambiguity_m_),
-                                           strip.columns,
-                                           strip.samples,
-                                           strip.padded_pixels,
-                                           strip.columns * strip.rows};
+  const shader::ResolveConstants constants{
+      words(buffers.position_hi.address()),
+      words(buffers.position_lo.address()),
+      words(buffers.sum.address()),
+      words(buffers.tags.address()),
+      words(planes.address()),
+      words(buffers.channels.address()),
+      {turns_per_m.hi, turns_per_m.lo},
+      {ambiguity.hi, ambiguity.lo},
+      {largest_float_below(2.0 * std::numbers::pi), largest_float_below(ambiguity_m_)},
+      amplitude_scale_,
+      strip.columns,
+      strip.samples,
+      strip.padded_pixels,
+      strip.columns * strip.rows};
   pipeline_.dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 

@@ -2,13 +2,12 @@
 
 #include "engine/reference/camera_frame.h"
 #include "engine/reference/channels.h"
+#include "engine/reference/for_each_row.h"
 #include "engine/reference/path_sum.h"
 #include "engine/reference/ray_caster.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <thread>
+#include <utility>
 
 namespace pmdsim::reference {
 
@@ -79,29 +78,6 @@ private:
   RayCaster caster_;
   Frame frame_;
 };
-
-// Calls work(row) once for every row, from every core; `progress` from the calling thread between its own
-// rows. Where that throws, the other threads stop after the row that they are at.
-template <class Work>
-void for_each_row(std::uint32_t rows, const Work &work, const std::function<void(double)> &progress) {
-  std::atomic<std::uint32_t> next_row = 0;
-  const auto work_until_done = [&](const std::stop_token &stop) {
-    for (std::uint32_t row = next_row++; row < rows && !stop.stop_requested(); row = next_row++)
-      work(row);
-  };
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-    helpers.emplace_back(work_until_done);
-
-  for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
-    work(row);
-    if (progress)
-      progress(static_cast<double>(row) / rows);
-  }
-  helpers.clear();
-  if (progress)
-    progress(1.0);
-}
 
 } // namespace
 

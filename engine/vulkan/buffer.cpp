@@ -34,10 +34,10 @@ Buffer::Buffer(const Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags 
   const bool addressed = memory == Memory::device;
   if (addressed)
     usage |= vk::BufferUsageFlagBits::eShaderDeviceAddress;
-  if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && bytes > device.limits().buffer_bytes)
-    throw Error(ExitCode::out_of_memory, "a buffer of " + std::to_string(bytes) +
+  if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && bytes > device.limits().storage_bytes)
+    throw Error(ExitCode::out_of_memory, "a storage buffer of " + std::to_string(bytes) +
                                              " bytes is beyond the device's limit of " +
-                                             std::to_string(device.limits().buffer_bytes));
+                                             std::to_string(device.limits().storage_bytes));
   checked([&] {
     buffer_ = vk::raii::Buffer(device.get(), vk::BufferCreateInfo({}, bytes, usage));
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
@@ -55,6 +55,8 @@ Buffer::Buffer(const Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags 
 
 Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferUsageFlags usage) {
   using Usage = vk::BufferUsageFlagBits;
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
   constexpr std::size_t staging_bytes = std::size_t{16} << 20;
   Buffer target(device, data.size(), usage | Usage::eTransferDst, Memory::device);
   const Buffer staging(device, std::min(data.size(), staging_bytes), Usage::eTransferSrc, Memory::upload);
@@ -62,7 +64,11 @@ Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferU
   for (std::size_t done = 0; done < data.size(); done += staging_bytes) {
     const std::size_t part = std::min(staging_bytes, data.size() - done);
     std::memcpy(staging.mapped().data(), data.data() + done, part);
-    commands.begin().copyBuffer(staging.get(), target.get(), vk::BufferCopy(0, done, part));
+    const auto &recorded = commands.begin();
+    recorded.copyBuffer(staging.get(), target.get(), vk::BufferCopy(0, done, part));
+    memory_barrier(recorded, Stage::eTransfer, Access::eTransferWrite,
+                   Stage::eVertexAttributeInput | Stage::eComputeShader,
+                   Access::eVertexAttributeRead | Access::eShaderStorageRead);
     commands.submit_and_wait();
   }
   return target;

@@ -41,7 +41,8 @@ private:
   std::byte *mapped_ = nullptr;
 };
 
-// A device buffer that holds `data`; waits until it is there.
-Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
+// A device buffer that holds `data`, for shaders by its address and for whatever `usage` adds; waits until it
+// is there.
+Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferUsageFlags usage = {});
 
 } // namespace pmdsim::vulkan

@@ -20,15 +20,11 @@ std::optional<std::uint32_t> find_queue_family(const vk::raii::PhysicalDevice &d
 }
 
 Limits read_limits(const vk::raii::PhysicalDevice &device) {
-  const auto chain =
-      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
-  const vk::PhysicalDeviceLimits &limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
-  return {
-      std::min<vk::DeviceSize>(chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
-                               limits.maxStorageBufferRange),
-      std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D}),
-      std::min(limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]),
-      static_cast<double>(limits.timestampPeriod)};
+  const vk::PhysicalDeviceLimits limits = device.getProperties().limits;
+  return {limits.maxStorageBufferRange,
+          std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D}),
+          std::min(limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]),
+          static_cast<double>(limits.timestampPeriod)};
 }
 
 vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64) {
@@ -57,6 +53,8 @@ std::string what_is_lacking(const vk::raii::PhysicalDevice &device) {
     return "dynamicRendering";
   if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
     return "synchronization2";
+  if (device.getProperties().limits.subPixelPrecisionBits < 8)
+    return "a raster of 1/256 pixel (subPixelPrecisionBits of 8)"; // what the projection snaps to
   if (!find_queue_family(device))
     return "a queue with graphics, compute and timestamps";
   return "";

@@ -10,7 +10,7 @@
 namespace pmdsim::vulkan {
 
 struct Limits {
-  vk::DeviceSize buffer_bytes = 0;    // of one buffer, at most
+  vk::DeviceSize storage_bytes = 0;   // of a buffer with the usage eStorageBuffer, at most
   std::uint32_t raster_samples = 0;   // width and height of an attachment, at most
   std::uint32_t viewport_samples = 0; // width and height of a viewport, at most
   double timestamp_ns = 1.0;          // of one tick

@@ -23,6 +23,12 @@ auto checked(Work &&work) -> decltype(work()) {
     throw Error(ExitCode::device_lost, std::string("the device was lost: ") + error.what());
   } catch (const vk::IncompatibleDriverError &) {
     throw Error(ExitCode::no_device, "no Vulkan device: no driver answered; expected one with Vulkan 1.3");
+  } catch (const vk::InitializationFailedError &error) {
+    throw Error(ExitCode::no_device, std::string("the Vulkan device does not start: ") + error.what());
+  } catch (const vk::MemoryMapFailedError &error) {
+    throw Error(ExitCode::out_of_memory, std::string("device memory cannot be mapped: ") + error.what());
+  } catch (const vk::TooManyObjectsError &error) {
+    throw Error(ExitCode::out_of_memory, std::string("too many allocations on the device: ") + error.what());
   }
 }
 

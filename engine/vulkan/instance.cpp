@@ -2,6 +2,9 @@
 
 #include "engine/vulkan/errors.h"
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace pmdsim::vulkan {
 namespace {
 
@@ -55,6 +58,14 @@ vk::raii::Instance create(const vk::raii::Context &loader, bool validate, Valida
 Instance::Instance(bool validate) : loader_(load()), instance_(create(loader_, validate, messages_)) {
   if (validate)
     messenger_.emplace(instance_, messenger_info(messages_));
+}
+
+Instance::~Instance() {
+  if (messages_.empty())
+    return;
+  for (const std::string &message : messages_)
+    std::fprintf(stderr, "%s\n", message.c_str());
+  std::abort();
 }
 
 std::vector<vk::raii::PhysicalDevice> Instance::devices() const {

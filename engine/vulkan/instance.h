@@ -16,6 +16,9 @@ public:
   // With `validate` under VK_LAYER_KHRONOS_validation, synchronization validation included. Throws Error:
   // no_device where there is no loader, no driver or (with `validate`) no layer.
   explicit Instance(bool validate);
+  // Ends the process where the validation layer has spoken: what it says while objects are destroyed, nobody
+  // could throw any more.
+  ~Instance();
   Instance(const Instance &) = delete;
   Instance &operator=(const Instance &) = delete;
 

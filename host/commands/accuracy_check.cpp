@@ -1,14 +1,14 @@
 #include "host/commands/accuracy_check.h"
 
-#include "engine/reference/reference.h"
+#include "engine/error.h"
 #include "host/commands/camera.h"
 #include "host/commands/coarser_sensor.h"
 #include "host/commands/progress_bar.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
-#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -35,24 +35,51 @@ bool same_triangles(const Measurement &a, const reference::Frame &b, std::uint32
   return true;
 }
 
+// Beyond it the device computes something else: float32 holds a distance to 6e-8 of the ambiguity range.
+double largest_plausible_error_m(const Sensor &sensor) {
+  return std::max(10e-6, 1e-6 * sensor.ambiguity_m());
+}
+
+} // namespace
+
 AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor) {
-  AccuracyCheck check{sensor.resolution, 0, std::numeric_limits<double>::quiet_NaN()};
+  AccuracyCheck check{sensor.resolution, 0, 0, 0, std::numeric_limits<double>::quiet_NaN()};
   const double darkest = 1e-3 * *std::max_element(truth.amplitude.begin(), truth.amplitude.end());
   for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
     for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {
       const std::size_t pixel = std::size_t{row} * sensor.resolution.x + column;
-      const double difference_m = static_cast<double>(found.distance_m[pixel]) - truth.distance_m[pixel];
-      if (std::isnan(truth.distance_m[pixel]) || !(truth.amplitude[pixel] > darkest) ||
-          !same_triangles(found, truth, column, row, sensor.samples))
+      if (!std::isfinite(truth.distance_m[pixel]) || !(truth.amplitude[pixel] > darkest))
+        continue;
+      ++check.comparable;
+      if (!same_triangles(found, truth, column, row, sensor.samples))
         continue;
       ++check.pixels;
-      check.distance_max_m =
-          std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, sensor.ambiguity_m())));
+      const double difference_m = static_cast<double>(found.distance_m[pixel]) - truth.distance_m[pixel];
+      if (std::isfinite(difference_m))
+        check.distance_max_m =
+            std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, sensor.ambiguity_m())));
+      else
+        ++check.not_finite;
     }
   return check;
 }
 
-} // namespace
+void require_plausible(const AccuracyCheck &check, const Sensor &sensor, const std::string &device) {
+  const auto fail = [&](const std::string &what) {
+    throw Error(ExitCode::internal, fmt::format("{}: {}", device, what));
+  };
+  // Rounding moves samples to another triangle at edges only.
+  if (2 * check.pixels < check.comparable)
+    fail(fmt::format("sees the reference's triangles in {} of {} pixels; expected at least half",
+                     check.pixels, check.comparable));
+  if (check.not_finite > 0)
+    fail(fmt::format("distances are not finite in {} of {} pixels where the reference's are",
+                     check.not_finite, check.pixels));
+  const double limit_m = largest_plausible_error_m(sensor);
+  if (check.distance_max_m > limit_m)
+    fail(fmt::format("distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
+                     1e3 * check.distance_max_m, 1e3 * limit_m));
+}
 
 AccuracyCheck check_accuracy(const Setup &setup, const std::string &device) {
   const Illuminator &illuminator = setup.illuminators.front();

@@ -4,10 +4,30 @@
 #include "host/commands/interruption.h"
 #include "host/commands/progress_bar.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <string_view>
+
 namespace pmdsim {
+namespace {
+
+// In any case, as the names of devices.
+bool names_the_reference(const std::string &device) {
+  return std::ranges::equal(device, std::string_view("reference"), {},
+                            [](unsigned char c) { return std::tolower(c); });
+}
+
+bool validation_is_asked_for() {
+  // The program never changes its environment.
+  const char *value = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
+  return value && std::string_view(value) == "1";
+}
+
+} // namespace
 
 Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
-  if (device == "reference") {
+  if (names_the_reference(device)) {
     device_ = "reference";
     driver_ = "pmdsim " PMDSIM_VERSION;
     return;
@@ -15,6 +35,7 @@ Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
   SimulatorOptions options;
   options.device = device;
   options.keep_sample_triangles = sample_triangles == SampleTriangles::keep;
+  options.validate = validation_is_asked_for();
   simulator_.emplace(options);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;

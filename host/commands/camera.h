@@ -17,7 +17,8 @@ public:
   // Whether Measurement::sample_triangle_id is wanted.
   enum class SampleTriangles { drop, keep };
 
-  // `device` as SimulatorOptions::device, or "reference". Throws Error (no_device).
+  // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).
+  // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
   explicit Camera(const std::string &device, SampleTriangles sample_triangles = SampleTriangles::drop);
 
   const std::string &device() const { return device_; }

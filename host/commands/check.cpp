@@ -22,6 +22,8 @@ constexpr double view_columns = 64.0; // rays that look for what is visible, alo
 struct VisibleRange {
   double min_m = std::numeric_limits<double>::quiet_NaN();
   double max_m = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_empty() const { return std::isnan(min_m); }
 };
 
 // Figures that follow from a setup, lengths in metres.
@@ -68,6 +70,9 @@ Findings findings_of(const Setup &setup) {
 // Beyond what loading the setup has warned of already.
 std::vector<std::string> warnings_of(const Findings &findings) {
   std::vector<std::string> warnings;
+  if (findings.triangles > 0 && findings.visible.is_empty())
+    warnings.emplace_back("no ray of a coarse frame hits the scene; is the camera turned away, or are the "
+                          "scene's back faces culled?");
   if (findings.visible.max_m >= findings.ambiguity_m)
     warnings.push_back(fmt::format(
         "what is visible reaches {:.6g} m, beyond the ambiguity range of {:.6g} m: distances wrap",
@@ -90,9 +95,8 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
 }
 
 std::string visible_text(const VisibleRange &range) {
-  return std::isnan(range.min_m)
-             ? "nothing"
-             : fmt::format("{:.4g} m to {:.4g} m from the lens", range.min_m, range.max_m);
+  return range.is_empty() ? "nothing"
+                          : fmt::format("{:.4g} m to {:.4g} m from the lens", range.min_m, range.max_m);
 }
 
 std::string report_text(const Setup &setup, const Findings &findings) {

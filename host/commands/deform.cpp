@@ -51,7 +51,7 @@ void write_profile_plot(OutputSet &outputs, const Sensor &sensor, const std::vec
 void run_deform(const Options &options) {
   const Setup setup = load_for_command(options);
   const Sensor &sensor = setup.sensors.front();
-  frame_file_stem(sensor, 0);
+  require_name_for_files(sensor);
   OutputSet outputs(options.output_directory);
 
   Camera camera(options.device);

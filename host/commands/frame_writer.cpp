@@ -38,10 +38,14 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
 
 } // namespace
 
-std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
+void require_name_for_files(const Sensor &sensor) {
   if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
     throw Error(ExitCode::input,
                 fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
+}
+
+std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
+  require_name_for_files(sensor);
   return fmt::format("{}_{:04}", sensor.name, frame);
 }
 

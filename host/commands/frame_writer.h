@@ -14,7 +14,10 @@
 
 namespace pmdsim {
 
-// "pmd_0000". Throws Error (input) where the sensor's name cannot be part of a file's name.
+// Throws Error (input) where the sensor's name cannot be part of a file's name; to be asked before measuring.
+void require_name_for_files(const Sensor &sensor);
+
+// "pmd_0000". Throws as require_name_for_files().
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame);
 
 struct FrameToWrite {

@@ -62,7 +62,7 @@ std::string report_text(const RunRecord &run, const Measurement &measurement, co
 void run_render(const Options &options) {
   const Setup setup = load_for_command(options);
   const Sensor &sensor = setup.sensors.front();
-  frame_file_stem(sensor, 0);
+  require_name_for_files(sensor);
   OutputSet outputs(options.output_directory);
 
   Camera camera(options.device);

@@ -1,7 +1,8 @@
 #pragma once
 // Diode files: CSV with a header line and the columns x_m, y_m, z_m (position), axis_x, axis_y, axis_z
 // (normalised when read), intensity_w_sr (>= 0) and pattern (the order of a cosine, or `isotropic`), in any
-// order, one diode a line, all in the illuminator's frame.
+// order, one diode a line, all in the illuminator's frame. Blank lines are skipped. limits.h bounds the
+// values.
 
 #include "engine/illuminator.h"
 #include "host/input/input_error.h"

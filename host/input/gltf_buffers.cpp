@@ -35,11 +35,24 @@ std::optional<std::string> percent_decoded(std::string_view text) {
   return decoded;
 }
 
+// RFC 3986, section 3.1: a letter, then letters, digits, +, - and . up to the colon.
+bool has_scheme(std::string_view uri) {
+  const std::string_view scheme = uri.substr(0, uri.find(':'));
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto is_allowed = [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+  };
+  return scheme.size() < uri.size() && !scheme.empty() && is_letter(scheme[0]) &&
+         std::all_of(scheme.begin(), scheme.end(), is_allowed);
+}
+
 bool lies_inside(const fs::path &folder, const fs::path &file) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
 fs::path file_in_folder(const std::string &uri, const fs::path &folder, const Place &place) {
+  if (has_scheme(uri))
+    throw input_error(place, "expected a relative file name or a data: URI, found " + in_quotes(uri));
   const std::optional<std::string> name = percent_decoded(uri);
   if (!name)
     throw input_error(place, "expected a percent-encoded relative path, found " + in_quotes(uri));
@@ -61,11 +74,15 @@ Bytes decoded_data_uri(const std::string &uri, std::size_t length_bytes, const P
   return bytes;
 }
 
-// The first `length_bytes` of what was found.
-Bytes front(std::string_view found, std::size_t length_bytes, const Place &buffer) {
-  if (found.size() < length_bytes)
-    throw input_error(buffer, fmt::format("expected {} bytes, found {}", length_bytes, found.size()));
-  return {found.begin(), found.begin() + static_cast<std::ptrdiff_t>(length_bytes)};
+Bytes front_of_chunk(std::string_view chunk, std::size_t length_bytes, const Place &buffer) {
+  if (chunk.size() < length_bytes)
+    throw input_error(buffer, fmt::format("expected {} bytes, found {}", length_bytes, chunk.size()));
+  return {chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(length_bytes)};
+}
+
+Bytes front_of_file(const fs::path &file, std::size_t length_bytes, const Place &uri) {
+  const std::string bytes = read_front_of_regular_file(file, length_bytes, uri);
+  return {bytes.begin(), bytes.end()};
 }
 
 } // namespace
@@ -74,20 +91,24 @@ std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::pat
   const json buffers = document.json.value("buffers", json::array());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::vector<Bytes> result;
+  std::size_t left_bytes = max_gltf_file_bytes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const Place place = Place{file} / "buffers" / i;
     const auto length_bytes = buffers[i].at("byteLength").get<std::size_t>();
+    if (length_bytes > left_bytes)
+      throw input_error(place / "byteLength",
+                        fmt::format("expected at most {} bytes in all buffers", max_gltf_file_bytes));
+    left_bytes -= length_bytes;
     const auto uri = buffers[i].value("uri", std::string{});
     if (uri.empty() && (i > 0 || document.binary_chunk.empty()))
       throw input_error(place, "missing key \"uri\"");
     if (uri.empty())
-      result.push_back(front(document.binary_chunk, length_bytes, place));
+      result.push_back(front_of_chunk(document.binary_chunk, length_bytes, place));
     else if (uri.starts_with("data:"))
       result.push_back(decoded_data_uri(uri, length_bytes, place / "uri"));
     else
-      result.push_back(front(
-          read_regular_file(file_in_folder(uri, folder, place / "uri"), max_gltf_file_bytes, place / "uri"),
-          length_bytes, place));
+      result.push_back(
+          front_of_file(file_in_folder(uri, folder, place / "uri"), length_bytes, place / "uri"));
   }
   return result;
 }

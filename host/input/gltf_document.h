@@ -9,8 +9,8 @@
 
 namespace pmdsim {
 
-inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1}
-                                                   << 30; // of the scene and of each buffer's file
+// Of the scene's file, and of all its buffers together.
+inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1} << 30;
 
 struct GltfDocument {
   nlohmann::json json;      // every key that is read has the right type, every index exists

@@ -1,9 +1,9 @@
 #include "host/input/gltf_mesh.h"
 
 #include "host/input/gltf_accessor.h"
+#include "host/input/limits.h"
 
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 #include <tiny_gltf.h>
@@ -48,11 +48,12 @@ std::vector<glm::dvec3> world_positions(const std::vector<glm::vec3> &positions,
                                         const AffineTransform &world_from_node, const Place &place) {
   std::vector<glm::dvec3> world;
   world.reserve(positions.size());
-  for (const glm::vec3 &position : positions) {
-    const glm::dvec3 p = world_from_node.point(glm::dvec3(position));
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw input_error(place, "its transform takes a vertex to infinity");
-    world.push_back(p);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    world.push_back(world_from_node.point(glm::dvec3(positions[i])));
+    if (!is_position(world.back()))
+      throw input_error(place,
+                        fmt::format("vertex {} lies outside the world, expected coordinates from {} to {} m",
+                                    i, -max_coordinate_m, max_coordinate_m));
   }
   return world;
 }

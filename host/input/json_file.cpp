@@ -3,6 +3,8 @@
 #include "host/input/input_error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <set>
 #include <vector>
@@ -107,13 +109,26 @@ private:
   std::vector<Container> open_;
 };
 
+// JSON Schema, draft-07, section 6.1.1: a number without a fractional part is an integer, however written.
+void make_integer(json &number) {
+  constexpr double largest_exact = 9007199254740992.0; // 2^53
+  const auto value = number.get<double>();
+  if (std::abs(value) <= largest_exact && std::trunc(value) == value)
+    number = static_cast<std::int64_t>(value);
+}
+
 } // namespace
 
 json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
   const bool ignore_comments = comments == Comments::allowed;
   Guard guard(text, file);
   json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true, ignore_comments);
-  return json::parse(text.begin(), text.end(), nullptr, true, ignore_comments);
+  const auto with_integers = [](int, json::parse_event_t, json &parsed) {
+    if (parsed.is_number_float())
+      make_integer(parsed);
+    return true;
+  };
+  return json::parse(text.begin(), text.end(), with_integers, true, ignore_comments);
 }
 
 } // namespace pmdsim

@@ -1,10 +1,10 @@
 #include "host/input/regular_file.h"
 
 #include <cerrno>
-#include <system_error>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace pmdsim {
@@ -27,7 +27,8 @@ private:
 };
 
 std::string reason(int error) {
-  return error == ENOENT ? "no such file" : fmt::format("cannot be read ({})", std::generic_category().message(error));
+  return error == ENOENT ? "no such file"
+                         : fmt::format("cannot be read ({})", std::generic_category().message(error));
 }
 
 std::string read_all(int descriptor, std::size_t size_bytes) {
@@ -45,27 +46,52 @@ std::string read_all(int descriptor, std::size_t size_bytes) {
   return bytes;
 }
 
+Error refused(const std::filesystem::path &file, const std::string &why, const Place &named_at) {
+  return input_error(named_at, named_at.file == file ? why : in_quotes(file.string()) + ": " + why);
+}
+
+// A regular file, open for reading.
+class RegularFile {
+public:
+  RegularFile(const std::filesystem::path &file, const Place &named_at)
+      // Without O_NONBLOCK, opening a FIFO waits for a writer.
+      : descriptor_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
+    struct stat status {};
+    if (descriptor_.get() < 0 || fstat(descriptor_.get(), &status) != 0)
+      throw refused(file, reason(errno), named_at);
+    if (S_ISDIR(status.st_mode))
+      throw refused(file, "is a directory, expected a file", named_at);
+    if (!S_ISREG(status.st_mode))
+      throw refused(file, "is no regular file", named_at);
+    size_bytes_ = static_cast<std::size_t>(status.st_size);
+  }
+
+  std::size_t size_bytes() const { return size_bytes_; }
+  std::string front(std::size_t length_bytes) const { return read_all(descriptor_.get(), length_bytes); }
+
+private:
+  FileDescriptor descriptor_;
+  std::size_t size_bytes_ = 0;
+};
+
 } // namespace
 
 std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
                               const Place &named_at) {
-  const auto refused = [&](const std::string &why) {
-    return input_error(named_at, named_at.file == file ? why : in_quotes(file.string()) + ": " + why);
-  };
-  // Without O_NONBLOCK, opening a FIFO waits for a writer.
-  const FileDescriptor descriptor(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-  if (descriptor.get() < 0)
-    throw refused(reason(errno));
-  struct stat status {};
-  if (fstat(descriptor.get(), &status) != 0)
-    throw refused(reason(errno));
-  if (S_ISDIR(status.st_mode))
-    throw refused("is a directory, expected a file");
-  if (!S_ISREG(status.st_mode))
-    throw refused("is no regular file");
-  if (static_cast<std::size_t>(status.st_size) > max_bytes)
-    throw refused(fmt::format("has {} bytes, expected at most {}", status.st_size, max_bytes));
-  return read_all(descriptor.get(), static_cast<std::size_t>(status.st_size));
+  const RegularFile opened(file, named_at);
+  if (opened.size_bytes() > max_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at most {}", opened.size_bytes(), max_bytes),
+                  named_at);
+  return opened.front(opened.size_bytes());
+}
+
+std::string read_front_of_regular_file(const std::filesystem::path &file, std::size_t length_bytes,
+                                       const Place &named_at) {
+  const RegularFile opened(file, named_at);
+  if (opened.size_bytes() < length_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at least {}", opened.size_bytes(), length_bytes),
+                  named_at);
+  return opened.front(length_bytes);
 }
 
 } // namespace pmdsim

@@ -14,4 +14,9 @@ namespace pmdsim {
 std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
                               const Place &named_at);
 
+// The first `length_bytes` of a regular file, and nothing beyond them. As above; throws for a shorter file
+// too.
+std::string read_front_of_regular_file(const std::filesystem::path &file, std::size_t length_bytes,
+                                       const Place &named_at);
+
 } // namespace pmdsim

@@ -21,6 +21,9 @@ std::string number_expectation(const json &schema) {
   std::string noun = schema.at("type") == "integer" ? "an integer" : "a number";
   if (schema.contains("minimum") && schema.contains("maximum"))
     return fmt::format("{} from {} to {}", noun, schema.at("minimum").dump(), schema.at("maximum").dump());
+  if (schema.contains("exclusiveMinimum") && schema.contains("maximum"))
+    return fmt::format("{} above {} and at most {}", noun, schema.at("exclusiveMinimum").dump(),
+                       schema.at("maximum").dump());
   if (schema.contains("minimum"))
     return fmt::format("{} of at least {}", noun, schema.at("minimum").dump());
   if (schema.contains("exclusiveMinimum"))

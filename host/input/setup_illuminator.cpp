@@ -1,8 +1,10 @@
 #include "host/input/setup_illuminator.h"
 
 #include "host/input/diode_file.h"
+#include "host/input/limits.h"
 
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -48,7 +50,20 @@ void append_ring(const ordered_json &ring, const Diode &diode, std::vector<Diode
   }
 }
 
+// The work is bounded by what the rings list, also where active_deg switches most of it off.
+void refuse_endless_rings(const ordered_json &rings, const Place &place) {
+  constexpr std::uint64_t max_listed = 1'000'000;
+  std::uint64_t listed = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    listed += rings[i].at("count").get<std::uint32_t>();
+    if (listed > max_listed)
+      throw input_error(place / i / "count",
+                        fmt::format("expected at most {} diodes in all rings, on or off", max_listed));
+  }
+}
+
 std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, const Place &place) {
+  refuse_endless_rings(rings, place);
   std::vector<Diode> diodes;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     append_ring(rings[i], diode, diodes);
@@ -64,8 +79,10 @@ std::vector<Diode> file_diodes(const std::string &name, double intensity, const 
   std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place);
   for (std::size_t i = 0; i < diodes.size(); ++i) {
     diodes[i].intensity_w_sr *= intensity;
-    if (!std::isfinite(diodes[i].intensity_w_sr))
-      throw input_error(place, fmt::format("diode {}: its intensity times intensity_w_sr is not finite", i));
+    if (diodes[i].intensity_w_sr > max_intensity_w_sr)
+      throw input_error(
+          place, fmt::format("diode {}: its intensity times intensity_w_sr is {}, expected at most {} W/sr",
+                             i, diodes[i].intensity_w_sr, max_intensity_w_sr));
   }
   return diodes;
 }

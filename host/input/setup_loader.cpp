@@ -87,6 +87,21 @@ Illuminator illuminator_of(const ordered_json &illuminator, const Place &place, 
           diodes_of(illuminator, place)};
 }
 
+// Monostatic light, the paper's eq. 2 and 3, is at the lens, but its pose may put it anywhere.
+void warn_of_distant_monostatic_light(Setup &setup) {
+  constexpr double rounding_m = 1e-9;
+  for (std::size_t i = 0; i < setup.illuminators.size(); ++i) {
+    const Illuminator &light = setup.illuminators[i];
+    if (setup.as_used.at("illuminators").at(i).at("diodes") != "monostatic")
+      continue;
+    for (const Sensor &sensor : setup.sensors)
+      if (glm::distance(light.world_from_illuminator.translation_m, sensor.world_from_camera.translation_m) >
+          rounding_m)
+        setup.warnings.push_back(fmt::format(
+            "illuminator {}: monostatic light is not in the lens of sensor {}", light.name, sensor.name));
+  }
+}
+
 } // namespace
 
 Setup load_setup(const std::filesystem::path &file) {
@@ -107,6 +122,7 @@ Setup load_setup(const std::filesystem::path &file) {
     setup.illuminators.push_back(
         illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.sensors));
 
+  warn_of_distant_monostatic_light(setup);
   if (scene.scene.triangles.empty())
     setup.warnings.push_back(
         fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));

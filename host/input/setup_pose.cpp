@@ -1,5 +1,7 @@
 #include "host/input/setup_pose.h"
 
+#include "host/input/limits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -63,6 +65,10 @@ Pose at_node(const std::string &name, const Place &place, const GltfScene &scene
   if (std::find_if(std::next(node), scene.nodes.end(), is_named) != scene.nodes.end())
     throw input_error(place,
                       fmt::format("more than one node {} in {}", in_quotes(name), scene.file.string()));
+  if (!is_position(node->world_from_node.translation_m))
+    throw input_error(place,
+                      fmt::format("node {} lies outside the world, expected coordinates from {} to {} m",
+                                  in_quotes(name), -max_coordinate_m, max_coordinate_m));
   const auto rotation = rotation_of(node->world_from_node.linear);
   if (!rotation)
     throw input_error(place,

@@ -15,7 +15,7 @@ namespace pmdsim {
 // "up"}, or
 // {"sensor"} for one of `sensors`. Scale and shear of a node's transform are taken out, its view direction is
 // kept. Throws Error (input) at `place`: unknown node or sensor, a view or an up without a direction, a
-// mirrored node.
+// mirrored node or one outside the world.
 Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, const GltfScene &scene,
                       const std::vector<Sensor> &sensors);
 

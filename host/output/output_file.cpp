@@ -83,6 +83,12 @@ void OutputFile::close() {
     fail(first_error_);
 }
 
+void OutputFile::check_publishable() const {
+  std::error_code absent;
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(path_, absent)))
+    fail(EISDIR);
+}
+
 void OutputFile::publish() {
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     fail(errno);

@@ -27,6 +27,8 @@ public:
 
   // Reports what failed in any earlier write too, even where a library swallowed the exception.
   void close();
+  // Throws what can be foreseen of publish(): that the name belongs to a directory.
+  void check_publishable() const;
   void publish();
   // Takes a published file back; for when a later file of the same set fails.
   void withdraw() noexcept;

@@ -77,6 +77,9 @@ std::vector<std::string> OutputSet::paths() const {
 }
 
 void OutputSet::publish() {
+  // A file that has replaced the user's cannot give it back: what can be foreseen must not come to that.
+  for (const auto &file : files_)
+    file->check_publishable();
   std::size_t renamed = 0;
   try {
     for (; renamed < files_.size(); ++renamed)

@@ -31,7 +31,8 @@ public:
   // The same with the directory in front.
   std::vector<std::string> paths() const;
 
-  // Renames all files to their names. Throws Error (output); then none of them stays.
+  // Renames all files to their names. Throws Error (output): where a directory has one of the names, before
+  // anything is replaced; where a rename itself fails, none of the set's files stays.
   void publish();
 
 private:

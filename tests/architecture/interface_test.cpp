@@ -61,7 +61,10 @@ TEST_CASE("structs of the points and visibility passes") {
   const auto offsets = offsets_in(points_fp64_spirv);
   for (const auto &from : {offsets, offsets_in(visibility_frag_spirv)}) {
     CHECK_OFFSET(from, Strip, column);
+    CHECK_OFFSET(from, Strip, row);
     CHECK_OFFSET(from, Strip, columns);
+    CHECK_OFFSET(from, Strip, rows);
+    CHECK_OFFSET(from, Strip, resolution_y);
     CHECK_OFFSET(from, Strip, resolution_x);
     CHECK_OFFSET(from, Strip, samples);
     CHECK_OFFSET(from, Strip, padded_pixels);
@@ -84,7 +87,10 @@ TEST_CASE("structs of the points and visibility passes") {
 
 TEST_CASE("structs of the accumulate pass") {
   const auto offsets = offsets_in(accumulate_straight_fp64_spirv);
+  CHECK_OFFSET(offsets, AccumulateConstants, position_hi);
   CHECK_OFFSET(offsets, AccumulateConstants, position_lo);
+  CHECK_OFFSET(offsets, AccumulateConstants, surface);
+  CHECK_OFFSET(offsets, AccumulateConstants, backscatter);
   CHECK_OFFSET(offsets, AccumulateConstants, sum);
   CHECK_OFFSET(offsets, AccumulateConstants, diodes);
   CHECK_OFFSET(offsets, AccumulateConstants, reference_hi);
@@ -99,12 +105,16 @@ TEST_CASE("structs of the accumulate pass") {
 
 TEST_CASE("structs of the resolve pass") {
   const auto offsets = offsets_in(resolve_fp64_spirv);
+  CHECK_OFFSET(offsets, ResolveConstants, position_hi);
+  CHECK_OFFSET(offsets, ResolveConstants, position_lo);
   CHECK_OFFSET(offsets, ResolveConstants, sum);
+  CHECK_OFFSET(offsets, ResolveConstants, tags);
+  CHECK_OFFSET(offsets, ResolveConstants, planes);
   CHECK_OFFSET(offsets, ResolveConstants, channels);
-  CHECK_OFFSET(offsets, ResolveConstants, scale);
-  CHECK_OFFSET(offsets, ResolveConstants, phase_limit);
-  CHECK_OFFSET(offsets, ResolveConstants, ambiguity);
-  CHECK_OFFSET(offsets, ResolveConstants, distance_limit);
+  CHECK_OFFSET(offsets, ResolveConstants, turns_per_m);
+  CHECK_OFFSET(offsets, ResolveConstants, ambiguity_m);
+  CHECK_OFFSET(offsets, ResolveConstants, limits);
+  CHECK_OFFSET(offsets, ResolveConstants, amplitude_scale);
   CHECK_OFFSET(offsets, ResolveConstants, columns);
   CHECK_OFFSET(offsets, ResolveConstants, samples);
   CHECK_OFFSET(offsets, ResolveConstants, padded_pixels);

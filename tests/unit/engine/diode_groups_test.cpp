@@ -82,6 +82,19 @@ TEST_CASE("groups shrink with the wavelength and with what is near") {
   CHECK(fast.moments <= moments_needed(0.5));
 }
 
+TEST_CASE("many lonely diodes beside a cluster are not padded to the cluster's size") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::vector<Diode> diodes(100000);
+  for (std::size_t i = 0; i < diodes.size(); ++i) {
+    const double reach_m = i < 60000 ? 0.005 : 0.2; // the others stand on the wall itself
+    diodes[i].position_m = {reach_m * place(random), reach_m * place(random), i < 60000 ? 0.0 : 2.0};
+  }
+  const auto groups = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
+  CHECK(lit_positions(groups).size() == diodes.size());
+  CHECK(groups.diodes.size() < 20 * diodes.size());
+}
+
 TEST_CASE("a diode on its own needs no correction of its path") {
   const auto groups = group_diodes(ring(1, 3.0), wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(groups.moments == 1);

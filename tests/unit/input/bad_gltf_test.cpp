@@ -149,12 +149,46 @@ TEST_CASE("Buffers that are no files, or not those stated") {
   CHECK_THAT(bench.error_of_uri("pipe"), EndsWith("is no regular file"));
   CHECK_THAT(bench.error_of_uri("absent.bin"), Contains("/buffers/0/uri") && EndsWith("no such file"));
   bench.folder.write("short.bin", "1234");
-  CHECK_THAT(bench.error_of_uri("short.bin"), EndsWith("/buffers/0: expected 36 bytes, found 4"));
+  CHECK_THAT(bench.error_of_uri("short.bin"),
+             Contains("/buffers/0/uri: ") && EndsWith("short.bin\": has 4 bytes, expected at least 36"));
   CHECK_THAT(bench.error_of_uri("bad%2"), Contains("expected a percent-encoded relative path"));
   CHECK_THAT(bench.error_of_uri("nul%00"), Contains("expected a percent-encoded relative path"));
   CHECK_THAT(bench.error_of_uri("data:text/html,hello"), Contains("expected a base64 data URI of 36 bytes"));
   CHECK_THAT(bench.error_of_uri(data_uri("1234")), Contains("expected a base64 data URI of 36 bytes"));
   CHECK_THAT(bench.error_of_uri(""), EndsWith("/buffers/0: missing key \"uri\""));
+}
+
+TEST_CASE("Buffers that are somewhere else") {
+  const Bench bench;
+  for (const std::string uri : {"http://x/y", "file:///etc/passwd", "C:own.bin", "DATA:,x", "git+ssh://x"})
+    CHECK_THAT(
+        bench.error_of_uri(uri),
+        EndsWith("/buffers/0/uri: expected a relative file name or a data: URI, found \"" + uri + "\""));
+  for (const std::string uri : {"./a:b.bin", "own%3A.bin", "1:1.bin"})
+    CHECK_THAT(bench.error_of_uri(uri), EndsWith("no such file"));
+}
+
+TEST_CASE("All buffers together have a limit") {
+  const auto error_of_second = [](std::size_t length_bytes) {
+    json gltf = one_triangle();
+    gltf["buffers"].push_back({{"byteLength", length_bytes}, {"uri", "absent.bin"}});
+    return Bench().error_of(gltf);
+  };
+  const std::size_t left_bytes = (std::size_t{1} << 30) - 36;
+  CHECK_THAT(error_of_second(left_bytes + 1),
+             EndsWith("/buffers/1/byteLength: expected at most 1073741824 bytes in all buffers"));
+  CHECK_THAT(error_of_second(left_bytes), EndsWith("no such file"));
+}
+
+TEST_CASE("No more of a buffer's file is read than the buffer has") {
+  const Bench bench;
+  const std::string positions = bytes_of(triangle_positions());
+  const auto file = bench.folder.write("own.bin", positions);
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 31); // sparse
+  json gltf = one_triangle();
+  gltf["buffers"][0]["uri"] = "own.bin";
+  const auto scene = bench.folder.write("scene.gltf", gltf.dump());
+  CHECK(load_gltf(scene, Place{scene}).scene.triangles.size() == 1);
 }
 
 TEST_CASE("Text that is too deep or broken") {

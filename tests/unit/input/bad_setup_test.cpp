@@ -85,13 +85,13 @@ TEST_CASE("Wrong types and values say what was expected") {
   CHECK_THAT(error_with("/sensors/0/resolution", {640}),
              Contains("/resolution: expected an array of 2, each an integer"));
   CHECK_THAT(error_with("/sensors/0/pixel_pitch_m/0", -45e-6),
-             EndsWith("/pixel_pitch_m/0: expected a number above 0, found -4.5e-05"));
+             EndsWith("/pixel_pitch_m/0: expected a number from 1e-09 to 1000, found -4.5e-05"));
   CHECK_THAT(error_with("/sensors/0/focal_length_m", "long"),
-             EndsWith("/focal_length_m: expected a number above 0, found \"long\""));
+             EndsWith("/focal_length_m: expected a number from 1e-09 to 1000, found \"long\""));
   CHECK_THAT(error_with("/sensors/0/focus_distance_m", "far"),
-             Contains("/focus_distance_m: expected a number above 0, or null"));
+             Contains("/focus_distance_m: expected a number above 0 and at most 1000000000000, or null"));
   CHECK_THAT(error_with("/sensors/0/modulation_hz/0", 0),
-             EndsWith("/modulation_hz/0: expected a number above 0, found 0"));
+             EndsWith("/modulation_hz/0: expected a number from 1 to 1000000000000, found 0"));
   CHECK_THAT(error_with("/sensors/0/modulation_hz", 20e6), Contains("/modulation_hz: expected an array"));
   CHECK_THAT(error_with("/sensors/0/samples", 17),
              EndsWith("/samples: expected an integer from 1 to 16, found 17"));
@@ -102,13 +102,13 @@ TEST_CASE("Wrong types and values say what was expected") {
              Contains("/sensors/0/name: expected a name"));
   CHECK_THAT(error_with("/sensors/0/pose", "here"), Contains("/sensors/0/pose: expected {\"node\"} or"));
   CHECK_THAT(error_with("/sensors/0/pose", {{"position_m", {0, 0, "x"}}, {"look_at_m", {0, 0, 1}}}),
-             Contains("/pose/position_m/2: expected a number, found \"x\""));
+             Contains("/pose/position_m/2: expected a number from -1000000000 to 1000000000, found \"x\""));
   CHECK_THAT(error_with("/illuminators/0/diodes", "none"),
              Contains("/diodes: expected \"monostatic\", {\"rings\"} or {\"file\"}"));
   CHECK_THAT(error_with("/illuminators/0/diodes/rings/0/count", 0),
              Contains("/rings/0/count: expected an integer from 1"));
   CHECK_THAT(error_with("/illuminators/0/intensity_w_sr", -1),
-             Contains("/intensity_w_sr: expected a number of at least 0"));
+             Contains("/intensity_w_sr: expected a number from 0 to 1e+30, found -1"));
   CHECK_THAT(error_with("/illuminators/0/pattern", {{"isotropic", false}}),
              Contains("/pattern/isotropic: expected true, found false"));
 }
@@ -134,6 +134,21 @@ TEST_CASE("Values that contradict each other") {
   CHECK_THAT(error_with("/illuminators/0/diodes/rings",
                         {{{"radius_m", 0.1}, {"count", 60000}}, {{"radius_m", 0.2}, {"count", 60000}}}),
              EndsWith("/diodes/rings/1: expected at most 100000 diodes in all rings"));
+}
+
+TEST_CASE("Rings that list too much are refused, even if they are off") {
+  SetupFixture fixture;
+  const auto list = [&](int dark) {
+    fixture.illuminator()["diodes"]["rings"] = {{{"radius_m", 0.1}, {"count", 100'000}}};
+    for (int i = 0; i < dark; ++i)
+      fixture.illuminator()["diodes"]["rings"].push_back(
+          {{"radius_m", 0.1}, {"count", 100'000}, {"active_deg", {0, 0}}});
+  };
+  list(9);
+  CHECK(fixture.load().illuminators[0].diodes.size() == 100'000);
+  list(10);
+  CHECK_THAT(fixture.error(),
+             EndsWith("/diodes/rings/10/count: expected at most 1000000 diodes in all rings, on or off"));
 }
 
 TEST_CASE("Nodes that are no place for a camera") {

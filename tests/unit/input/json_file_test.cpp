@@ -18,6 +18,12 @@ TEST_CASE("JSON text is read") {
   CHECK(parse_json("// why\n{} // so", "a.json", Comments::allowed).empty());
 }
 
+TEST_CASE("A number without a fractional part is an integer") {
+  const auto numbers = parse_json("[8.0, -2e3, 8.5, 1e300, 9007199254740992.0, 18446744073709551615]",
+                                  "a.json", Comments::refused);
+  CHECK(numbers.dump() == "[8,-2000,8.5,1e+300,9007199254740992,18446744073709551615]");
+}
+
 TEST_CASE("A syntax error names line and column") {
   CHECK_THAT(error_of("{\n  \"a\": 1,\n  \"b\" 2\n}"), StartsWith("a.json:3:7: not valid JSON"));
   CHECK_THAT(error_of("{\"a\": NaN}"), StartsWith("a.json:1:7: not valid JSON"));

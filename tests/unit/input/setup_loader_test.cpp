@@ -150,6 +150,21 @@ TEST_CASE("Monostatic light is one diode at the lens") {
   CHECK(diodes_of(setup)[0].intensity_w_sr == 5.0);
 }
 
+TEST_CASE("Monostatic light away from the lens is a warning") {
+  SetupFixture fixture;
+  fixture.illuminator()["diodes"] = "monostatic";
+  CHECK(fixture.load().warnings.empty());
+  fixture.illuminator()["pose"] = {{"position_m", {0, 0, 0}}, {"look_at_m", {1, 0, 0}}};
+  CHECK(fixture.load().warnings.empty());
+  fixture.illuminator()["pose"]["position_m"] = {0, 1e-3, 0};
+  const Setup setup = fixture.load();
+  CHECK(setup.warnings ==
+        std::vector<std::string>{"illuminator ring: monostatic light is not in the lens of sensor pmd"});
+  CHECK(setup.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(0, 1e-3, 0));
+  fixture.illuminator()["diodes"] = {{"rings", {{{"radius_m", 0.1}, {"count", 8}}}}};
+  CHECK(fixture.load().warnings.empty());
+}
+
 TEST_CASE("The illuminator's intensity multiplies the diode file's") {
   SetupFixture fixture;
   fixture.folder.write("diodes.csv",
@@ -161,6 +176,20 @@ TEST_CASE("The illuminator's intensity multiplies the diode file's") {
   CHECK(diodes_of(setup)[0].intensity_w_sr == 6.0);
   CHECK(diodes_of(setup)[0].pattern.order == 4.0);
   CHECK_FALSE(setup.as_used["illuminators"][0].contains("pattern"));
+}
+
+TEST_CASE("An integer may be written with a fraction of zero") {
+  SetupFixture fixture;
+  fixture.sensor()["resolution"] = {8.0, 8};
+  fixture.sensor()["samples"] = 2.0;
+  fixture.sensor()["taps"] = 4.0;
+  fixture.illuminator()["diodes"]["rings"][0]["count"] = 1.2e1;
+  fixture.scene["accessors"][0]["count"] = 3.0;
+  const Setup setup = fixture.load();
+  CHECK(setup.sensors[0].resolution == glm::uvec2(8, 8));
+  CHECK(setup.sensors[0].samples == 2);
+  CHECK(diodes_of(setup).size() == 12);
+  CHECK(setup.scene.triangles.size() == 1);
 }
 
 TEST_CASE("The setup as used states every default") {

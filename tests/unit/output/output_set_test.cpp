@@ -98,14 +98,40 @@ TEST_CASE("a directory that was there before a failure stays") {
   CHECK(std::filesystem::is_directory(temporary.path()));
 }
 
+TEST_CASE("a directory in the way of one file leaves the earlier results of the others") {
+  const TemporaryDirectory temporary;
+  std::ofstream(temporary.path() / "one.txt") << "old";
+  std::filesystem::create_directory(temporary.path() / "two.txt");
+  OutputSet outputs(temporary.path());
+  outputs.add("one.txt", write_hello);
+  outputs.add("two.txt", write_hello);
+  const std::string message = output_error([&] { outputs.publish(); });
+  CHECK(message == (temporary.path() / "two.txt").string() + ": cannot be written: Is a directory");
+  CHECK(content_of(temporary.path() / "one.txt") == "old");
+}
+
+TEST_CASE("a link to a directory is replaced like any file") {
+  const TemporaryDirectory temporary;
+  std::filesystem::create_directory(temporary.path() / "elsewhere");
+  std::filesystem::create_directory_symlink("elsewhere", temporary.path() / "one.txt");
+  OutputSet outputs(temporary.path());
+  outputs.add("one.txt", write_hello);
+  outputs.publish();
+  CHECK(content_of(temporary.path() / "one.txt") == "hello");
+  CHECK(std::filesystem::is_empty(temporary.path() / "elsewhere"));
+}
+
 TEST_CASE("a rename that fails takes back those before it") {
   const TemporaryDirectory temporary;
   OutputSet outputs(temporary.path());
   outputs.add("one.txt", write_hello);
   outputs.add("two.txt", write_hello);
-  std::filesystem::create_directories(temporary.path() / "two.txt" / "in_the_way");
+  for (const std::string &name : names_in(temporary.path()))
+    if (name.starts_with(".two.txt"))
+      std::filesystem::remove(temporary.path() / name);
   const std::string message = output_error([&] { outputs.publish(); });
-  CHECK(message == (temporary.path() / "two.txt").string() + ": cannot be written: Is a directory");
+  CHECK(message ==
+        (temporary.path() / "two.txt").string() + ": cannot be written: No such file or directory");
   CHECK(names_in(temporary.path()).count("one.txt") == 0);
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+// The reference's threads: rows are handed out one at a time, as some cost far more than others.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace pmdsim::reference {
+
+// Calls work(row) once for every row, from `threads` threads, the calling one among them; `progress` with the
+// fraction done from the calling thread between its own rows. Where either throws, in whichever thread, the
+// others stop after the row that they are at, and the exception comes out here.
+template <class Work>
+void for_each_row(std::uint32_t rows, const Work &work, const std::function<void(double)> &progress,
+                  unsigned threads = std::thread::hardware_concurrency()) {
+  std::atomic<std::uint32_t> next_row = 0;
+  const auto help = [&](const std::stop_token &stop, std::exception_ptr &failure) {
+    try {
+      for (std::uint32_t row = next_row++; row < rows && !stop.stop_requested(); row = next_row++)
+        work(row);
+    } catch (...) {
+      failure = std::current_exception();
+      next_row = rows;
+    }
+  };
+  std::vector<std::exception_ptr> failures(std::max(threads, 1U) - 1);
+  std::vector<std::jthread> helpers;
+  helpers.reserve(failures.size());
+  for (std::exception_ptr &failure : failures)
+    helpers.emplace_back(help, std::ref(failure));
+
+  for (std::uint32_t row = next_row++; row < rows; row = next_row++) {
+    work(row);
+    if (progress)
+      progress(static_cast<double>(row) / rows);
+  }
+  // Not by their destructors, which would ask a helper to stop that has just taken the last row.
+  for (std::jthread &helper : helpers)
+    helper.join();
+  for (const std::exception_ptr &failure : failures)
+    if (failure)
+      std::rethrow_exception(failure);
+  if (progress)
+    progress(1.0);
+}
+
+} // namespace pmdsim::reference

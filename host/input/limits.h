@@ -1,0 +1,20 @@
+#pragma once
+// The largest values that an input may hold. Beyond any real camera, scene or light, and far enough from the
+// range of float that nothing computed from them overflows. setup.schema.json states them too.
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace pmdsim {
+
+inline constexpr double max_coordinate_m = 1e9; // of a position, to either side of its frame's origin
+inline constexpr double max_intensity_w_sr = 1e30;
+inline constexpr double max_pattern_order = 1e6;
+
+// False also for what is not finite.
+inline bool is_position(const glm::dvec3 &position_m) {
+  return std::abs(position_m.x) <= max_coordinate_m && std::abs(position_m.y) <= max_coordinate_m &&
+         std::abs(position_m.z) <= max_coordinate_m;
+}
+
+} // namespace pmdsim

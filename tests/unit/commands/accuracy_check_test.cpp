@@ -1,0 +1,86 @@
+// The check before timing must fail for a device that computes something else.
+
+#include "engine/error.h"
+#include "host/commands/accuracy_check.h"
+#include "tests/support/scenes.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+// The reference as truth, and the same rounded to float as what a sound device would give.
+struct Frames {
+  Sensor sensor = axial_sensor({4, 4});
+  reference::Frame truth;
+  Measurement found;
+
+  explicit Frames(const Scene &scene = wall_at(2.0)) {
+    truth = reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+                                Backscatter::lambert);
+    found = reference::to_measurement(truth);
+    found.sample_triangle_id = truth.sample_triangle_id;
+  }
+
+  AccuracyCheck check() const { return compare(found, truth, sensor); }
+
+  std::string failure() const {
+    try {
+      require_plausible(check(), sensor, "device");
+    } catch (const Error &error) {
+      CHECK(error.code() == ExitCode::internal);
+      return error.what();
+    }
+    return "none";
+  }
+};
+
+} // namespace
+
+TEST_CASE("a device that rounds the reference to float passes") {
+  const Frames frames;
+  const AccuracyCheck check = frames.check();
+  CHECK(check.comparable == 16);
+  CHECK(check.pixels == 16);
+  CHECK(check.not_finite == 0);
+  CHECK(check.distance_max_m < 1e-6);
+  CHECK(frames.failure() == "none");
+}
+
+TEST_CASE("a distance that is too far off fails") {
+  Frames frames;
+  frames.found.distance_m[5] += 0.001F;
+  CHECK(frames.check().distance_max_m == Approx(0.001).epsilon(1e-3));
+  CHECK(frames.failure().starts_with("device: distances differ from the reference by up to "));
+}
+
+TEST_CASE("a distance that is not finite fails, be it one or all") {
+  const float value = GENERATE(as<float>{}, not_a_number, std::numeric_limits<float>::infinity());
+  Frames frames;
+  frames.found.distance_m[7] = value;
+  CHECK(frames.failure() == "device: distances are not finite in 1 of 16 pixels where the reference's are");
+  std::ranges::fill(frames.found.distance_m, value);
+  CHECK(frames.failure() == "device: distances are not finite in 16 of 16 pixels where the reference's are");
+}
+
+TEST_CASE("other triangles are forgiven in half of the pixels") {
+  Frames frames;
+  std::fill_n(frames.found.sample_triangle_id.begin(), 8, no_id);
+  std::fill_n(frames.found.distance_m.begin(), 8, not_a_number);
+  CHECK(frames.failure() == "none");
+  frames.found.sample_triangle_id[8] = no_id;
+  CHECK(frames.failure() ==
+        "device: sees the reference's triangles in 7 of 16 pixels; expected at least half");
+}
+
+TEST_CASE("where the reference is dark there is nothing to compare and nothing fails") {
+  const Frames frames(wall_at(-2.0));
+  CHECK(frames.check().comparable == 0);
+  CHECK(frames.failure() == "none");
+}

@@ -1,0 +1,62 @@
+// What check and bench say of a setup, in text and in JSON.
+
+#include "tests/command_line/program.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace pmdsim::test;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char *nothing_hit = "no ray of a coarse frame hits the scene";
+
+std::string wall_behind_the_camera() {
+  return with(wall_gltf(), R"("mesh": 0)", R"("mesh": 0, "rotation": [0, 1, 0, 0])");
+}
+
+} // namespace
+
+TEST_CASE("check warns of a scene that is out of view, and of none that is seen") {
+  const Workspace work;
+  const std::string setup = work.write("setup.json", small_setup());
+
+  work.write("wall.gltf", wall_behind_the_camera());
+  const Run behind = run_pmdsim({"check", setup, "--json"});
+  CHECK(behind.exit_code == 0);
+  CHECK(behind.errors.find(nothing_hit) != std::string::npos);
+  CHECK(json::parse(behind.output)["warnings"].dump().find(nothing_hit) != std::string::npos);
+
+  work.write("wall.gltf", wall_gltf());
+  const Run before = run_pmdsim({"check", setup, "--json"});
+  CHECK(before.exit_code == 0);
+  CHECK(before.errors.empty());
+  CHECK(json::parse(before.output)["warnings"].empty());
+}
+
+TEST_CASE("bench reports frames per second") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  const std::string setup = work.write("setup.json", small_setup());
+  const Run run = run_pmdsim({"bench", setup, "--device", "reference", "--json"});
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.output);
+  const json &row = report["results"].at(0);
+  CHECK(row["frames_per_s"].get<double>() == Approx(1e3 / row["frame_ms"].get<double>()));
+  CHECK(run_pmdsim({"bench", setup, "--device", "reference"}).output.find(" frames/s\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("bench says that there is nothing to compare where the reference is dark") {
+  const Workspace work;
+  work.write("wall.gltf", wall_behind_the_camera());
+  const std::string setup = work.write("setup.json", small_setup());
+  const Run text = run_pmdsim({"bench", setup});
+  CHECK(text.exit_code == 0);
+  CHECK(text.output.find("nothing to compare") != std::string::npos);
+  CHECK(text.output.find("nan") == std::string::npos);
+  const Run run = run_pmdsim({"bench", setup, "--json"});
+  REQUIRE(run.exit_code == 0);
+  CHECK(json::parse(run.output)["results"].at(0)["error_found_m"].is_null());
+}
