@@ -21,6 +21,7 @@ layout(constant_id = constant_backscatter) const uint backscatter_model = backsc
 layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotropic;
 layout(constant_id = constant_order) const uint power = 1;
 layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
+layout(constant_id = constant_first) const uint is_first = 0;
 
 // A sample's point as the group sees it.
 struct Point {
@@ -80,16 +81,14 @@ vec2 return_of(float total[moments], float kappa) {
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  vec4 hi = Vec4s(constants.position_hi).at[i], lo = Vec4s(constants.position_lo).at[i];
+  Real3 position = real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
   vec4 surface = Vec4s(constants.surface).at[i];
   vec4 reference_hi = constants.reference_hi, reference_lo = constants.reference_lo;
 
-  Real3 from_reference = Real3(add(real(hi.x, lo.x), negate(real(reference_hi.x, reference_lo.x))),
-                               add(real(hi.y, lo.y), negate(real(reference_hi.y, reference_lo.y))),
-                               add(real(hi.z, lo.z), negate(real(reference_hi.z, reference_lo.z))));
-  Real rho = square_root(dot3(from_reference, from_reference));
+  Real3 from_reference = subtract3(position, real3(reference_hi.xyz, reference_lo.xyz));
+  Real rho = length3(from_reference);
   Point point;
-  point.position = vec3(high(from_reference.x), high(from_reference.y), high(from_reference.z));
+  point.position = high3(from_reference);
   point.rho = high(rho);
   point.normal = surface.xyz;
   point.height = surface.w + dot(surface.xyz, reference_hi.xyz);
@@ -107,10 +106,14 @@ void main() {
 #endif
 
   // Samples are summed relative to twice their own range, which the resolve pass turns back.
-  Real detour = add(rho, negate(real(hi.w, lo.w)));
+  Real detour = add(rho, negate(length3(position)));
   float turns = turn_fraction(multiply(detour, real(reference_hi.w, reference_lo.w)));
   vec2 z = complex_multiply(return_of(total, constants.wavenumber), unit_phasor(turns));
   float backscatter = Floats(constants.backscatter).at[i];
   vec2 term = backscatter > 0.0 ? backscatter * z : vec2(0.0); // a sample that hit nothing adds nothing, not even NaN
-  Vec4s(constants.sum).at[i] = compensated_add(Vec4s(constants.sum).at[i], term);
+  Vec4s sums = Vec4s(constants.sum);
+  if (is_first != 0)
+    sums.at[i] = vec4(term, 0.0, 0.0);
+  else
+    sums.at[i] = compensated_add(sums.at[i], term);
 }

@@ -11,4 +11,15 @@ layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Tag
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Planes { TrianglePlane at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupDiode at[]; };
 
+vec3 load_vec3(uvec2 address, uint i) {
+  Floats from = Floats(address);
+  return vec3(from.at[3 * i], from.at[3 * i + 1], from.at[3 * i + 2]);
+}
+void store_vec3(uvec2 address, uint i, vec3 value) {
+  Floats to = Floats(address);
+  to.at[3 * i] = value.x;
+  to.at[3 * i + 1] = value.y;
+  to.at[3 * i + 2] = value.z;
+}
+
 #endif

@@ -30,6 +30,10 @@ PMDSIM_CONSTANT constant_backscatter = 1; // one of backscatter_*
 PMDSIM_CONSTANT constant_pattern = 2;     // one of pattern_*
 PMDSIM_CONSTANT constant_order = 3;       // of pattern_power
 PMDSIM_CONSTANT constant_blocks = 4;      // blocks of diodes that one dispatch sums
+PMDSIM_CONSTANT constant_first = 5;       // 1: of the frame's runs this is the first, there is no sum yet
+
+// Specialization constant of the points pass: 1 where the sum asks for the surfaces.
+PMDSIM_CONSTANT constant_surfaces = 0;
 
 PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of every surface
 PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
@@ -80,19 +84,18 @@ struct VisibilityConstants {
 };
 
 // Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; the pixel id is
-// row * resolution_x + column + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is stored at
-// (sy * S + sx) * padded_pixels + p.
+// row * resolution_x + column + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is
+// stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
   vec4 slope;        // half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
   uvec2 tags;        // in: tags
   uvec2 planes;      // in: TrianglePlane[]
-  uvec2 position_hi; // out: vec4[], point in the camera frame and its distance to the lens (0: nothing hit),
-                     // metres
-  uvec2 position_lo; // out: vec4[], their rests
-  uvec2 surface;     // out: vec4[], normal turned to the lens, distance lens - plane (m)
+  uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
+  uvec2 position_lo; // out: float[3] a sample, their rests
+  uvec2
+      surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for it
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
-  uvec2 sum;         // out: vec4[], zero
 };
 
 struct AccumulateConstants {
@@ -100,8 +103,8 @@ struct AccumulateConstants {
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;         // in and out: vec4[], real, imaginary, and what rounding took from either
-  uvec2 diodes;      // in: GroupDiode[]
+  uvec2 sum;    // in (but for the first run) and out: vec4[], real, imaginary, what rounding took from either
+  uvec2 diodes; // in: GroupDiode[]
   vec4 reference_hi; // the group's reference point (camera frame, m), and modulation_hz / c
   vec4 reference_lo; // their rests
   float wavenumber;  // 2 pi f / c, rad/m
@@ -140,7 +143,7 @@ static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
 static_assert(sizeof(Strip) == 32);
-static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(PointsConstants) == 96 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(AccumulateConstants) == 88 && offsetof(AccumulateConstants, reference_hi) == 48);
 static_assert(sizeof(ResolveConstants) == 92 && offsetof(ResolveConstants, turns_per_m) == 48);
 } // namespace pmdsim::shader

@@ -8,13 +8,12 @@
 #include "real.glsl"
 
 layout(local_size_x = workgroup_size) in;
+layout(constant_id = constant_surfaces) const uint surfaces = 1;
 layout(push_constant, std430) uniform Constants { PointsConstants constants; };
 
-// What a sample that sees nothing leaves: no backscatter, range 0.
+// What a sample that sees nothing leaves: no backscatter, depth 0.
 void store_miss(uint i) {
-  Vec4s(constants.position_hi).at[i] = vec4(0.0, 0.0, 1.0, 0.0);
-  Vec4s(constants.position_lo).at[i] = vec4(0.0);
-  Vec4s(constants.surface).at[i] = vec4(0.0, 0.0, -1.0, 1.0);
+  store_vec3(constants.position_hi, i, vec3(0.0));
   Floats(constants.backscatter).at[i] = 0.0;
 }
 
@@ -29,17 +28,16 @@ Real3 sample_ray(uvec2 position) {
 }
 
 void store_hit(uint i, Real3 ray, TrianglePlane plane) {
-  Real3 normal = Real3(real(plane.plane_hi.x, plane.plane_lo.x), real(plane.plane_hi.y, plane.plane_lo.y),
-                       real(plane.plane_hi.z, plane.plane_lo.z));
+  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
   // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
   Real depth = real_clamp(divide(offset, dot3(normal, ray)), plane.depth_min_m, plane.depth_max_m);
-  Real x = multiply(ray.x, depth), y = multiply(ray.y, depth);
-  Real range = multiply(depth, square_root(dot3(ray, ray)));
-  Vec4s(constants.position_hi).at[i] = vec4(high(x), high(y), high(depth), high(range));
-  Vec4s(constants.position_lo).at[i] = vec4(rest(x), rest(y), rest(depth), rest(range));
-  Vec4s(constants.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  Real3 point = Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth);
+  store_vec3(constants.position_hi, i, high3(point));
+  store_vec3(constants.position_lo, i, rest3(point));
   Floats(constants.backscatter).at[i] = plane.backscatter;
+  if (surfaces != 0)
+    Vec4s(constants.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
 }
 
 void main() {
@@ -47,7 +45,6 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   uint subsample = i / strip.padded_pixels;
   uint pixel = i - subsample * strip.padded_pixels;
-  Vec4s(constants.sum).at[i] = vec4(0.0);
   if (pixel >= strip.columns * strip.rows) {
     store_miss(i);
     return;

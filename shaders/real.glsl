@@ -103,7 +103,15 @@ struct Real3 {
   Real x, y, z;
 };
 
+Real3 real3(vec3 hi, vec3 lo) { return Real3(real(hi.x, lo.x), real(hi.y, lo.y), real(hi.z, lo.z)); }
 Real dot3(Real3 a, Real3 b) { return add(add(multiply(a.x, b.x), multiply(a.y, b.y)), multiply(a.z, b.z)); }
+
+Real3 subtract3(Real3 a, Real3 b) {
+  return Real3(add(a.x, negate(b.x)), add(a.y, negate(b.y)), add(a.z, negate(b.z)));
+}
+Real length3(Real3 a) { return square_root(dot3(a, a)); }
+vec3 high3(Real3 a) { return vec3(high(a.x), high(a.y), high(a.z)); }
+vec3 rest3(Real3 a) { return vec3(rest(a.x), rest(a.y), rest(a.z)); }
 
 // What is left of `turns` beside whole turns, in [-1/2, 1/2].
 float turn_fraction(Real turns) { return high(add(turns, negate(round_to_whole(turns)))); }

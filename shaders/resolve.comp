@@ -27,18 +27,18 @@ PixelSum sum_samples(uint pixel) {
   uint count = constants.samples * constants.samples;
   for (uint s = 0; s < count; ++s) {
     uint i = s * constants.padded_pixels + pixel;
-    vec4 hi = Vec4s(constants.position_hi).at[i];
-    if (hi.w == 0.0)
+    vec3 hi = load_vec3(constants.position_hi, i);
+    if (hi.z == 0.0)
       continue;
-    vec4 lo = Vec4s(constants.position_lo).at[i];
-    Real range = real(hi.w, lo.w);
+    Real3 position = real3(hi, load_vec3(constants.position_lo, i));
+    Real range = length3(position);
     if (sum.hits == 0u)
       sum.reference_m = range;
     float turns = turn_fraction(multiply(add(range, negate(sum.reference_m)), turns_per_m));
     vec2 z = compensated_value(Vec4s(constants.sum).at[i]);
     sum.z = compensated_add(sum.z, complex_multiply(z, unit_phasor(turns)));
     sum.range = add(sum.range, range);
-    sum.depth = add(sum.depth, real(hi.z, lo.z));
+    sum.depth = add(sum.depth, position.z);
     sum.hits += 1u;
   }
   return sum;

@@ -28,6 +28,15 @@ std::span<const std::uint32_t> accumulate_spirv(const vulkan::Device &device,
                            shader::accumulate_looped_double_float_spirv);
 }
 
+vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
+                                      const SumModel &model, const SimulatorOptions &options, bool first) {
+  return {device,
+          accumulate_spirv(device, options),
+          sizeof(shader::AccumulateConstants),
+          {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
+           first ? 1u : 0u}};
+}
+
 } // namespace
 
 SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light) {
@@ -52,8 +61,10 @@ AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &
                                double modulation_hz, const SimulatorOptions &options)
     : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), modulation_hz_(modulation_hz),
       diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
-      pipeline_(device, accumulate_spirv(device, options), sizeof(shader::AccumulateConstants),
-                {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run}) {}
+      first_(make_pipeline(device, groups, model, options, true)) {
+  if (runs_.size() > 1)
+    later_ = make_pipeline(device, groups, model, options, false);
+}
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
   return std::uint64_t{sample_count(strip)} * blocks_per_run_ * shader::diodes_per_block;
@@ -76,7 +87,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
         reference.lo,
         static_cast<float>(2.0 * std::numbers::pi * per_wavelength),
         blocks_per_run_};
-    pipeline_.dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
+    (run == 0 ? first_ : later_).dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
   }
 }
 

@@ -14,6 +14,8 @@ struct SumModel {
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
+
+  bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
 };
 
 SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light);
@@ -35,7 +37,8 @@ private:
   std::uint32_t blocks_per_run_;
   double modulation_hz_;
   vulkan::Buffer diodes_;
-  vulkan::ComputePipeline pipeline_;
+  vulkan::ComputePipeline first_; // of a frame's runs
+  vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
 } // namespace pmdsim

@@ -17,11 +17,12 @@ shader::vec4 slope_of(const Sensor &sensor) {
 
 } // namespace
 
-PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, SamplePrecision precision)
+PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces,
+                       SamplePrecision precision)
     : slope_(slope_of(sensor)),
       pipeline_(device,
                 choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
-                sizeof(shader::PointsConstants)) {}
+                sizeof(shader::PointsConstants), {surfaces ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                         const StripBuffers &buffers, const vulkan::Buffer &planes) const {
@@ -32,8 +33,7 @@ void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::S
                                           words(buffers.position_hi.address()),
                                           words(buffers.position_lo.address()),
                                           words(buffers.surface.address()),
-                                          words(buffers.backscatter.address()),
-                                          words(buffers.sum.address())};
+                                          words(buffers.backscatter.address())};
   pipeline_.dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
 }
 

@@ -11,7 +11,8 @@ namespace pmdsim {
 
 class PointsPass {
 public:
-  PointsPass(const vulkan::Device &device, const Sensor &sensor, SamplePrecision precision);
+  // `surfaces`: whether the sum asks for normals and heights.
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, SamplePrecision precision);
 
   // `planes` holds the TrianglePlane of each of the scene's triangles.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

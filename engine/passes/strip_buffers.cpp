@@ -21,8 +21,8 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize channel_bytes = pixels * shader::channel_count * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
   return {storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
-          storage(samples * sizeof(shader::vec4)),
-          storage(samples * sizeof(shader::vec4)),
+          storage(samples * 3 * sizeof(float)),
+          storage(samples * 3 * sizeof(float)),
           storage(samples * sizeof(shader::vec4)),
           storage(samples * sizeof(float)),
           storage(samples * sizeof(shader::vec4)),

@@ -9,9 +9,9 @@ namespace pmdsim {
 struct StripBuffers {
   vulkan::Buffer tags; // uvec2 a sample, row-major: pixel id, triangle id
   vulkan::Buffer
-      position_hi; // vec4 a sample, from here on: sub-sample by sub-sample, each padded_pixels long
+      position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;
-  vulkan::Buffer surface;
+  vulkan::Buffer surface;     // vec4 a sample
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer sum;         // vec4 a sample
   vulkan::Buffer channels;    // shader::channel_count times padded_pixels words

@@ -76,7 +76,6 @@ TEST_CASE("structs of the points and visibility passes") {
   CHECK_OFFSET(offsets, PointsConstants, position_lo);
   CHECK_OFFSET(offsets, PointsConstants, surface);
   CHECK_OFFSET(offsets, PointsConstants, backscatter);
-  CHECK_OFFSET(offsets, PointsConstants, sum);
   CHECK_OFFSET(offsets, TrianglePlane, plane_hi);
   CHECK_OFFSET(offsets, TrianglePlane, plane_lo);
   CHECK_OFFSET(offsets, TrianglePlane, backscatter);
