@@ -74,27 +74,9 @@ Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &opti
           std::int64_t{usage.ru_maxrss} * 1024};
 }
 
-Workspace::Workspace() {
-  std::string name = (fs::temp_directory_path() / "pmdsim_test_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("no temporary directory");
-  path_ = name;
-}
-
-Workspace::~Workspace() {
-  std::error_code ignored;
-  fs::permissions(path_, fs::perms::owner_all, ignored);
-  fs::remove_all(path_, ignored);
-}
-
-std::string Workspace::write(const std::string &name, const std::string &text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return *this / name;
-}
-
 std::vector<std::string> Workspace::files(const std::string &below) const {
   std::vector<std::string> names;
-  const fs::path root = path_ / below;
+  const fs::path root = path() / below;
   if (fs::exists(root))
     for (const auto &entry : fs::recursive_directory_iterator(root))
       if (!entry.is_directory())

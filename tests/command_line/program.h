@@ -1,6 +1,8 @@
 #pragma once
 // The real binary, run as a user runs it.
 
+#include "tests/support/temporary_folder.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -25,23 +27,20 @@ struct RunOptions {
 // Ends the program after a minute: a hang is an exit code of 128 + SIGALRM.
 Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options = {});
 
-// A directory that lives as long as the test.
+// A temporary folder with the setups and the outputs of a test.
 class Workspace {
 public:
-  Workspace();
-  ~Workspace();
-  Workspace(const Workspace &) = delete;
-  Workspace &operator=(const Workspace &) = delete;
-
-  const std::filesystem::path &path() const { return path_; }
-  std::string operator/(const std::string &name) const { return (path_ / name).string(); }
+  const std::filesystem::path &path() const { return folder_.path(); }
+  std::string operator/(const std::string &name) const { return (path() / name).string(); }
   // Writes `text` to the file and returns its path.
-  std::string write(const std::string &name, const std::string &text) const;
+  std::string write(const std::string &name, const std::string &text) const {
+    return folder_.write(name, text).string();
+  }
   // The names of all files below, sorted.
   std::vector<std::string> files(const std::string &below = ".") const;
 
 private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 // A scene from the repository's scenes/.

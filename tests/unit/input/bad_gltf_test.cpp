@@ -1,7 +1,7 @@
 #include "gltf_builder.h"
 #include "host/input/gltf_loader.h"
 #include "input_error_of.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #include <cmath>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 #include "host/input/diode_file.h"
 #include "input_error_of.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "gltf_builder.h"
 #include "host/input/gltf_loader.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "gltf_builder.h"
 #include "host/input/setup.h"
 #include "input_error_of.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,6 +1,7 @@
 #include "engine/scene.h"
 #include "host/output/exr_writer.h"
-#include "tests/unit/output/temporary_directory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -48,7 +49,7 @@ std::vector<T> read_channel(Imf::InputFile &exr, const std::string &name, Imf::P
 } // namespace
 
 TEST_CASE("an EXR file gives back every bit under the channels' names") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   const Measurement measurement = numbered_measurement();
   OutputFile file(temporary.path() / "frame.exr");
   write_exr(file, channels_of(measurement));

@@ -1,5 +1,6 @@
 #include "host/output/npy_writer.h"
-#include "tests/unit/output/temporary_directory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -10,7 +11,7 @@ using namespace pmdsim;
 namespace {
 
 std::string npy_bytes(const Channel &channel, const glm::uvec2 &resolution) {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputFile file(temporary.path() / "array.npy");
   write_npy(file, channel, resolution);
   file.close();

@@ -1,6 +1,7 @@
 #include "engine/error.h"
 #include "host/output/output_set.h"
-#include "tests/unit/output/temporary_directory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -50,7 +51,7 @@ private:
 } // namespace
 
 TEST_CASE("published files have their names and nothing else is left") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path() / "a" / "b");
   outputs.add("one.txt", write_hello);
   outputs.add("two.txt", [](OutputFile &file) {
@@ -69,7 +70,7 @@ TEST_CASE("published files have their names and nothing else is left") {
 }
 
 TEST_CASE("an existing file is replaced by publish and not before") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   std::ofstream(temporary.path() / "one.txt") << "old";
   OutputSet outputs(temporary.path());
   outputs.add("one.txt", write_hello);
@@ -79,7 +80,7 @@ TEST_CASE("an existing file is replaced by publish and not before") {
 }
 
 TEST_CASE("what fails halfway leaves neither files nor directories") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   const auto fail_halfway = [&] {
     OutputSet outputs(temporary.path() / "a" / "b");
     outputs.add("one.txt", write_hello);
@@ -93,13 +94,13 @@ TEST_CASE("what fails halfway leaves neither files nor directories") {
 }
 
 TEST_CASE("a directory that was there before a failure stays") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   { OutputSet unpublished(temporary.path()); }
   CHECK(std::filesystem::is_directory(temporary.path()));
 }
 
 TEST_CASE("a directory in the way of one file leaves the earlier results of the others") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   std::ofstream(temporary.path() / "one.txt") << "old";
   std::filesystem::create_directory(temporary.path() / "two.txt");
   OutputSet outputs(temporary.path());
@@ -111,7 +112,7 @@ TEST_CASE("a directory in the way of one file leaves the earlier results of the 
 }
 
 TEST_CASE("a link to a directory is replaced like any file") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   std::filesystem::create_directory(temporary.path() / "elsewhere");
   std::filesystem::create_directory_symlink("elsewhere", temporary.path() / "one.txt");
   OutputSet outputs(temporary.path());
@@ -122,7 +123,7 @@ TEST_CASE("a link to a directory is replaced like any file") {
 }
 
 TEST_CASE("a rename that fails takes back those before it") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
   outputs.add("one.txt", write_hello);
   outputs.add("two.txt", write_hello);
@@ -136,7 +137,7 @@ TEST_CASE("a rename that fails takes back those before it") {
 }
 
 TEST_CASE("an output directory that is a file is refused by name and reason") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   const auto file = temporary.path() / "file";
   std::ofstream(file) << "text";
   CHECK(output_error([&] { OutputSet outputs(file); }) ==
@@ -146,7 +147,7 @@ TEST_CASE("an output directory that is a file is refused by name and reason") {
 }
 
 TEST_CASE("a full disk is an error even where a library swallowed it") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
   const FileSizeLimit limit(1000);
   const auto write_too_much = [](OutputFile &file) {
@@ -161,7 +162,7 @@ TEST_CASE("a full disk is an error even where a library swallowed it") {
 }
 
 TEST_CASE("a disk that is full only at the last flush is an error too") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
   const FileSizeLimit limit(3);
   CHECK(output_error([&] { outputs.add("full.txt", write_hello); }).find("File too large") !=
@@ -169,7 +170,7 @@ TEST_CASE("a disk that is full only at the last flush is an error too") {
 }
 
 TEST_CASE("a name with a slash is refused") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
   CHECK(output_error([&] { outputs.add("../out.txt", write_hello); }).find("../out.txt") == 0);
 }

@@ -1,5 +1,6 @@
 #include "host/output/preview.h"
-#include "tests/unit/output/temporary_directory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -100,7 +101,7 @@ TEST_CASE("frames of extreme shapes can be drawn") {
 }
 
 TEST_CASE("a preview is written as PNG") {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputFile file(temporary.path() / "preview.png");
   draw_preview(std::vector{1.0f}, {1, 1}, {"distance", "m", viridis, Scale::sequential}, "title")
       .write_png(file);

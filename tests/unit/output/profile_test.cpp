@@ -1,5 +1,6 @@
 #include "host/output/profile.h"
-#include "tests/unit/output/temporary_directory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,7 +12,7 @@ using namespace pmdsim;
 namespace {
 
 std::vector<std::string> profile_lines(const ChannelSet &channels, const Sensor &sensor) {
-  const TemporaryDirectory temporary;
+  const pmdsim::test::TemporaryFolder temporary;
   OutputFile file(temporary.path() / "profile.csv");
   write_profile_csv(file, channels, sensor);
   file.close();
