@@ -51,7 +51,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<Diode> diodes = to_camera(illuminator, sensor);
   const Projection projection = project(camera, sensor, raster_block_samples(device));
-  const double wavenumber_rad_m = 2.0 * std::numbers::pi * sensor.modulation_hz / speed_of_light_m_s;
+  const double wavenumber_rad_m = 2.0 * std::numbers::pi * sensor.modulation_hz[0] / speed_of_light_m_s;
   const DiodeGroups groups = group_diodes(diodes, projection.visible, wavenumber_rad_m);
   const SumModel model = sum_model(diodes, backscatter, all_face_the_light(camera, diodes));
   const auto strips =
@@ -61,10 +61,10 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   return {sensor,
           strips,
           vulkan::upload(device, std::as_bytes(std::span(planes))),
-          make_strip_buffers(device, strips, options.keep_sample_triangles),
+          make_strip_buffers(device, strips, options.keep_sample_tags),
           VisibilityPass(device, projection, strips),
           PointsPass(device, sensor, model.asks_for_surfaces(), options.precision),
-          AccumulatePass(device, groups, model, sensor.modulation_hz, options),
+          AccumulatePass(device, groups, model, sensor.modulation_hz[0], options),
           ResolvePass(device, sensor, groups.largest_intensity_w_sr, options.precision)};
 }
 
@@ -163,7 +163,7 @@ Measurement Simulator::measure(const Progress &progress) {
     throw std::logic_error("measure() before prepare()");
   const auto start = std::chrono::steady_clock::now();
   state_->recorder.reset();
-  Measurement measurement = make_measurement(state_->prepared->sensor, state_->options.keep_sample_triangles);
+  Measurement measurement = make_measurement(state_->prepared->sensor, state_->options.keep_sample_tags);
   const auto &strips = state_->prepared->strips;
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {

@@ -34,16 +34,18 @@ void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, bool keep_sample_triangles) {
+Measurement make_measurement(const Sensor &sensor, bool keep_sample_tags) {
   Measurement measurement;
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
-  for (auto *channel : {&measurement.amplitude, &measurement.phase_rad, &measurement.distance_m,
-                        &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  measurement.returns.resize(1);
+  for (auto *channel :
+       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
+        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
-  if (keep_sample_triangles)
+  if (keep_sample_tags)
     measurement.sample_triangle_id.resize(pixels * sensor.samples * sensor.samples);
   return measurement;
 }
@@ -73,9 +75,9 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measur
   const auto store = [&](std::uint32_t index, auto &to) {
     store_rows(channel(index), strip, strip.resolution_x, to);
   };
-  store(shader::channel_amplitude, measurement.amplitude);
-  store(shader::channel_phase_rad, measurement.phase_rad);
-  store(shader::channel_distance_m, measurement.distance_m);
+  store(shader::channel_amplitude, measurement.returns[0].amplitude);
+  store(shader::channel_phase_rad, measurement.returns[0].phase_rad);
+  store(shader::channel_distance_m, measurement.returns[0].distance_m);
   store(shader::channel_range_m, measurement.range_m);
   store(shader::channel_z_m, measurement.z_m);
   store(shader::channel_coverage, measurement.coverage);

@@ -5,7 +5,7 @@
 namespace pmdsim {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                bool keep_sample_triangles) {
+                                bool keep_sample_tags) {
   using Usage = vk::BufferUsageFlagBits;
   vk::DeviceSize samples = 0, pixels = 0;
   for (const auto &[strip, block] : strips) {
@@ -28,7 +28,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
           storage(samples * sizeof(shader::vec4)),
           storage(channel_bytes, Usage::eTransferSrc),
           read(channel_bytes),
-          read(keep_sample_triangles ? tag_bytes : 0)};
+          read(keep_sample_tags ? tag_bytes : 0)};
 }
 
 } // namespace pmdsim

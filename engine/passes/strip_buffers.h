@@ -20,7 +20,7 @@ struct StripBuffers {
 };
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                bool keep_sample_triangles);
+                                bool keep_sample_tags);
 
 inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;

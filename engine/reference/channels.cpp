@@ -37,11 +37,14 @@ Frame dark_frame(const Sensor &sensor) {
   const std::size_t samples = pixels * sensor.samples * sensor.samples;
   Frame frame;
   frame.resolution = sensor.resolution;
-  frame.ambiguity_m = sensor.ambiguity_m();
-  frame.z.assign(pixels, 0.0);
-  for (auto *channel : {&frame.amplitude, &frame.coverage})
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
+    const std::vector<double> dark(pixels, 0.0), unknown(pixels, nan);
+    frame.returns.push_back(
+        {sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown, unknown, {}});
+  }
+  for (auto *channel : {&frame.coverage})
     channel->assign(pixels, 0.0);
-  for (auto *channel : {&frame.phase_rad, &frame.distance_m, &frame.range_m, &frame.z_m})
+  for (auto *channel : {&frame.range_m, &frame.z_m})
     channel->assign(pixels, nan);
   for (auto *ids : {&frame.triangle_id, &frame.object_id})
     ids->assign(pixels, no_id);
@@ -56,21 +59,24 @@ void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::u
     frame.z_m[pixel] = sums.z_m.value() / sums.hits;
   }
   const std::complex<double> z = sums.z.value() / static_cast<double>(samples);
-  frame.z[pixel] = z;
-  frame.amplitude[pixel] = std::abs(z);
-  if (frame.amplitude[pixel] > 0) {
-    frame.phase_rad[pixel] = phase_of_rad(z);
-    frame.distance_m[pixel] =
-        below(frame.ambiguity_m * (frame.phase_rad[pixel] / full_turn_rad), frame.ambiguity_m);
+  frame.returns[0].z[pixel] = z;
+  frame.returns[0].amplitude[pixel] = std::abs(z);
+  if (frame.returns[0].amplitude[pixel] > 0) {
+    frame.returns[0].phase_rad[pixel] = phase_of_rad(z);
+    frame.returns[0].distance_m[pixel] =
+        below(frame.returns[0].ambiguity_m * (frame.returns[0].phase_rad[pixel] / full_turn_rad),
+              frame.returns[0].ambiguity_m);
   }
 }
 
 Measurement to_measurement(const Frame &frame) {
   Measurement measurement;
   measurement.resolution = frame.resolution;
-  measurement.amplitude = rounded(frame.amplitude);
-  measurement.phase_rad = rounded_below(frame.phase_rad, full_turn_rad);
-  measurement.distance_m = rounded_below(frame.distance_m, frame.ambiguity_m);
+  measurement.returns.resize(1);
+  measurement.returns[0].amplitude = rounded(frame.returns[0].amplitude);
+  measurement.returns[0].phase_rad = rounded_below(frame.returns[0].phase_rad, full_turn_rad);
+  measurement.returns[0].distance_m =
+      rounded_below(frame.returns[0].distance_m, frame.returns[0].ambiguity_m);
   measurement.range_m = rounded(frame.range_m);
   measurement.z_m = rounded(frame.z_m);
   measurement.coverage = rounded(frame.coverage);

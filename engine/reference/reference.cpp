@@ -58,7 +58,7 @@ private:
     ++sums.hits;
     sums.range_m.add(hit->range_m);
     sums.z_m.add(point.position_m.z);
-    add_paths(sums.z, point, diodes_, backscatter_, sensor_.modulation_hz);
+    add_paths(sums.z, point, diodes_, backscatter_, sensor_.modulation_hz[0]);
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {

@@ -13,13 +13,19 @@
 
 namespace pmdsim::reference {
 
-// Channels as in Measurement, row-major, before anything is rounded to float. `z` is eq. 5 to 7's mean
-// complex return.
-struct Frame {
-  glm::uvec2 resolution{0, 0};
+// Channels as in Measurement, row-major, before anything is rounded to float. `z` is what the
+// camera forms from its taps; for a sine, eq. 5 to 7's mean complex return.
+struct FrameReturn {
   double ambiguity_m = 0.0; // c / (2 f), where distance_m wraps
   std::vector<std::complex<double>> z;
-  std::vector<double> amplitude, phase_rad, distance_m, range_m, z_m, coverage;
+  std::vector<double> amplitude, phase_rad, distance_m;
+  std::vector<std::vector<double>> taps; // c_k, k = 0 ... N-1
+};
+
+struct Frame {
+  glm::uvec2 resolution{0, 0};
+  std::vector<FrameReturn> returns; // beside Sensor::modulation_hz
+  std::vector<double> range_m, z_m, coverage;
   std::vector<std::uint32_t> triangle_id, object_id;
   std::vector<std::uint32_t> sample_triangle_id; // (S*rows) x (S*columns)
   double frame_ms = 0.0;

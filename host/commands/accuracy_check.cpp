@@ -44,17 +44,20 @@ double largest_plausible_error_m(const Sensor &sensor) {
 
 AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor) {
   AccuracyCheck check{sensor.resolution, 0, 0, 0, std::numeric_limits<double>::quiet_NaN()};
-  const double darkest = 1e-3 * *std::max_element(truth.amplitude.begin(), truth.amplitude.end());
+  const double darkest =
+      1e-3 * *std::max_element(truth.returns[0].amplitude.begin(), truth.returns[0].amplitude.end());
   for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
     for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {
       const std::size_t pixel = std::size_t{row} * sensor.resolution.x + column;
-      if (!std::isfinite(truth.distance_m[pixel]) || !(truth.amplitude[pixel] > darkest))
+      if (!std::isfinite(truth.returns[0].distance_m[pixel]) ||
+          !(truth.returns[0].amplitude[pixel] > darkest))
         continue;
       ++check.comparable;
       if (!same_triangles(found, truth, column, row, sensor.samples))
         continue;
       ++check.pixels;
-      const double difference_m = static_cast<double>(found.distance_m[pixel]) - truth.distance_m[pixel];
+      const double difference_m =
+          static_cast<double>(found.returns[0].distance_m[pixel]) - truth.returns[0].distance_m[pixel];
       if (std::isfinite(difference_m))
         check.distance_max_m =
             std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, sensor.ambiguity_m())));

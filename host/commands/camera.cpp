@@ -34,7 +34,7 @@ Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
   }
   SimulatorOptions options;
   options.device = device;
-  options.keep_sample_triangles = sample_triangles == SampleTriangles::keep;
+  options.keep_sample_tags = sample_triangles == SampleTriangles::keep;
   options.validate = validation_is_asked_for();
   simulator_.emplace(options);
   device_ = simulator_->device().name;

@@ -115,7 +115,7 @@ std::string report_text(const Setup &setup, const Findings &findings) {
   add("pixel footprint at 1 m", fmt::format("{:.4g} mm x {:.4g} mm", 1e3 * findings.footprint_at_1m_m.x,
                                             1e3 * findings.footprint_at_1m_m.y));
   add("image distance", fmt::format("{:.6g} mm", 1e3 * findings.image_distance_m));
-  add("modulation", fmt::format("{:.6g} MHz", 1e-6 * sensor.modulation_hz));
+  add("modulation", fmt::format("{:.6g} MHz", 1e-6 * sensor.modulation_hz[0]));
   add("ambiguity range", fmt::format("{:.6g} m", findings.ambiguity_m));
   return text;
 }

@@ -56,11 +56,12 @@ void run_deform(const Options &options) {
 
   Camera camera(options.device);
   camera.prepare(setup.scene, sensor, monostatic_illuminator(sensor.world_from_camera), setup.backscatter);
-  const std::vector<float> monostatic_distance_m = camera.measure("measuring, light in the lens").distance_m;
+  const std::vector<float> monostatic_distance_m =
+      camera.measure("measuring, light in the lens").returns[0].distance_m;
   camera.prepare(setup.scene, sensor, setup.illuminators.front(), setup.backscatter);
   const Measurement bistatic = camera.measure("measuring, light beside the lens");
   const std::vector<float> deformation =
-      deformation_mm(bistatic.distance_m, monostatic_distance_m, sensor.ambiguity_m());
+      deformation_mm(bistatic.returns[0].distance_m, monostatic_distance_m, sensor.ambiguity_m());
   const DeformationStatistics statistics = statistics_of(deformation, sensor.resolution);
 
   ChannelSet channels = channels_of(bistatic);

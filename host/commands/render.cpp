@@ -48,8 +48,8 @@ std::string report_text(const RunRecord &run, const Measurement &measurement, co
   std::string text =
       fmt::format("device    {} ({})\nframe     {:.3f} ms\n\n", run.device, run.driver, measurement.frame_ms);
   text += fmt::format("{:<10}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
-  text += spread_line("distance", measurement.distance_m, "m");
-  text += spread_line("amplitude", measurement.amplitude, "W/(m² sr)");
+  text += spread_line("distance", measurement.returns[0].distance_m, "m");
+  text += spread_line("amplitude", measurement.returns[0].amplitude, "W/(m² sr)");
   text += fmt::format("\n{:.2f} % of the samples hit the scene\n\nwritten:\n",
                       100.0 * mean_coverage(measurement.coverage));
   for (const std::string &path : outputs.paths())

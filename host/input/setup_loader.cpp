@@ -76,7 +76,7 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   result.focal_length_m = sensor.at("focal_length_m");
   result.focus_distance_m = focus_distance_m(sensor, place);
   result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", scene, {});
-  result.modulation_hz = sensor.at("modulation_hz").at(0);
+  result.modulation_hz = sensor.at("modulation_hz").get<std::vector<double>>();
   result.samples = sensor.at("samples");
   return result;
 }

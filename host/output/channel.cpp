@@ -8,9 +8,9 @@ ChannelSet channels_of(const Measurement &measurement) {
     return std::span<const std::uint32_t>(values);
   };
   return {measurement.resolution,
-          {{"amplitude", "W/(m² sr)", floats(measurement.amplitude)},
-           {"phase_rad", "rad", floats(measurement.phase_rad)},
-           {"distance_m", "m", floats(measurement.distance_m)},
+          {{"amplitude", "W/(m² sr)", floats(measurement.returns[0].amplitude)},
+           {"phase_rad", "rad", floats(measurement.returns[0].phase_rad)},
+           {"distance_m", "m", floats(measurement.returns[0].distance_m)},
            {"range_m", "m", floats(measurement.range_m)},
            {"z_m", "m", floats(measurement.z_m)},
            {"coverage", "", floats(measurement.coverage)},

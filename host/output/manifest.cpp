@@ -22,7 +22,7 @@ ordered_json frame_json(const FrameRecord &record) {
   return {{"sensor", record.sensor.name},
           {"frame", record.frame},
           {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
-          {"modulation_hz", record.sensor.modulation_hz},
+          {"modulation_hz", record.sensor.modulation_hz[0]},
           {"ambiguity_m", record.sensor.ambiguity_m()},
           {"camera", camera_json(record.sensor)},
           {"frame_ms", record.frame_ms},

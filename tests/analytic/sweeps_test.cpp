@@ -32,13 +32,13 @@ TEST_CASE("distance over modulation frequency and range") {
   Sensor sensor = axial_sensor();
   for (const double modulation_hz : {1e6, 20e6, 100e6, 300e6})
     for (const double z_m : {0.1, 3.3, 70.0, 1000.0}) {
-      sensor.modulation_hz = modulation_hz;
+      sensor.modulation_hz = {modulation_hz};
       const double baseline_m = 0.07;
       const Measurement frame =
           measure(engine, wall_at(z_m), sensor, diode_beside_lens(sensor, diode_at({0, baseline_m, 0})),
                   Backscatter::lambert);
       check_distance(engine, fmt::format("7 cm baseline, {:g} MHz, {:g} m", modulation_hz / 1e6, z_m),
-                     (z_m + std::hypot(z_m, baseline_m)) / 2, sensor, frame.distance_m[0]);
+                     (z_m + std::hypot(z_m, baseline_m)) / 2, sensor, frame.returns[0].distance_m[0]);
     }
 }
 
@@ -52,12 +52,12 @@ TEST_CASE("distance along oblique rays") {
   for (std::size_t pixel = 0; pixel < 4; ++pixel) {
     const double lens_m = glm::length(points_m[pixel]), light_m = glm::length(points_m[pixel] - diode_m);
     const std::string name = fmt::format("oblique ray {}", pixel);
-    check_distance(engine, name, (lens_m + light_m) / 2, sensor, frame.distance_m[pixel]);
+    check_distance(engine, name, (lens_m + light_m) / 2, sensor, frame.returns[0].distance_m[pixel]);
     check_distance(engine, name + ", range", lens_m, sensor, frame.range_m[pixel]);
     check_distance(engine, name + ", z", 2, sensor, frame.z_m[pixel]);
     const double cos_incidence = (2 - diode_m.z) / light_m;
     check_amplitude(engine, name + ", amplitude", cos_incidence / (std::numbers::pi * light_m * light_m),
-                    frame.amplitude[pixel]);
+                    frame.returns[0].amplitude[pixel]);
   }
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("a camera far from the world's origin measures as one at it") {
                                     monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
   for (std::size_t pixel = 0; pixel < 4; ++pixel)
     check_distance(engine, fmt::format("1e7 m from the origin, pixel {}", pixel), 2 * std::sqrt(1.125),
-                   sensor, frame.distance_m[pixel]);
+                   sensor, frame.returns[0].distance_m[pixel]);
 }
 
 TEST_CASE("a diode's diagram over order and angle") {
@@ -85,7 +85,7 @@ TEST_CASE("a diode's diagram over order and angle") {
       const Measurement frame =
           measure(engine, wall_at(1), sensor, diode_beside_lens(sensor, diode), Backscatter::constant);
       check_amplitude(engine, fmt::format("cos^{:g} of {:g} rad", order, angle_rad),
-                      std::pow(std::cos(angle_rad), order), frame.amplitude[0]);
+                      std::pow(std::cos(angle_rad), order), frame.returns[0].amplitude[0]);
     }
 }
 
@@ -99,9 +99,9 @@ TEST_CASE("a diode turned away or behind the surface gives no light and no dista
   for (const Diode &diode : {turned_away, behind_wall}) {
     const Measurement frame =
         measure(engine, wall_at(2), sensor, diode_beside_lens(sensor, diode), Backscatter::constant);
-    CHECK(frame.amplitude[0] == 0);
-    CHECK(std::isnan(frame.phase_rad[0]));
-    CHECK(std::isnan(frame.distance_m[0]));
+    CHECK(frame.returns[0].amplitude[0] == 0);
+    CHECK(std::isnan(frame.returns[0].phase_rad[0]));
+    CHECK(std::isnan(frame.returns[0].distance_m[0]));
     CHECK(frame.coverage[0] == 1);
     CHECK(frame.range_m[0] == Approx(2));
   }
@@ -120,7 +120,7 @@ TEST_CASE("a back face is seen only where it is double-sided") {
   CHECK(frame.triangle_id[2] == (double_sided ? 0 : 1));
   CHECK(frame.object_id[2] == (double_sided ? 0 : 1));
   check_distance(engine, double_sided ? "double-sided back face" : "culled back face",
-                 (double_sided ? 1 : 2) * std::sqrt(1.125), sensor, frame.distance_m[2]);
+                 (double_sided ? 1 : 2) * std::sqrt(1.125), sensor, frame.returns[0].distance_m[2]);
 }
 
 TEST_CASE("what misses counts in the light, not in the range") {
@@ -135,8 +135,8 @@ TEST_CASE("what misses counts in the light, not in the range") {
                 Backscatter::constant);
     const std::string name = fmt::format("half-covered pixel, S = {}", samples);
     CHECK(frame.coverage[0] == 0.5f);
-    check_amplitude(engine, name + ", amplitude", 0.125, frame.amplitude[0]);
-    check_distance(engine, name + ", distance", 2, sensor, frame.distance_m[0]);
+    check_amplitude(engine, name + ", amplitude", 0.125, frame.returns[0].amplitude[0]);
+    check_distance(engine, name + ", distance", 2, sensor, frame.returns[0].distance_m[0]);
     check_distance(engine, name + ", range", 2, sensor, frame.range_m[0]);
   }
 }
@@ -146,13 +146,14 @@ TEST_CASE("an empty scene is dark and without distance") {
   const Sensor sensor = two_by_two_sensor();
   const Measurement frame =
       measure(engine, {}, sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::lambert);
-  REQUIRE(frame.amplitude.size() == 4);
+  REQUIRE(frame.returns[0].amplitude.size() == 4);
   for (std::size_t pixel = 0; pixel < 4; ++pixel) {
-    CHECK(frame.amplitude[pixel] == 0);
+    CHECK(frame.returns[0].amplitude[pixel] == 0);
     CHECK(frame.coverage[pixel] == 0);
     CHECK(frame.triangle_id[pixel] == no_id);
     CHECK(frame.object_id[pixel] == no_id);
-    for (const auto *channel : {&frame.phase_rad, &frame.distance_m, &frame.range_m, &frame.z_m})
+    for (const auto *channel :
+         {&frame.returns[0].phase_rad, &frame.returns[0].distance_m, &frame.range_m, &frame.z_m})
       CHECK(std::isnan((*channel)[pixel]));
   }
 }

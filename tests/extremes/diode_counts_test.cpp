@@ -33,11 +33,13 @@ std::pair<double, double> largest_errors(const Scene &scene, const Sensor &senso
   const Measurement got = simulator.measure();
   const reference::Frame truth = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
   double distance_um = 0.0, amplitude = 0.0;
-  for (std::size_t i = 0; i < got.distance_m.size(); ++i) {
-    REQUIRE(std::isfinite(got.distance_m[i]));
-    REQUIRE(std::isfinite(got.amplitude[i]));
-    distance_um = std::max(distance_um, 1e6 * std::abs(double(got.distance_m[i]) - truth.distance_m[i]));
-    amplitude = std::max(amplitude, std::abs(double(got.amplitude[i]) / truth.amplitude[i] - 1.0));
+  for (std::size_t i = 0; i < got.returns[0].distance_m.size(); ++i) {
+    REQUIRE(std::isfinite(got.returns[0].distance_m[i]));
+    REQUIRE(std::isfinite(got.returns[0].amplitude[i]));
+    distance_um = std::max(
+        distance_um, 1e6 * std::abs(double(got.returns[0].distance_m[i]) - truth.returns[0].distance_m[i]));
+    amplitude = std::max(amplitude,
+                         std::abs(double(got.returns[0].amplitude[i]) / truth.returns[0].amplitude[i] - 1.0));
   }
   return {distance_um, amplitude};
 }

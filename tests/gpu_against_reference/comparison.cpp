@@ -15,13 +15,14 @@ double relative_error(float measured, double expected) {
 }
 
 bool same_truth(const Measurement &measured, const reference::Frame &expected, std::size_t pixel) {
-  const bool hit = expected.coverage[pixel] > 0, lit = expected.amplitude[pixel] > 0;
+  const bool hit = expected.coverage[pixel] > 0, lit = expected.returns[0].amplitude[pixel] > 0;
   return measured.coverage[pixel] == static_cast<float>(expected.coverage[pixel]) &&
          measured.triangle_id[pixel] == expected.triangle_id[pixel] &&
          measured.object_id[pixel] == expected.object_id[pixel] &&
          std::isfinite(measured.range_m[pixel]) == hit && std::isfinite(measured.z_m[pixel]) == hit &&
-         (measured.amplitude[pixel] > 0) == lit && std::isfinite(measured.phase_rad[pixel]) == lit &&
-         std::isfinite(measured.distance_m[pixel]) == lit;
+         (measured.returns[0].amplitude[pixel] > 0) == lit &&
+         std::isfinite(measured.returns[0].phase_rad[pixel]) == lit &&
+         std::isfinite(measured.returns[0].distance_m[pixel]) == lit;
 }
 
 // Everything that one comparison reads, and the result as it grows.
@@ -50,16 +51,17 @@ public:
   }
 
   void compare_light(std::size_t pixel) {
-    if (expected_.amplitude[pixel] == 0)
+    if (expected_.returns[0].amplitude[pixel] == 0)
       return;
     const double distance_error_m = std::abs(
-        std::remainder(measured_.distance_m[pixel] - expected_.distance_m[pixel], sensor_.ambiguity_m()));
+        std::remainder(measured_.returns[0].distance_m[pixel] - expected_.returns[0].distance_m[pixel],
+                       sensor_.ambiguity_m()));
     ++result_.pixels;
     squares_m2_ += distance_error_m * distance_error_m;
     result_.distance_max_m = std::max(result_.distance_max_m, distance_error_m);
     result_.amplitude_max_relative =
-        std::max(result_.amplitude_max_relative,
-                 relative_error(measured_.amplitude[pixel], expected_.amplitude[pixel]));
+        std::max(result_.amplitude_max_relative, relative_error(measured_.returns[0].amplitude[pixel],
+                                                                expected_.returns[0].amplitude[pixel]));
   }
 
   Comparison result() const {

@@ -9,8 +9,9 @@ std::string bytes_of(const Measurement &measurement) {
   const auto append = [&bytes](const auto &channel) {
     bytes.append(reinterpret_cast<const char *>(channel.data()), channel.size() * sizeof(channel[0]));
   };
-  for (const auto *channel : {&measurement.amplitude, &measurement.phase_rad, &measurement.distance_m,
-                              &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  for (const auto *channel :
+       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
+        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
     append(*channel);
   for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id})
     append(*ids);

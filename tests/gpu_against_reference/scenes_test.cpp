@@ -27,7 +27,7 @@ const std::vector<Variant> variants{
 Comparison compare_variant(const Variant &variant, const Setup &setup, const Sensor &sensor,
                            const reference::Frame &expected) {
   Simulator simulator = make_simulator(
-      {.device = {}, .keep_sample_triangles = true, .precision = variant.precision, .loop = variant.loop});
+      {.device = {}, .keep_sample_tags = true, .precision = variant.precision, .loop = variant.loop});
   simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
   return compare(simulator.measure(), expected, setup.scene, sensor);
 }

@@ -12,7 +12,7 @@ int main(int argc, char **argv) {
   if (argc != 2)
     return 2;
   try {
-    Simulator simulator = test::make_simulator({.device = {}, .keep_sample_triangles = true});
+    Simulator simulator = test::make_simulator({.device = {}, .keep_sample_tags = true});
     test::prepare_repeatability_frame(simulator);
     std::ofstream file(argv[1], std::ios::binary);
     file << test::bytes_of(simulator.measure()) << std::flush;

@@ -55,7 +55,7 @@ TEST_CASE("a device that rounds the reference to float passes") {
 
 TEST_CASE("a distance that is too far off fails") {
   Frames frames;
-  frames.found.distance_m[5] += 0.001F;
+  frames.found.returns[0].distance_m[5] += 0.001F;
   CHECK(frames.check().distance_max_m == Approx(0.001).epsilon(1e-3));
   CHECK(frames.failure().starts_with("device: distances differ from the reference by up to "));
 }
@@ -63,16 +63,16 @@ TEST_CASE("a distance that is too far off fails") {
 TEST_CASE("a distance that is not finite fails, be it one or all") {
   const float value = GENERATE(as<float>{}, not_a_number, std::numeric_limits<float>::infinity());
   Frames frames;
-  frames.found.distance_m[7] = value;
+  frames.found.returns[0].distance_m[7] = value;
   CHECK(frames.failure() == "device: distances are not finite in 1 of 16 pixels where the reference's are");
-  std::ranges::fill(frames.found.distance_m, value);
+  std::ranges::fill(frames.found.returns[0].distance_m, value);
   CHECK(frames.failure() == "device: distances are not finite in 16 of 16 pixels where the reference's are");
 }
 
 TEST_CASE("other triangles are forgiven in half of the pixels") {
   Frames frames;
   std::fill_n(frames.found.sample_triangle_id.begin(), 8, no_id);
-  std::fill_n(frames.found.distance_m.begin(), 8, not_a_number);
+  std::fill_n(frames.found.returns[0].distance_m.begin(), 8, not_a_number);
   CHECK(frames.failure() == "none");
   frames.found.sample_triangle_id[8] = no_id;
   CHECK(frames.failure() ==

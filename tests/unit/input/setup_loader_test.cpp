@@ -31,7 +31,7 @@ TEST_CASE("A sensor is what the setup says, with the contract's defaults") {
   CHECK(sensor.pixel_pitch_m == glm::dvec2(45e-6, 40e-6));
   CHECK(sensor.focal_length_m == 0.01);
   CHECK(std::isinf(sensor.focus_distance_m));
-  CHECK(sensor.modulation_hz == 20e6);
+  CHECK(sensor.modulation_hz == std::vector{20e6});
   CHECK(sensor.samples == 1);
   CHECK(setup.backscatter == Backscatter::lambert);
   CHECK(setup.scene.triangles.size() == 1);

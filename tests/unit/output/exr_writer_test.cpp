@@ -22,16 +22,18 @@ constexpr std::size_t pixel_count = resolution.x * resolution.y;
 Measurement numbered_measurement() {
   Measurement measurement;
   measurement.resolution = resolution;
+  measurement.returns.resize(1);
   float next = 0.1f;
-  for (auto *channel : {&measurement.amplitude, &measurement.phase_rad, &measurement.distance_m,
-                        &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  for (auto *channel :
+       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
+        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
     for (std::size_t pixel = 0; pixel < pixel_count; ++pixel)
       channel->push_back(next += 0.7f);
   for (std::uint32_t pixel = 0; pixel < pixel_count; ++pixel) {
     measurement.triangle_id.push_back(70000u + pixel);
     measurement.object_id.push_back(no_id);
   }
-  measurement.distance_m[7] = std::numeric_limits<float>::quiet_NaN();
+  measurement.returns[0].distance_m[7] = std::numeric_limits<float>::quiet_NaN();
   return measurement;
 }
 
@@ -68,8 +70,8 @@ TEST_CASE("an EXR file gives back every bit under the channels' names") {
                                                        {"coverage", Imf::FLOAT},
                                                        {"triangle_id", Imf::UINT},
                                                        {"object_id", Imf::UINT}});
-  CHECK(read_channel<float>(exr, "amplitude", Imf::FLOAT) == measurement.amplitude);
-  CHECK(read_channel<float>(exr, "phase_rad", Imf::FLOAT) == measurement.phase_rad);
+  CHECK(read_channel<float>(exr, "amplitude", Imf::FLOAT) == measurement.returns[0].amplitude);
+  CHECK(read_channel<float>(exr, "phase_rad", Imf::FLOAT) == measurement.returns[0].phase_rad);
   CHECK(read_channel<float>(exr, "range_m", Imf::FLOAT) == measurement.range_m);
   CHECK(read_channel<float>(exr, "z_m", Imf::FLOAT) == measurement.z_m);
   CHECK(read_channel<float>(exr, "coverage", Imf::FLOAT) == measurement.coverage);
@@ -77,5 +79,5 @@ TEST_CASE("an EXR file gives back every bit under the channels' names") {
   CHECK(read_channel<std::uint32_t>(exr, "object_id", Imf::UINT) == measurement.object_id);
   const std::vector<float> distance_m = read_channel<float>(exr, "distance_m", Imf::FLOAT);
   CHECK(std::isnan(distance_m[7]));
-  CHECK(distance_m[8] == measurement.distance_m[8]);
+  CHECK(distance_m[8] == measurement.returns[0].distance_m[8]);
 }

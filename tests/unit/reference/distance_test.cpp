@@ -15,6 +15,7 @@ namespace {
 double monostatic_distance_m(const Scene &scene, const Sensor &sensor) {
   return reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
                              Backscatter::constant)
+      .returns[0]
       .distance_m[0];
 }
 
@@ -26,16 +27,17 @@ TEST_CASE("a diode beside the lens reads half of its longer path") {
   const Sensor sensor = axial_sensor();
   const auto frame = reference::simulate(
       wall_at(z_m), sensor, diode_beside_lens(sensor, diode_at({baseline_m, 0, 0})), Backscatter::lambert);
-  CHECK(frame.distance_m[0] == Approx((std::hypot(z_m, baseline_m) + z_m) / 2).epsilon(0).margin(1e-12));
+  CHECK(frame.returns[0].distance_m[0] ==
+        Approx((std::hypot(z_m, baseline_m) + z_m) / 2).epsilon(0).margin(1e-12));
   CHECK(frame.range_m[0] == Approx(z_m).epsilon(1e-15));
-  CHECK(frame.phase_rad[0] ==
-        Approx(2 * std::numbers::pi * frame.distance_m[0] / sensor.ambiguity_m()).epsilon(1e-14));
+  CHECK(frame.returns[0].phase_rad[0] ==
+        Approx(2 * std::numbers::pi * frame.returns[0].distance_m[0] / sensor.ambiguity_m()).epsilon(1e-14));
 }
 
 TEST_CASE("distance wraps at c / (2 f)") {
   const double z_m = GENERATE(15.0, 20.0, 49.0, 1e5);
   Sensor sensor = axial_sensor();
-  sensor.modulation_hz = 10e6;
+  sensor.modulation_hz = {10e6};
   CHECK(monostatic_distance_m(wall_at(z_m), sensor) ==
         Approx(std::fmod(z_m, sensor.ambiguity_m())).epsilon(0).margin(1e-15 * z_m + 1e-13));
 }
@@ -49,7 +51,7 @@ TEST_CASE("a pixel off the axis reads the distance along its ray") {
                                          Backscatter::constant);
   const double per_depth = std::sqrt(1 + 0.5 * 0.5 + 0.3 * 0.3);
   for (const std::size_t corner : {0u, 2u, 6u, 8u}) {
-    CHECK(frame.distance_m[corner] == Approx(2 * per_depth).epsilon(1e-13));
+    CHECK(frame.returns[0].distance_m[corner] == Approx(2 * per_depth).epsilon(1e-13));
     CHECK(frame.range_m[corner] == Approx(2 * per_depth).epsilon(1e-14));
     CHECK(frame.z_m[corner] == Approx(2).epsilon(1e-14));
   }
@@ -78,12 +80,12 @@ TEST_CASE("a pixel half on a near and half on a far wall mixes their phasors") {
   const auto frame = reference::simulate(
       builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
 
-  const double wavenumber = 4 * std::numbers::pi * sensor.modulation_hz / speed_of_light_m_s;
+  const double wavenumber = 4 * std::numbers::pi * sensor.modulation_hz[0] / speed_of_light_m_s;
   const auto z = 0.5 * (std::polar(near_reflectivity / (near_m * near_m), wavenumber * near_m) +
                         std::polar(1.0 / (far_m * far_m), wavenumber * far_m));
-  CHECK(frame.distance_m[0] == Approx(std::arg(z) / wavenumber).epsilon(0).margin(1e-10));
-  CHECK(frame.distance_m[0] == Approx(equal_weights ? 1.25 : 1.152630).epsilon(0).margin(5e-7));
-  CHECK(frame.amplitude[0] == Approx(std::abs(z)).epsilon(1e-10));
+  CHECK(frame.returns[0].distance_m[0] == Approx(std::arg(z) / wavenumber).epsilon(0).margin(1e-10));
+  CHECK(frame.returns[0].distance_m[0] == Approx(equal_weights ? 1.25 : 1.152630).epsilon(0).margin(5e-7));
+  CHECK(frame.returns[0].amplitude[0] == Approx(std::abs(z)).epsilon(1e-10));
 }
 
 TEST_CASE("phase grows with the path's length from zero") {
@@ -91,8 +93,8 @@ TEST_CASE("phase grows with the path's length from zero") {
   const auto frame =
       reference::simulate(wall_at(sensor.ambiguity_m() / 4), sensor,
                           monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
-  CHECK(frame.phase_rad[0] == Approx(std::numbers::pi / 2).epsilon(1e-13));
-  CHECK(frame.z[0].imag() > 0);
+  CHECK(frame.returns[0].phase_rad[0] == Approx(std::numbers::pi / 2).epsilon(1e-13));
+  CHECK(frame.returns[0].z[0].imag() > 0);
 }
 
 TEST_CASE("a scene far from the world's origin is measured as at the origin") {
@@ -112,7 +114,7 @@ TEST_CASE("a scene far from the world's origin is measured as at the origin") {
   const auto far = measure(turned_far);
   REQUIRE(near.coverage[12] == 1);
   const double spacing_at_offset_m = 1e7 * std::numeric_limits<double>::epsilon();
-  for (std::size_t pixel = 0; pixel < near.z.size(); ++pixel)
-    CHECK(far.distance_m[pixel] ==
-          Approx(near.distance_m[pixel]).epsilon(0).margin(10 * spacing_at_offset_m));
+  for (std::size_t pixel = 0; pixel < near.returns[0].z.size(); ++pixel)
+    CHECK(far.returns[0].distance_m[pixel] ==
+          Approx(near.returns[0].distance_m[pixel]).epsilon(0).margin(10 * spacing_at_offset_m));
 }

@@ -14,7 +14,9 @@ namespace {
 
 double amplitude(const Scene &scene, const Diode &diode, Backscatter backscatter) {
   const Sensor sensor = axial_sensor();
-  return reference::simulate(scene, sensor, diode_beside_lens(sensor, diode), backscatter).amplitude[0];
+  return reference::simulate(scene, sensor, diode_beside_lens(sensor, diode), backscatter)
+      .returns[0]
+      .amplitude[0];
 }
 
 // Through (0, 0, z), its normal tilted from the direction to the lens towards +x.
@@ -62,9 +64,9 @@ TEST_CASE("a diode behind the surface that the lens sees adds nothing") {
   const Diode diode = diode_at({0.3, 0, 4});
   const Sensor sensor = axial_sensor();
   const auto frame = reference::simulate(wall_at(2), sensor, diode_beside_lens(sensor, diode), backscatter);
-  CHECK(frame.amplitude[0] == 0);
-  CHECK(std::isnan(frame.phase_rad[0]));
-  CHECK(std::isnan(frame.distance_m[0]));
+  CHECK(frame.returns[0].amplitude[0] == 0);
+  CHECK(std::isnan(frame.returns[0].phase_rad[0]));
+  CHECK(std::isnan(frame.returns[0].distance_m[0]));
   CHECK(frame.range_m[0] == Approx(2));
 }
 
@@ -100,9 +102,10 @@ TEST_CASE("the light's own pose turns positions and axes") {
   // Its +z is the camera's +x: the diode sits at (1, 0, 0) and looks along +x, away from the wall's centre.
   illuminator.world_from_illuminator =
       compose(sensor.world_from_camera, {glm::dmat3(0, 0, -1, 0, 1, 0, 1, 0, 0), glm::dvec3(0)});
-  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).amplitude[0] == 0);
+  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).returns[0].amplitude[0] ==
+        0);
   illuminator.diodes[0].axis = {-1, 0, 0};
-  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).amplitude[0] ==
+  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).returns[0].amplitude[0] ==
         Approx(std::cos(std::numbers::pi / 4) / 2).epsilon(1e-6));
 }
 
@@ -117,16 +120,16 @@ TEST_CASE("the frame of many diodes is the sum of their frames") {
   const Illuminator all = random_illuminator(random, 9, world_from_camera);
 
   const auto together = reference::simulate(scene, sensor, all, Backscatter::lambert);
-  std::vector<std::complex<double>> z(together.z.size());
+  std::vector<std::complex<double>> z(together.returns[0].z.size());
   for (const Diode &diode : all.diodes) {
     const auto alone =
         reference::simulate(scene, sensor, {"one", world_from_camera, {diode}}, Backscatter::lambert);
     for (std::size_t pixel = 0; pixel < z.size(); ++pixel)
-      z[pixel] += alone.z[pixel];
+      z[pixel] += alone.returns[0].z[pixel];
   }
   double largest_error = 0;
   for (std::size_t pixel = 0; pixel < z.size(); ++pixel)
-    largest_error = std::max(largest_error, std::abs(together.z[pixel] - z[pixel]));
-  CHECK(*std::max_element(together.amplitude.begin(), together.amplitude.end()) > 0.01);
+    largest_error = std::max(largest_error, std::abs(together.returns[0].z[pixel] - z[pixel]));
+  CHECK(*std::max_element(together.returns[0].amplitude.begin(), together.returns[0].amplitude.end()) > 0.01);
   CHECK(largest_error < 1e-14);
 }

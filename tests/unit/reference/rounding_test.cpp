@@ -29,14 +29,14 @@ TEST_CASE("phase and distance stay below their range's end when rounded to float
   reference::PixelSums sums;
   sums.z.add(std::polar(1.0, -GENERATE(1e-8, 1e-15, 1e-17, 1e-300)));
   reference::set_channels(frame, 0, sums, 1);
-  CHECK(frame.phase_rad[0] < 2 * std::numbers::pi);
-  CHECK(frame.distance_m[0] < frame.ambiguity_m);
+  CHECK(frame.returns[0].phase_rad[0] < 2 * std::numbers::pi);
+  CHECK(frame.returns[0].distance_m[0] < frame.returns[0].ambiguity_m);
 
   const Measurement measurement = reference::to_measurement(frame);
-  CHECK(measurement.phase_rad[0] >= 0);
-  CHECK(static_cast<double>(measurement.phase_rad[0]) < 2 * std::numbers::pi);
-  CHECK(measurement.distance_m[0] >= 0);
-  CHECK(static_cast<double>(measurement.distance_m[0]) < frame.ambiguity_m);
+  CHECK(measurement.returns[0].phase_rad[0] >= 0);
+  CHECK(static_cast<double>(measurement.returns[0].phase_rad[0]) < 2 * std::numbers::pi);
+  CHECK(measurement.returns[0].distance_m[0] >= 0);
+  CHECK(static_cast<double>(measurement.returns[0].distance_m[0]) < frame.returns[0].ambiguity_m);
 }
 
 TEST_CASE("a frame is rounded channel by channel") {
@@ -48,17 +48,17 @@ TEST_CASE("a frame is rounded channel by channel") {
       builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::lambert);
   const Measurement measurement = reference::to_measurement(frame);
   CHECK(measurement.resolution == sensor.resolution);
-  CHECK(measurement.amplitude[0] == static_cast<float>(frame.amplitude[0]));
-  CHECK(measurement.phase_rad[0] == static_cast<float>(frame.phase_rad[0]));
-  CHECK(measurement.distance_m[0] == static_cast<float>(frame.distance_m[0]));
+  CHECK(measurement.returns[0].amplitude[0] == static_cast<float>(frame.returns[0].amplitude[0]));
+  CHECK(measurement.returns[0].phase_rad[0] == static_cast<float>(frame.returns[0].phase_rad[0]));
+  CHECK(measurement.returns[0].distance_m[0] == static_cast<float>(frame.returns[0].distance_m[0]));
   CHECK(measurement.range_m[0] == static_cast<float>(frame.range_m[0]));
   CHECK(measurement.z_m[0] == static_cast<float>(frame.z_m[0]));
   CHECK(measurement.coverage == std::vector<float>{1, 0});
   CHECK(measurement.triangle_id == frame.triangle_id);
   CHECK(measurement.object_id == std::vector<std::uint32_t>{0, no_id});
-  CHECK(measurement.amplitude[1] == 0);
-  for (const auto *channel :
-       {&measurement.phase_rad, &measurement.distance_m, &measurement.range_m, &measurement.z_m})
+  CHECK(measurement.returns[0].amplitude[1] == 0);
+  for (const auto *channel : {&measurement.returns[0].phase_rad, &measurement.returns[0].distance_m,
+                              &measurement.range_m, &measurement.z_m})
     CHECK(std::isnan((*channel)[1]));
 }
 
@@ -74,6 +74,7 @@ TEST_CASE("two runs give the same bits") {
   sensor.samples = 2;
   const auto first = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
   const auto second = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
-  CHECK(std::memcmp(first.z.data(), second.z.data(), first.z.size() * sizeof(first.z[0])) == 0);
+  CHECK(std::memcmp(first.returns[0].z.data(), second.returns[0].z.data(),
+                    first.returns[0].z.size() * sizeof(first.returns[0].z[0])) == 0);
   CHECK(first.sample_triangle_id == second.sample_triangle_id);
 }

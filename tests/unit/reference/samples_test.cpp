@@ -81,10 +81,10 @@ TEST_CASE("samples that miss count in the mean of the light and not in that of t
   const auto half = monostatic_frame(left_half.scene(), sensor);
   const auto whole = monostatic_frame(wall_at(2), sensor);
   CHECK(half.coverage[0] == 0.5);
-  CHECK(half.amplitude[0] == Approx(whole.amplitude[0] / 2).epsilon(1e-12));
+  CHECK(half.returns[0].amplitude[0] == Approx(whole.returns[0].amplitude[0] / 2).epsilon(1e-12));
   CHECK(half.range_m[0] == Approx(2).epsilon(1e-11));
   CHECK(half.z_m[0] == Approx(2).epsilon(1e-14));
-  CHECK(half.distance_m[0] == Approx(whole.distance_m[0]).epsilon(1e-12));
+  CHECK(half.returns[0].distance_m[0] == Approx(whole.returns[0].distance_m[0]).epsilon(1e-12));
 }
 
 TEST_CASE("a pixel whose centre sees nothing has no id, whatever else it sees") {
@@ -99,11 +99,11 @@ TEST_CASE("a pixel whose centre sees nothing has no id, whatever else it sees") 
 TEST_CASE("an empty scene is dark and without distance") {
   const auto frame = monostatic_frame({}, axial_sensor({3, 2}));
   for (std::size_t pixel = 0; pixel < 6; ++pixel) {
-    CHECK(frame.z[pixel] == 0.0);
-    CHECK(frame.amplitude[pixel] == 0);
+    CHECK(frame.returns[0].z[pixel] == 0.0);
+    CHECK(frame.returns[0].amplitude[pixel] == 0);
     CHECK(frame.coverage[pixel] == 0);
-    CHECK(std::isnan(frame.phase_rad[pixel]));
-    CHECK(std::isnan(frame.distance_m[pixel]));
+    CHECK(std::isnan(frame.returns[0].phase_rad[pixel]));
+    CHECK(std::isnan(frame.returns[0].distance_m[pixel]));
     CHECK(std::isnan(frame.range_m[pixel]));
     CHECK(std::isnan(frame.z_m[pixel]));
     CHECK(frame.triangle_id[pixel] == no_id);

@@ -1,0 +1,48 @@
+#pragma once
+// The way from a place on the chip to the ray that arrives there, and back, in double: thin lens, chip pose
+// (eq. 1) and distortion. Rays are in the camera frame and point from the lens to what is seen.
+
+#include "engine/sensor.h"
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+class Lens {
+public:
+  explicit Lens(const Sensor &sensor);
+
+  // Chip coordinates x', y' of a place in the image, in metres. `pixel` counts columns and rows from the
+  // image's top left corner; (0.5, 0.5) is the centre of the first pixel.
+  glm::dvec2 on_chip_m(const glm::dvec2 &pixel) const;
+
+  // The ray through a place of the chip, unit length; nothing where there is none, because it would lie
+  // behind the chip or beyond where the distortion folds over.
+  std::optional<glm::dvec3> ray(const glm::dvec2 &chip_m) const;
+  // Where on the chip a ray arrives; the inverse of ray(). Nothing where it misses the chip's plane.
+  std::optional<glm::dvec2> chip_m(const glm::dvec3 &ray) const;
+
+  // Q = lens_from_chip() * (x', y', 1) is where a place of the chip lies in the camera frame, seen in front
+  // of the lens.
+  const glm::dmat3 &lens_from_chip() const { return lens_from_chip_; }
+  // The slopes (x', y') under which undistorted slopes, or the ray, meet the chip's side of the lens:
+  // OpenCV's formulas.
+  glm::dvec2 distorted(const glm::dvec3 &ray) const;
+  // Its inverse, on the branch that begins at the optical axis; unit length.
+  std::optional<glm::dvec3> undistorted(const glm::dvec2 &slope) const;
+
+private:
+  Distortion distortion_;
+  glm::dvec2 pitch_m_, resolution_;
+  glm::dmat3 lens_from_chip_, chip_from_lens_;
+  double largest_radius_; // undistorted: of a slope (Brown-Conrady), of an angle (fisheye); where the model
+                          // folds over
+};
+
+// What makes a sensor's image impossible; nothing where every place of it has a ray.
+enum class LensFault { chip_behind_lens, distortion_folds };
+std::optional<LensFault> lens_fault(const Sensor &sensor);
+
+} // namespace pmdsim
