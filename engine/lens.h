@@ -6,7 +6,6 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
 
 namespace pmdsim {
 
@@ -17,6 +16,8 @@ public:
   // Chip coordinates x', y' of a place in the image, in metres. `pixel` counts columns and rows from the
   // image's top left corner; (0.5, 0.5) is the centre of the first pixel.
   glm::dvec2 on_chip_m(const glm::dvec2 &pixel) const;
+  // The same count of columns and rows of a place on the chip; the inverse of on_chip_m().
+  glm::dvec2 pixel(const glm::dvec2 &chip_m) const;
 
   // The ray through a place of the chip, unit length; nothing where there is none, because it would lie
   // behind the chip or beyond where the distortion folds over.
@@ -27,9 +28,9 @@ public:
   // Q = lens_from_chip() * (x', y', 1) is where a place of the chip lies in the camera frame, seen in front
   // of the lens.
   const glm::dmat3 &lens_from_chip() const { return lens_from_chip_; }
-  // The slopes (x', y') under which undistorted slopes, or the ray, meet the chip's side of the lens:
-  // OpenCV's formulas.
-  glm::dvec2 distorted(const glm::dvec3 &ray) const;
+  // The slopes under which a ray leaves the lens towards the chip (OpenCV's x'', y''); nothing beyond the
+  // fold.
+  std::optional<glm::dvec2> distorted(const glm::dvec3 &ray) const;
   // Its inverse, on the branch that begins at the optical axis; unit length.
   std::optional<glm::dvec3> undistorted(const glm::dvec2 &slope) const;
 
