@@ -47,14 +47,14 @@ std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
 
 std::optional<LensProblem> lens_problem(const Sensor &sensor) {
   const Lens lens(sensor);
+  const std::optional<LensFault> fault = lens_fault(sensor);
+  if (fault == LensFault::chip_behind_lens)
+    return LensProblem{"chip", "expected the whole chip in front of the lens"};
   if (!(glm::determinant(lens.lens_from_chip()) > 0.0))
     return LensProblem{"chip", "expected the front of the chip towards the lens"};
-  const std::optional<LensFault> fault = lens_fault(sensor);
-  if (!fault)
-    return std::nullopt;
-  return *fault == LensFault::chip_behind_lens
-             ? LensProblem{"chip", "expected the whole chip in front of the lens"}
-             : LensProblem{"distortion", fold_expectation(sensor, lens)};
+  if (fault == LensFault::distortion_folds)
+    return LensProblem{"distortion", fold_expectation(sensor, lens)};
+  return std::nullopt;
 }
 
 } // namespace pmdsim

@@ -27,17 +27,11 @@ struct Spot {
   const json *value;
 };
 
-// valijson tells every failure on the way out: the deepest is the cause, those above it follow from it.
-Tokens deepest_failure(const valijson::ValidationResults &failures) {
-  Tokens deepest;
-  for (const auto &failure : failures)
-    if (failure.context.size() > deepest.size())
-      deepest = failure.context;
-  if (!deepest.empty())
-    deepest.erase(deepest.begin()); // "<root>"
-  for (std::string &token : deepest)
+Tokens tokens_of(const valijson::ValidationResults::Error &failure) {
+  Tokens tokens(failure.context.begin() + 1, failure.context.end()); // behind "<root>"
+  for (std::string &token : tokens)
     token = token.substr(1, token.size() - 2); // "[key]"
-  return deepest;
+  return tokens;
 }
 
 std::optional<Spot> step(const json &root, const Spot &from, const std::string &token) {
@@ -50,11 +44,12 @@ std::optional<Spot> step(const json &root, const Spot &from, const std::string &
     return std::nullopt;
   const json &value = from.value->at(token);
   const json &properties = from.schema->at("properties");
-  if (!properties.contains(token) && !from.schema->contains("additionalProperties"))
+  if (properties.contains(token))
+    return Spot{from.place / token, &chosen(root, properties.at(token), value), &value};
+  const auto others = from.schema->find("additionalProperties");
+  if (others == from.schema->end() || !others->is_object())
     return std::nullopt;
-  const json &schema =
-      properties.contains(token) ? properties.at(token) : from.schema->at("additionalProperties");
-  return Spot{from.place / token, &chosen(root, schema, value), &value};
+  return Spot{from.place / token, &chosen(root, *others, value), &value};
 }
 
 bool knows(const json &root, const json &schema, const std::string &key) {
@@ -92,15 +87,35 @@ std::string shown(const json &value) {
   return value.is_string() ? in_quotes(value.get_ref<const std::string &>()) : value.dump();
 }
 
-Error explained(const json &document, const json &root, const Tokens &tokens,
-                const std::filesystem::path &file) {
-  Spot spot{Place{file}, &chosen(root, root, document), &document};
+// As far towards a failure as the alternatives lead that the document has chosen.
+std::vector<Spot> way_to(const Tokens &tokens, const json &document, const json &root,
+                         const std::filesystem::path &file) {
+  std::vector<Spot> way{{Place{file}, &chosen(root, root, document), &document}};
   for (const std::string &token : tokens) {
-    const std::optional<Spot> next = step(root, spot, token);
+    const std::optional<Spot> next = step(root, way.back(), token);
     if (!next)
       break;
-    spot = *next;
+    way.push_back(*next);
   }
+  return way;
+}
+
+// valijson tells the failures of all alternatives, and each again on the way out. The deepest in the chosen
+// ones is the cause, the others follow from it.
+Spot deepest_failure(const valijson::ValidationResults &failures, const json &document, const json &root,
+                     const std::filesystem::path &file) {
+  std::vector<Spot> deepest = way_to({}, document, root, file);
+  for (const auto &failure : failures) {
+    const std::vector<Spot> way = way_to(tokens_of(failure), document, root, file);
+    const bool is_of_another =
+        way.back().schema->contains("const") && way.back().schema->at("const") == *way.back().value;
+    if (way.size() > deepest.size() && !is_of_another)
+      deepest = way;
+  }
+  return deepest.back();
+}
+
+Error explained(const Spot &spot, const json &root) {
   if (auto error = wrong_key(root, spot))
     return *error;
   return input_error(
@@ -114,7 +129,7 @@ void check_schema(const json &document, const json &schema_document, const std::
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
   valijson::ValidationResults failures;
   if (!valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &failures))
-    throw explained(document, schema_document, deepest_failure(failures), file);
+    throw explained(deepest_failure(failures, document, schema_document, file), schema_document);
 }
 
 } // namespace pmdsim

@@ -72,6 +72,10 @@ bool has_other_constant(const json &schema, const json &value) {
 bool is_about(const json &schema, const json &value) {
   if (schema.contains("const"))
     return value == schema.at("const");
+  const json choices = schema.value("enum", json::array());
+  if (!choices.empty() && std::none_of(choices.begin(), choices.end(),
+                                       [&](const json &choice) { return choice.type() == value.type(); }))
+    return false;
   if (schema.contains("type") && !has_type(value, schema.at("type")))
     return false;
   if (has_other_constant(schema, value))

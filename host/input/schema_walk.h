@@ -24,8 +24,8 @@ const Json &item_schema(const Json &array_schema, std::size_t index) {
   return items.is_array() ? items.at(index) : items;
 }
 
-// Whether `value` is what `schema` is about: it has the type and, an object, all required keys and no other
-// text than a constant one ("model": "fisheye").
+// Whether `value` is what `schema` is about: it has the type (an enum: that of one of its
+// values) and, an object, all required keys and no other text than a constant one ("model": "fisheye").
 bool is_about(const nlohmann::json &schema, const nlohmann::json &value);
 
 // The alternative of an anyOf that `value` is meant as; the schema itself where there is none or no anyOf.

@@ -93,11 +93,22 @@ TEST_CASE("values out of range") {
   check_setup_refused("[20e6]", "[1e999]", {"setup.json:"});
 }
 
+TEST_CASE("cameras that cannot be") {
+  check_setup_refused("0.0018,", R"(0.0018, "distortion": {"model": "fisheye", "p1": 0},)",
+                      {"/sensors/0/distortion", "unknown key \"p1\""});
+  check_setup_refused("0.0018,", R"(0.0018, "distortion": {"k1": -1000},)",
+                      {"/sensors/0/distortion", "fold over"});
+  check_setup_refused("0.0018,", R"(0.0018, "chip": {"translation_m": [0, 0, -0.01]},)",
+                      {"/sensors/0/chip", "lens"});
+  check_setup_refused("0.0018,", R"(0.0018, "waveform": {"harmonics": [0, 0]},)",
+                      {"/sensors/0/waveform/harmonics", "other than 0"});
+  check_setup_refused("0.0018,", "0.0018, \"taps\": 17,", {"/sensors/0/taps", "3 to 16"});
+}
+
 TEST_CASE("what is not there yet is refused by name") {
   check_setup_refused("\"shadows\": \"off\",", "", {"/shadows", "not supported yet"});
-  check_setup_refused("[20e6]", "[20e6, 30e6]", {"/sensors/0/modulation_hz", "not supported yet"});
-  check_setup_refused("0.0018,", "0.0018, \"vignetting\": \"cos4\",",
-                      {"/sensors/0/vignetting", "not supported yet"});
+  check_setup_refused("0.0018,", "0.0018, \"tap_interval_s\": 0.001,",
+                      {"/sensors/0/tap_interval_s", "not supported yet"});
 }
 
 TEST_CASE("a node that does not exist") {

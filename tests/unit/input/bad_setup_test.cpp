@@ -63,6 +63,8 @@ TEST_CASE("Unknown and missing keys are named") {
              EndsWith("/sensors/0/pose: unknown key \"nodee\""));
   CHECK_THAT(error_with("/sensors/0/pose", {{"node", "x"}, {"up", {0, 1, 0}}}),
              EndsWith("/sensors/0/pose: unknown key \"up\""));
+  CHECK_THAT(error_with("/sensors/0/pose", {{"node", "x"}, {"position_m", {1, 2, "x"}}}),
+             EndsWith("/sensors/0/pose: unknown key \"position_m\""));
   CHECK_THAT(error_with("/sensors/0/pose", {{"sensor", "pmd"}}), EndsWith("unknown key \"sensor\""));
   CHECK_THAT(error_with("/illuminators/0/diodes/rings/0/radius", 1),
              EndsWith("/diodes/rings/0: unknown key \"radius\""));
@@ -77,7 +79,7 @@ TEST_CASE("Wrong types and values say what was expected") {
   CHECK_THAT(error_with("/backscatter", "mirror"),
              EndsWith("/backscatter: expected \"lambert\" or \"constant\", found \"mirror\""));
   CHECK_THAT(error_with("/sensors", json::array()),
-             EndsWith("/sensors: expected an array of at least 1, each an object, found an array of 0"));
+             EndsWith("/sensors: expected an array of 1 to 64, each an object, found an array of 0"));
   CHECK_THAT(error_with("/sensors/0/resolution/0", 0),
              EndsWith("/sensors/0/resolution/0: expected an integer from 1 to 8192, found 0"));
   CHECK_THAT(error_with("/sensors/0/resolution/1", 100000),

@@ -22,12 +22,22 @@ struct Limits {
 // A good setup with one number replaced.
 struct With : SetupFixture {
   With(const std::string &pointer, double value) {
+    sensor()["chip"] = {{"rotation_deg", {0, 0, 0}}, {"translation_m", {0, 0, 0}}};
     sensor()["pose"] = {{"position_m", {0, 0, 0}}, {"look_at_m", {0, 0, -1}}};
     illuminator()["pose"] = {{"position_m", {0, 0, 0}}, {"look_at_m", {0, 0, -1}}};
     illuminator()["pattern"] = {{"order", 2}};
     setup[json::json_pointer(pointer)] = value;
   }
 };
+
+std::string error_or_none(const std::string &pointer, double value) {
+  try {
+    With(pointer, value).load();
+    return "";
+  } catch (const Error &error) {
+    return error.what();
+  }
+}
 
 void check_limits(const Limits &limits) {
   INFO(limits.pointer);
@@ -61,6 +71,7 @@ TEST_CASE("The ranges of a setup's numbers") {
   check_limits({"/sensors/0/pixel_pitch_m/1", 1e-9, 1e3});
   check_limits({"/sensors/0/focal_length_m", 1e-9, 1e3});
   check_limits({"/sensors/0/modulation_hz/0", 1, 1e12});
+  check_limits({"/sensors/0/chip/rotation_deg/2", -3600, 3600});
   check_limits({"/sensors/0/pose/position_m/0", -1e9, 1e9});
   check_limits({"/sensors/0/pose/look_at_m/0", -1e9, 1e9});
   check_limits({"/illuminators/0/pose/position_m/0", -1e9, 1e9});
@@ -68,6 +79,25 @@ TEST_CASE("The ranges of a setup's numbers") {
   check_limits({"/illuminators/0/diodes/rings/0/radius_m", 0, 1e9});
   check_limits({"/illuminators/0/intensity_w_sr", 0, 1e30});
   check_limits({"/illuminators/0/pattern/order", 0, 1e6});
+}
+
+// At their ends these make no image, which is another error.
+TEST_CASE("The ranges of a lens's and a chip's numbers") {
+  const auto check_beyond = [](const std::string &pointer, double limit) {
+    INFO(pointer);
+    for (const double value : {-limit * beyond, limit * beyond})
+      CHECK_THAT(
+          With(pointer, value).error(),
+          Contains(fmt::format("{}: expected a number from {} to {}, found ", pointer, -limit, limit)));
+    for (const double value : {-limit, limit})
+      CHECK(error_or_none(pointer, value).find("expected a number") == std::string::npos);
+  };
+  for (const char *coefficient : {"k1", "k2", "p1", "p2", "k3"})
+    check_beyond(fmt::format("/sensors/0/distortion/{}", coefficient), 1e6);
+  for (const char *axis : {"0", "1"})
+    check_beyond(fmt::format("/sensors/0/chip/rotation_deg/{}", axis), 89);
+  for (const char *axis : {"0", "1", "2"})
+    check_beyond(fmt::format("/sensors/0/chip/translation_m/{}", axis), 1e3);
 }
 
 TEST_CASE("The focus distance has an upper end, or none") {
