@@ -40,8 +40,8 @@ YAML::Node data_of(const CalibrationEntry &matrix) {
 
 } // namespace
 
-CalibrationMap::CalibrationMap(YAML::Node map, std::filesystem::path file)
-    : map_(std::move(map)), file_(std::move(file)) {}
+CalibrationMap::CalibrationMap(const YAML::Node &map, std::filesystem::path file)
+    : map_(map), file_(std::move(file)) {}
 
 std::optional<CalibrationEntry> CalibrationMap::find(const std::vector<std::string> &names) const {
   std::optional<CalibrationEntry> found;

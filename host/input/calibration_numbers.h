@@ -18,7 +18,7 @@ struct CalibrationEntry {
 class CalibrationMap {
 public:
   // `map` is a YAML map of `file`; `name` is its key in the file, if it has one.
-  CalibrationMap(YAML::Node map, std::filesystem::path file);
+  CalibrationMap(const YAML::Node &map, std::filesystem::path file);
 
   // The only key that has one of these names. Throws Error (input) where there are two.
   std::optional<CalibrationEntry> find(const std::vector<std::string> &names) const;

@@ -32,7 +32,7 @@ double pixels_to_fold(const Lens &lens, const glm::dvec2 &axis_pixel, const glm:
 }
 
 std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
-  const std::string text = "expected a distortion that does not fold over inside the image";
+  std::string text = "expected a distortion that does not fold over inside the image";
   const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
   const std::vector<glm::dvec2> places = rim(sensor);
   const auto place =

@@ -106,6 +106,8 @@ Spot deepest_failure(const valijson::ValidationResults &failures, const json &do
                      const std::filesystem::path &file) {
   std::vector<Spot> deepest = way_to({}, document, root, file);
   for (const auto &failure : failures) {
+    if (failure.context.size() <= deepest.size()) // cannot lead deeper; there may be a million of these
+      continue;
     const std::vector<Spot> way = way_to(tokens_of(failure), document, root, file);
     const bool is_of_another =
         way.back().schema->contains("const") && way.back().schema->at("const") == *way.back().value;
