@@ -43,8 +43,14 @@ PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
 PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
 
-// Specialization constant of the points pass: 1 where the sum asks for the surfaces.
-PMDSIM_CONSTANT constant_surfaces = 0;
+// Specialization constants of the points passes.
+PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
+PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
+PMDSIM_CONSTANT constant_chip = 2;       // 1: the chip stands anyhow or is filled in part; 0: nominal
+PMDSIM_CONSTANT constant_distortion = 3; // one of distortion_*
+
+PMDSIM_CONSTANT distortion_brown = 0;
+PMDSIM_CONSTANT distortion_fisheye = 1;
 
 PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of every surface
 PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
@@ -57,10 +63,10 @@ PMDSIM_CONSTANT waveform_sine = 0;
 PMDSIM_CONSTANT waveform_square = 1;
 PMDSIM_CONSTANT waveform_harmonics = 2;
 
-// A vertex of a triangle as it lies on the chip.
+// A vertex of a triangle as it lies on a raster.
 struct RasterVertex {
-  float x_samples;     // from the raster block's left edge, a multiple of 1/256
-  float y_samples;     // from its top edge, likewise
+  float x_fragments;   // from the raster block's left edge, a multiple of 1/256
+  float y_fragments;   // from its top edge, likewise
   float inverse_depth; // 0.5 * nearest depth of the frame / depth, 0 to 0.5
   uint triangle;       // id in the scene
 };
@@ -71,8 +77,44 @@ struct TrianglePlane {
   vec4 plane_lo;     // their rests
   float backscatter; // rho (constant) or rho / pi (lambert), 1/sr
   uint object;       // id in the scene
-  float depth_min_m; // of the triangle's points, a hair wider than exact
-  float depth_max_m;
+  float along_min; // where a ray can meet the triangle, a hair wider than exact: depth, with distortion range, m
+  float along_max;
+};
+
+// A triangle's corners, camera frame, m.
+struct TriangleCorners {
+  vec4 hi[3];
+  vec4 lo[3];
+};
+
+// Where a sample lies in the camera frame, on the chip as seen in front of the lens, m:
+//   origin + (2 column + 1 - columns) half_column + (2 row + 1 - rows) half_row      of the whole frame
+//          + (2 k_x + 1 - S) half_step_x + (2 k_y + 1 - S) half_step_y               within the pixel
+struct ChipPlace {
+  vec4 origin_hi, origin_lo;
+  vec4 half_column_hi, half_column_lo;
+  vec4 half_row_hi, half_row_lo;
+  vec4 half_step_x_hi, half_step_x_lo;
+  vec4 half_step_y_hi, half_step_y_lo;
+};
+
+// The lens's distortion, from the slopes on the chip's side back to the ray. A table of lens_guesses floats follows: how many
+// times its distorted radius the undistorted one (or the angle) is, at radii i / guesses_per_radius.
+struct LensModel {
+  ChipPlace chip;
+  vec4 radial_hi; // k1, k2, k3, and of a fisheye k4
+  vec4 radial_lo;
+  vec4 tangential; // p1, p2: hi, lo, hi, lo
+  float guesses_per_radius;
+  float padding_1, padding_2, padding_3;
+};
+PMDSIM_CONSTANT lens_guesses = 1024;
+
+// The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) / (z . ray).
+struct RasterView {
+  vec4 x, y, z;
+  uint columns, rows; // fragments
+  uint padding_1, padding_2;
 };
 
 // A diode, relative to the reference point of its group, camera frame.
@@ -99,18 +141,27 @@ struct Strip {
   uint resolution_y;
   uint samples;       // S
   uint padded_pixels; // columns * rows, rounded up to whole workgroups
+  uint tiles;         // T: the strip's tags are T x T tiles
 };
 
+// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing was hit. They
+// lie in T x T tiles, each an image of the strip with S / T x S / T fragments a pixel: T is 1 where the samples are an even
+// grid over the whole strip, S where pixels are filled in part. With distortion, fragments are no samples: their tags only
+// say what is seen (pixel id 1), and the samples' tags follow from a search.
 struct VisibilityConstants {
-  Strip strip;
+  vec2 shift;                    // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
+  uint tile_x, tile_y;           // of its first fragment
+  uint column, row;              // of the strip's first pixel
+  uint resolution_x;             // of the frame
+  uint fragments_per_pixel_side; // 0: with distortion
 };
 
-// Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; the pixel id is
-// row * resolution_x + column + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is
-// stored at (sy * S + sx) * padded_pixels + p.
+// Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
-  vec4 slope;        // half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  uint padding_1, padding_2, padding_3;
+  vec4 slope;        // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  uvec2 chip;        // in, else: ChipPlace
   uvec2 tags;        // in: tags
   uvec2 planes;      // in: TrianglePlane[]
   uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
@@ -124,6 +175,21 @@ struct PointsConstants {
 // sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
 // each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
 // triangle wave half a turn on is its negative.
+struct SearchConstants {
+  Strip strip;
+  uint padding;
+  uvec2 lens;        // in: LensModel and its table
+  uvec2 view;        // in: RasterView
+  uvec2 fragments;   // in: tags of the view's fragments
+  uvec2 planes;      // in: TrianglePlane[]
+  uvec2 corners;     // in: TriangleCorners[]
+  uvec2 tags;        // out: tags of the samples
+  uvec2 position_hi; // out, as in PointsConstants
+  uvec2 position_lo;
+  uvec2 surface;
+  uvec2 backscatter;
+};
+
 struct AccumulateConstants {
   uvec2 position_hi; // in, as the points pass left them
   uvec2 position_lo;
@@ -154,6 +220,7 @@ struct ResolveConstants {
   uint samples;
   uint padded_pixels;
   uint pixels;        // of the strip
+  uint tiles;         // of the tags
   uint plane;         // elements of a plane of the sum
   uint first_channel; // of the frequency
 };
@@ -174,11 +241,17 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
-static_assert(sizeof(Strip) == 32);
-static_assert(sizeof(PointsConstants) == 96 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(Strip) == 36);
+static_assert(sizeof(TriangleCorners) == 96);
+static_assert(sizeof(ChipPlace) == 160);
+static_assert(sizeof(LensModel) == 224);
+static_assert(sizeof(RasterView) == 64);
+static_assert(sizeof(VisibilityConstants) == 32);
+static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 48);
+static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 40);
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
-static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
+static_assert(sizeof(ResolveConstants) == 112 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif
 

@@ -157,8 +157,10 @@ void store_ground_truth(uint pixel, PixelSum sum) {
 // Of the sample nearest the pixel's centre; ties go up and left.
 void store_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
-  uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns) * constants.samples + middle;
-  uvec2 tag = Tags(constants.tags).at[at.y * constants.columns * constants.samples + at.x];
+  uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
+  uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
+  uint i = tag_index(at, uvec2(middle), extent, constants.samples, constants.tiles);
+  uvec2 tag = Tags(constants.tags).at[i];
   bool hit = tag.x != 0u;
   store(channel_triangle_id, pixel, hit ? tag.y : no_triangle);
   store(channel_object_id, pixel, hit ? Planes(constants.planes).at[tag.y].object : no_triangle);

@@ -1,5 +1,7 @@
 #include "engine/passes/read_back.h"
 
+#include "engine/scene.h"
+
 #include "engine/vulkan/commands.h"
 
 #include <cstring>
@@ -18,17 +20,22 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
                 from + row * row_bytes, row_bytes);
 }
 
+// Tags lie in tiles (shaders/interface.h).
 void store_sample_tags(const std::byte *from, const shader::Strip &strip, Measurement &to) {
-  const std::size_t samples = strip.samples;
-  const std::size_t columns = strip.columns * samples, rows = strip.rows * samples;
-  const std::size_t frame_columns = strip.resolution_x * samples;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
+  const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
+  const std::uint32_t side = strip.samples / strip.tiles;
+  const glm::uvec2 tile_size = glm::uvec2(strip.columns, strip.rows) * side;
+  for (std::uint32_t row = 0; row < samples.y; ++row)
+    for (std::uint32_t column = 0; column < samples.x; ++column) {
+      const glm::uvec2 sample(column, row), pixel = sample / strip.samples,
+                                            subsample = sample % strip.samples;
+      const glm::uvec2 at = subsample / side * tile_size + pixel * side + subsample % side;
       shader::uvec2 tag;
-      std::memcpy(&tag, from + (row * columns + column) * sizeof(tag), sizeof(tag));
-      const std::size_t at = (strip.row * samples + row) * frame_columns + strip.column * samples + column;
-      to.sample_pixel_id[at] = tag.x;
-      to.sample_triangle_id[at] = tag.x != 0 ? tag.y : no_id;
+      std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * sizeof(tag), sizeof(tag));
+      const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
+      const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
+      to.sample_pixel_id[to_at] = tag.x;
+      to.sample_triangle_id[to_at] = tag.x != 0 ? tag.y : no_id;
     }
 }
 

@@ -60,6 +60,7 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
         strip.samples,
         strip.padded_pixels,
         strip.columns * strip.rows,
+        strip.tiles,
         plane,
         signal_.first_channel(f)};
     (f == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);

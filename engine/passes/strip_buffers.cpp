@@ -5,10 +5,13 @@
 namespace pmdsim {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                const Signal &signal, bool keep_sample_tags) {
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
+                                bool keep_sample_tags) {
   using Usage = vk::BufferUsageFlagBits;
-  vk::DeviceSize samples = 0, pixels = 0;
+  vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
+    if (blocks[block].distorted)
+      fragments = std::max(fragments, vk::DeviceSize{blocks[block].fragments.x} * blocks[block].fragments.y);
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
@@ -20,7 +23,8 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   };
   const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
-  return {storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
+  return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
+          storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * 3 * sizeof(float)),
           storage(samples * 3 * sizeof(float)),
           storage(samples * sizeof(shader::vec4)),

@@ -8,7 +8,8 @@
 namespace pmdsim {
 
 struct StripBuffers {
-  vulkan::Buffer tags; // uvec2 a sample, row-major: pixel id, triangle id
+  vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
+  vulkan::Buffer tags;      // uvec2 a sample, in tiles (shaders/interface.h): pixel id, triangle id
   vulkan::Buffer
       position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;
@@ -21,7 +22,8 @@ struct StripBuffers {
 };
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                const Signal &signal, bool keep_sample_tags);
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
+                                bool keep_sample_tags);
 
 // The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
 // MiB.

@@ -19,11 +19,15 @@ std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<Ra
       const std::uint32_t height = std::min(rows, block.pixels.y - row);
       strips.push_back(
           {{block.first_pixel.x, block.first_pixel.y + row, block.pixels.x, height, sensor.resolution.x,
-            sensor.resolution.y, sensor.samples, padded(block.pixels.x * height)},
+            sensor.resolution.y, sensor.samples, padded(block.pixels.x * height), raster_tiles(sensor)},
            b});
     }
   }
   return strips;
+}
+
+glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block) {
+  return block.distorted ? block.fragments : glm::uvec2(strip.columns, strip.rows) * strip.samples;
 }
 
 } // namespace pmdsim

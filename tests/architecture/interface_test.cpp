@@ -80,8 +80,8 @@ TEST_CASE("structs of the points and visibility passes") {
   CHECK_OFFSET(offsets, TrianglePlane, plane_lo);
   CHECK_OFFSET(offsets, TrianglePlane, backscatter);
   CHECK_OFFSET(offsets, TrianglePlane, object);
-  CHECK_OFFSET(offsets, TrianglePlane, depth_min_m);
-  CHECK_OFFSET(offsets, TrianglePlane, depth_max_m);
+  CHECK_OFFSET(offsets, TrianglePlane, along_min);
+  CHECK_OFFSET(offsets, TrianglePlane, along_max);
 }
 
 TEST_CASE("structs of the accumulate pass") {
