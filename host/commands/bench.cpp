@@ -145,8 +145,8 @@ std::string report_text(const Setup &setup, const Camera &camera, const Timing &
   for (const AccuracyCheck &check : checks)
     text += fmt::format("error      {}\n", error_text(check));
   const std::string sensors =
-      setup.sensors.size() > 1 ? fmt::format(" of all {} sensors", setup.sensors.size()) : "";
-  text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames){}, {:.4g} frames/s\n",
+      setup.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.sensors.size()) : "";
+  text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames{}), {:.4g} frames/s\n",
                       timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max, measured_frames,
                       sensors, frames_per_s(timing));
   for (const PassTime &pass : timing.passes)

@@ -183,7 +183,7 @@ TEST_CASE("deform tells the first sensor's first frequency, and of all the other
   CHECK(report["frames"][0]["deformation_mm"].size() == 2);
   CHECK(report["frames"][1]["deformation_mm"].size() == 1);
   CHECK(report["deformation_mm"] == report["frames"][0]["deformation_mm"][0]);
-  CHECK(report["deformation_mm"]["mean"].get<double>() == Approx(2.66).margin(0.01)); // 0.5 * 0.146^2 / 4 m
+  CHECK(report["deformation_mm"]["centre"].get<double>() == Approx(2.66).margin(0.01)); // 0.146^2 / 8 m
   for (const char *file : {"left_0000.f1.deformation_mm.npy", "left_0000.f1.deformation_mm.png",
                            "left_0000.f1.deformation_profile.png", "right_0000.deformation_profile.png"}) {
     INFO(file);
@@ -200,8 +200,8 @@ TEST_CASE("check and bench tell of all sensors") {
   CHECK(check["sensors"][0]["common_ambiguity_m"].get<double>() == Approx(299792458.0 / 20e6));
   CHECK(check["ambiguity_m"] == check["sensors"][0]["ambiguity_m"][0]);
   CHECK(run_pmdsim({"check", two.setup}).output.find(" m at 50 MHz\n") != std::string::npos);
-  CHECK(run_pmdsim({"bench", two.setup, "--device", "reference"}).output.find("of all 2 sensors") !=
-        std::string::npos);
+  CHECK(run_pmdsim({"bench", two.setup, "--device", "reference"})
+            .output.find("warm frames of each of 2 sensors)") != std::string::npos);
 }
 
 TEST_CASE("interrupted, a run ends with 130 and leaves nothing half-written") {
