@@ -10,6 +10,7 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Tags { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Planes { TrianglePlane at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupDiode at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };
 
 vec3 load_vec3(uvec2 address, uint i) {
   Floats from = Floats(address);

@@ -24,13 +24,24 @@ PMDSIM_CONSTANT workgroup_size = 64;
 PMDSIM_CONSTANT diodes_per_block = 16;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
 
-// Specialization constants of the accumulate pass.
-PMDSIM_CONSTANT constant_moments = 0;     // K, the number of moments
+// Specialization constants of the accumulate pass, by moments and direct.
+PMDSIM_CONSTANT constant_moments = 0;     // by moments: K, the number of moments
 PMDSIM_CONSTANT constant_backscatter = 1; // one of backscatter_*
 PMDSIM_CONSTANT constant_pattern = 2;     // one of pattern_*
 PMDSIM_CONSTANT constant_order = 3;       // of pattern_power
 PMDSIM_CONSTANT constant_blocks = 4;      // blocks of diodes that one dispatch sums
 PMDSIM_CONSTANT constant_first = 5;       // 1: of the frame's runs this is the first, there is no sum yet
+PMDSIM_CONSTANT constant_tones = 6;       // by moments: tones that one dispatch sums
+PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
+PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
+PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
+
+// Specialization constants of the resolve pass.
+PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
+PMDSIM_CONSTANT constant_resolve_waveform = 1; // one of waveform_*
+PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
+PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
+PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
 
 // Specialization constant of the points pass: 1 where the sum asks for the surfaces.
 PMDSIM_CONSTANT constant_surfaces = 0;
@@ -41,6 +52,10 @@ PMDSIM_CONSTANT backscatter_lambert = 2; // rho / pi * cosine
 PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
 PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
 PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
+
+PMDSIM_CONSTANT waveform_sine = 0;
+PMDSIM_CONSTANT waveform_square = 1;
+PMDSIM_CONSTANT waveform_harmonics = 2;
 
 // A vertex of a triangle as it lies on the chip.
 struct RasterVertex {
@@ -67,6 +82,13 @@ struct GroupDiode {
   float intensity; // over the frame's largest
   float order;     // of the cosine; below 0: isotropic
   vec2 padding;
+};
+
+// A harmonic of a modulation frequency.
+struct Tone {
+  vec2 turns_per_m; // of path, frequency / c: hi, lo
+  float wavenumber; // 2 pi frequency / c, rad/m
+  float padding;
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -98,26 +120,32 @@ struct PointsConstants {
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
 };
 
+// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
+// sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
+// each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
+// triangle wave half a turn on is its negative.
 struct AccumulateConstants {
   uvec2 position_hi; // in, as the points pass left them
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;    // in (but for the first run) and out: vec4[], real, imaginary, what rounding took from either
+  uvec2 sum;    // in (but for the first run) and out: of the first tone, or direct, of the frequency
   uvec2 diodes; // in: GroupDiode[]
-  vec4 reference_hi; // the group's reference point (camera frame, m), and modulation_hz / c
-  vec4 reference_lo; // their rests
-  float wavenumber;  // 2 pi f / c, rad/m
-  uint blocks;       // blocks of diodes to sum, for the looped variant
+  uvec2 tones;  // in: Tone[]
+  uint blocks;  // blocks of diodes to sum, for the looped variant
+  uint plane;   // elements of a plane of the sum
+  vec4 reference_hi; // the group's reference point (camera frame, m)
+  vec4 reference_lo; // its rest
 };
 
 struct ResolveConstants {
   uvec2 position_hi;
   uvec2 position_lo;
-  uvec2 sum;
+  uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
   uvec2 planes;
   uvec2 channels;        // out: channel by channel (channel_*), each padded_pixels values of 32 bits
+  uvec2 harmonics;       // in: float[], amplitudes of the harmonics
   vec2 turns_per_m;      // of range, 2 f / c: hi, lo
   vec2 ambiguity_m;      // c / (2 f): hi, lo
   vec2 limits;           // the largest floats below 2 pi and below c / (2 f)
@@ -125,18 +153,22 @@ struct ResolveConstants {
   uint columns;          // of the strip
   uint samples;
   uint padded_pixels;
-  uint pixels; // of the strip
+  uint pixels;        // of the strip
+  uint plane;         // elements of a plane of the sum
+  uint first_channel; // of the frequency
 };
 
+// The ground truth comes first, then the channels of each frequency, the taps (if kept) last.
+PMDSIM_CONSTANT channel_range_m = 0;
+PMDSIM_CONSTANT channel_z_m = 1;
+PMDSIM_CONSTANT channel_coverage = 2;
+PMDSIM_CONSTANT channel_triangle_id = 3;
+PMDSIM_CONSTANT channel_object_id = 4;
+PMDSIM_CONSTANT truth_channels = 5;
 PMDSIM_CONSTANT channel_amplitude = 0;
 PMDSIM_CONSTANT channel_phase_rad = 1;
 PMDSIM_CONSTANT channel_distance_m = 2;
-PMDSIM_CONSTANT channel_range_m = 3;
-PMDSIM_CONSTANT channel_z_m = 4;
-PMDSIM_CONSTANT channel_coverage = 5;
-PMDSIM_CONSTANT channel_triangle_id = 6;
-PMDSIM_CONSTANT channel_object_id = 7;
-PMDSIM_CONSTANT channel_count = 8;
+PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
@@ -144,8 +176,9 @@ static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(PointsConstants) == 96 && offsetof(PointsConstants, slope) == 32);
-static_assert(sizeof(AccumulateConstants) == 88 && offsetof(AccumulateConstants, reference_hi) == 48);
-static_assert(sizeof(ResolveConstants) == 92 && offsetof(ResolveConstants, turns_per_m) == 48);
+static_assert(sizeof(Tone) == 16);
+static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif
 

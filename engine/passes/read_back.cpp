@@ -18,8 +18,7 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
                 from + row * row_bytes, row_bytes);
 }
 
-void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
-                            std::vector<std::uint32_t> &to) {
+void store_sample_tags(const std::byte *from, const shader::Strip &strip, Measurement &to) {
   const std::size_t samples = strip.samples;
   const std::size_t columns = strip.columns * samples, rows = strip.rows * samples;
   const std::size_t frame_columns = strip.resolution_x * samples;
@@ -27,37 +26,42 @@ void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
     for (std::size_t column = 0; column < columns; ++column) {
       shader::uvec2 tag;
       std::memcpy(&tag, from + (row * columns + column) * sizeof(tag), sizeof(tag));
-      to[(strip.row * samples + row) * frame_columns + strip.column * samples + column] =
-          tag.x != 0 ? tag.y : no_id;
+      const std::size_t at = (strip.row * samples + row) * frame_columns + strip.column * samples + column;
+      to.sample_pixel_id[at] = tag.x;
+      to.sample_triangle_id[at] = tag.x != 0 ? tag.y : no_id;
     }
 }
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, bool keep_sample_tags) {
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool keep_sample_tags) {
   Measurement measurement;
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
-  measurement.returns.resize(1);
-  for (auto *channel :
-       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
-        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  measurement.returns.resize(signal.frequencies());
+  for (Return &of_frequency : measurement.returns) {
+    for (auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
+      channel->resize(pixels);
+    of_frequency.taps.assign(signal.keep_taps ? signal.taps : 0, std::vector<float>(pixels));
+  }
+  for (auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
   if (keep_sample_tags)
-    measurement.sample_triangle_id.resize(pixels * sensor.samples * sensor.samples);
+    for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
+      ids->resize(pixels * sensor.samples * sensor.samples);
   return measurement;
 }
 
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers) {
+                      const StripBuffers &buffers, const Signal &signal) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
   const vk::DeviceSize channel_bytes =
-      vk::DeviceSize{strip.padded_pixels} * shader::channel_count * sizeof(float);
+      vk::DeviceSize{strip.padded_pixels} * signal.channels() * sizeof(float);
   commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                       vk::BufferCopy(0, 0, channel_bytes));
   if (buffers.tags_read.bytes() > 0) {
@@ -68,23 +72,29 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measurement &measurement) {
-  const auto channel = [&](std::uint32_t index) {
-    return buffers.channels_read.mapped().data() + std::size_t{index} * strip.padded_pixels * sizeof(float);
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
+                 Measurement &measurement) {
+  const auto store = [&](std::uint32_t channel, auto &to) {
+    store_rows(buffers.channels_read.mapped().data() +
+                   std::size_t{channel} * strip.padded_pixels * sizeof(float),
+               strip, strip.resolution_x, to);
   };
-  const auto store = [&](std::uint32_t index, auto &to) {
-    store_rows(channel(index), strip, strip.resolution_x, to);
-  };
-  store(shader::channel_amplitude, measurement.returns[0].amplitude);
-  store(shader::channel_phase_rad, measurement.returns[0].phase_rad);
-  store(shader::channel_distance_m, measurement.returns[0].distance_m);
   store(shader::channel_range_m, measurement.range_m);
   store(shader::channel_z_m, measurement.z_m);
   store(shader::channel_coverage, measurement.coverage);
   store(shader::channel_triangle_id, measurement.triangle_id);
   store(shader::channel_object_id, measurement.object_id);
-  if (!measurement.sample_triangle_id.empty())
-    store_sample_triangles(buffers.tags_read.mapped().data(), strip, measurement.sample_triangle_id);
+  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
+    const std::uint32_t first = signal.first_channel(f);
+    Return &to = measurement.returns[f];
+    store(first + shader::channel_amplitude, to.amplitude);
+    store(first + shader::channel_phase_rad, to.phase_rad);
+    store(first + shader::channel_distance_m, to.distance_m);
+    for (std::uint32_t k = 0; k < to.taps.size(); ++k)
+      store(first + shader::channel_first_tap + k, to.taps[k]);
+  }
+  if (!measurement.sample_pixel_id.empty())
+    store_sample_tags(buffers.tags_read.mapped().data(), strip, measurement);
 }
 
 } // namespace pmdsim
