@@ -4,6 +4,7 @@
 #include "host/commands/field_of_view.h"
 #include "host/input/setup.h"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
