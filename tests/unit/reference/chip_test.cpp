@@ -94,9 +94,13 @@ TEST_CASE("a tilted chip measures along its own rays") {
 }
 
 TEST_CASE("the part of a chip that reaches behind the lens sees nothing") {
-  const Sensor sensor = three_by_three({{std::numbers::pi / 2, 0, 0}, {0, 0, 0.01 - focal_length_m}});
-  const auto frame = reference::simulate(wall_at(2), sensor, monostatic_illuminator(sensor.world_from_camera),
-                                         Backscatter::constant);
+  SceneBuilder builder;
+  builder.add_wall({2});
+  builder.add_wall({-2, {1.0, true}});
+  Sensor sensor = three_by_three({{std::numbers::pi / 2, 0, 0}, {0, 0, 0.01 - focal_length_m}});
+  sensor.distortion = GENERATE(as<Distortion>{}, std::monostate{}, BrownConrady{}, Fisheye{});
+  const auto frame = reference::simulate(
+      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
   CHECK(frame.coverage[1] == 0); // top: pitch_m behind the lens but for 0.01 m
   CHECK(frame.coverage[4] == 1);
   CHECK(frame.coverage[7] == 1);

@@ -113,6 +113,19 @@ TEST_CASE("a distorted sample's ray is the one on the branch from the optical ax
   }
 }
 
+TEST_CASE("where a distortion hardly rises its inverse does not leave the branch") {
+  const auto [distortion, slopes] = GENERATE(table<BrownConrady, glm::dvec2>(
+      {{{-0.873218, 0.407103, -0.0262596, -0.0182183, -0.0595987}, {-1.48342, 0.130757}},
+       {{-0.851675, 0.388585, 0.0150216, 0.0245336, -0.0599573}, {1.55422, -0.558215}},
+       {{-0.67845, 0.351544, -0.0263629, -0.0261684, -0.0558805}, {0.784705, 1.45698}}}));
+  const glm::dvec3 ray = glm::normalize(glm::dvec3(slopes, 1));
+  Sensor sensor = sensor_with(distortion, {1, 1}, {1, 1});
+  sensor.chip.translation_m = {*LensModel(sensor).slopes(ray) * sensor.focal_length_m, 0};
+  const auto found = LensModel(sensor).sample_ray({0, 0});
+  REQUIRE(found);
+  CHECK(glm::length(*found - ray) < 1e-13);
+}
+
 TEST_CASE("beyond the fold of its distortion a sample sees nothing") {
   const double p1 = GENERATE(0.0, 1e-4);
   const auto [k1, k2, last_slope] =
