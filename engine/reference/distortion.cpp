@@ -1,8 +1,10 @@
 #include "engine/reference/distortion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace pmdsim::reference {
 
@@ -78,8 +80,9 @@ bool BrownConradyLens::rises_from_axis(const glm::dvec2 &slopes) const {
 std::optional<glm::dvec2> BrownConradyLens::nearer(const glm::dvec2 &slopes, const glm::dvec2 &wanted) const {
   const glm::dvec2 missing = wanted - distorted(slopes);
   const glm::dvec2 step = glm::inverse(jacobian(slopes)) * missing;
-  for (double part = 1.0; part > 1e-3; part *= 0.5) {
-    const glm::dvec2 there = slopes + part * step;
+  constexpr int most_halvings = 10;
+  for (int halvings = 0; halvings < most_halvings; ++halvings) {
+    const glm::dvec2 there = slopes + std::ldexp(1.0, -halvings) * step;
     if (rises(there) && glm::length(wanted - distorted(there)) < glm::length(missing))
       return there;
   }

@@ -1,6 +1,6 @@
 #include "engine/reference/lens_model.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace pmdsim::reference {
 

@@ -5,6 +5,7 @@
 #include "engine/reference/distortion.h"
 #include "engine/sensor.h"
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <variant>

@@ -50,7 +50,7 @@ void ReturnSum::add(const std::vector<LightPath> &paths) {
       phasors_.add(std::polar(weight_w_m2_sr, full_turn_rad * fraction(length_m * turns_per_m_)));
   for (std::uint32_t k = 0; k < taps_.size(); ++k)
     for (const auto &[length_m, weight_w_m2_sr] : paths) {
-      const double turns = length_m * turns_per_m_ - reference_turns(k, sensor_->taps);
+      const double turns = fraction(length_m * turns_per_m_) - reference_turns(k, sensor_->taps);
       taps_[k].add(weight_w_m2_sr * correlation(sensor_->waveform, turns));
     }
 }
