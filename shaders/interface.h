@@ -81,10 +81,12 @@ struct TrianglePlane {
   float along_max;
 };
 
-// A triangle's corners, camera frame, m.
+// A triangle's corners a, b, c, camera frame, m, and what lies beyond its edges.
 struct TriangleCorners {
   vec4 hi[3];
   vec4 lo[3];
+  uint beyond[3]; // the visible triangle that shares the edge ab, bc, ca; no_triangle where there is none
+  uint padding;
 };
 
 // Where a sample lies in the camera frame, on the chip as seen in front of the lens, m:
@@ -242,7 +244,7 @@ static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
 static_assert(sizeof(Strip) == 36);
-static_assert(sizeof(TriangleCorners) == 96);
+static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);

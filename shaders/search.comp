@@ -1,6 +1,6 @@
 #version 460
 // The point of the scene that each sample sees through a lens with distortion: its ray follows from the inverse lens model,
-// and meets the nearest of the triangles that the fragment that it falls in and the eight around it see.
+// and meets the nearest of the surfaces that the fragment that it falls in and the eight around it see.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -28,12 +28,17 @@ bool comes_before(Hit a, Hit b) {
 
 Real3 corner(TriangleCorners corners, uint n) { return real3(corners.hi[n].xyz, corners.lo[n].xyz); }
 
-// Whether the ray passes the triangle inside or on its edges. Neighbours take the same bits for their common edge, so no ray
-// slips through between them.
-bool passes(Real3 ray, TriangleCorners corners) {
+// Which of the edges ab, bc, ca the ray passes beyond, the farthest off; no_edge inside and on edges. Neighbours take the
+// same bits for their common edge, so no ray slips through between them.
+const uint no_edge = 3;
+uint edge_beyond(Real3 ray, TriangleCorners corners) {
   Real3 a = corner(corners, 0), b = corner(corners, 1), c = corner(corners, 2);
-  float ab = high(dot3(ray, cross3(a, b))), bc = high(dot3(ray, cross3(b, c))), ca = high(dot3(ray, cross3(c, a)));
-  return min(ab, min(bc, ca)) >= 0.0 || max(ab, max(bc, ca)) <= 0.0;
+  vec3 sides = vec3(high(dot3(ray, cross3(a, b))), high(dot3(ray, cross3(b, c))), high(dot3(ray, cross3(c, a))));
+  sides = sides.x + sides.y + sides.z < 0.0 ? -sides : sides;
+  float farthest = min(sides.x, min(sides.y, sides.z));
+  if (farthest >= 0.0)
+    return no_edge;
+  return sides.x == farthest ? 0u : sides.y == farthest ? 1u : 2u;
 }
 
 Real range_along(Real3 ray, TrianglePlane plane) {
@@ -41,7 +46,23 @@ Real range_along(Real3 ray, TrianglePlane plane) {
   return divide(real(plane.plane_hi.w, plane.plane_lo.w), dot3(normal, ray));
 }
 
-// Tests each different triangle among `seen` once; the loop ends when all lanes are done.
+// Where the ray meets the surface that `triangle` belongs to, walking from neighbour to neighbour: triangles smaller than
+// fragments may not be seen by any.
+const uint longest_walk = 16;
+Hit walk(Real3 ray, uint triangle) {
+  for (uint step = 0; step < longest_walk && triangle != no_triangle; ++step) {
+    TriangleCorners corners = Corners(constants.corners).at[triangle];
+    uint edge = edge_beyond(ray, corners);
+    if (edge == no_edge) {
+      Real range = range_along(ray, Planes(constants.planes).at[triangle]);
+      return Hit(high(range) > 0.0 ? triangle : no_triangle, range);
+    }
+    triangle = edge == 0u ? corners.beyond[0] : edge == 1u ? corners.beyond[1] : corners.beyond[2];
+  }
+  return Hit(no_triangle, real(0.0));
+}
+
+// Starts from each different triangle among `seen` once; the loop ends when all lanes are done.
 Hit nearest(Real3 ray, uint seen[neighbours]) {
   Hit best = Hit(no_triangle, real(0.0));
   uint done = 0u;
@@ -53,9 +74,8 @@ Hit nearest(Real3 ray, uint seen[neighbours]) {
       triangle = n == next ? seen[n] : triangle;
     [[unroll]] for (uint n = 0; n < neighbours; ++n)
       done |= seen[n] == triangle ? 1u << n : 0u;
-    Hit hit = Hit(triangle, range_along(ray, Planes(constants.planes).at[triangle]));
-    if (passes(ray, Corners(constants.corners).at[triangle]) && high(hit.range) > 0.0 &&
-        (best.triangle == no_triangle || comes_before(hit, best)))
+    Hit hit = walk(ray, triangle);
+    if (hit.triangle != no_triangle && (best.triangle == no_triangle || comes_before(hit, best)))
       best = hit;
   }
   return best;
@@ -74,8 +94,8 @@ void look_around(Real3 ray, out uint seen[neighbours]) {
   }
 }
 
-// Where triangles are smaller than fragments, all nine may miss the one that the ray meets. If there is surface all around,
-// the covering fragment's stands in for it, within its own distances.
+// Where surfaces are no meshes, all nine may miss the triangle that the ray meets. If there is surface all around, the
+// covering fragment's stands in for it, within its own distances.
 Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
   Hit hit = nearest(ray, seen);
   if (hit.triangle != no_triangle)

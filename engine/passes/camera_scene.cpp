@@ -110,17 +110,6 @@ std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, co
   return records;
 }
 
-std::vector<shader::TriangleCorners> triangle_corners(const CameraScene &camera, const Scene &scene) {
-  std::vector<shader::TriangleCorners> records(scene.triangles.size());
-  for (const auto &[corners_m, id] : camera.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const DoublePair4 pair(corners_m[k], 0.0);
-      records[id].hi[k] = pair.hi;
-      records[id].lo[k] = pair.lo;
-    }
-  return records;
-}
-
 bool all_face_the_light(const CameraScene &camera, const std::vector<Diode> &camera_diodes) {
   glm::dvec3 low(camera_diodes.front().position_m), high(low);
   for (const Diode &diode : camera_diodes) {

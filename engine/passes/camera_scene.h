@@ -41,9 +41,6 @@ enum class AlongRay { depth, range };
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
                                                    Backscatter backscatter, AlongRay along);
 
-// The same for their corners; those of triangles that the lens cannot see are zero.
-std::vector<shader::TriangleCorners> triangle_corners(const CameraScene &camera, const Scene &scene);
-
 // True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
 bool all_face_the_light(const CameraScene &camera, const std::vector<Diode> &camera_diodes);
 

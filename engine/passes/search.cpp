@@ -4,6 +4,7 @@
 #include "engine/passes/chip_place.h"
 #include "engine/passes/double_pair.h"
 #include "engine/passes/sample_precision.h"
+#include "engine/passes/triangle_corners.h"
 #include "spirv/search_double_float.h"
 #include "spirv/search_fp64.h"
 
