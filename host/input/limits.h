@@ -10,6 +10,7 @@ namespace pmdsim {
 inline constexpr double max_coordinate_m = 1e9; // of a position, to either side of its frame's origin
 inline constexpr double max_intensity_w_sr = 1e30;
 inline constexpr double max_pattern_order = 1e6;
+inline constexpr double max_modulation_hz = 1e12; // of a waveform's highest harmonic too
 
 // False also for what is not finite.
 inline bool is_position(const glm::dvec3 &position_m) {

@@ -44,12 +44,14 @@ std::optional<Spot> step(const json &root, const Spot &from, const std::string &
   if (from.value->is_array() && from.schema->contains("items")) {
     const std::size_t index = std::stoul(token);
     const json &value = from.value->at(index);
-    return Spot{from.place / index, &chosen(root, from.schema->at("items"), value), &value};
+    return Spot{from.place / index, &chosen(root, item_schema(*from.schema, index), value), &value};
   }
   if (!from.value->is_object() || !from.value->contains(token) || !from.schema->contains("properties"))
     return std::nullopt;
   const json &value = from.value->at(token);
   const json &properties = from.schema->at("properties");
+  if (!properties.contains(token) && !from.schema->contains("additionalProperties"))
+    return std::nullopt;
   const json &schema =
       properties.contains(token) ? properties.at(token) : from.schema->at("additionalProperties");
   return Spot{from.place / token, &chosen(root, schema, value), &value};

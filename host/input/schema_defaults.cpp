@@ -13,8 +13,8 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
   const ordered_json &schema = chosen(root, schema_or_anyof, value);
   if (value.is_array() && schema.contains("items")) {
     ordered_json result = ordered_json::array();
-    for (const json &item : value)
-      result.push_back(filled(root, schema.at("items"), item));
+    for (std::size_t i = 0; i < value.size(); ++i)
+      result.push_back(filled(root, item_schema(schema, i), value[i]));
     return result;
   }
   if (!value.is_object() || !schema.contains("properties"))

@@ -34,11 +34,13 @@ std::string number_expectation(const json &schema) {
 std::string array_expectation(const json &root, const json &schema) {
   std::string size;
   if (schema.contains("minItems") && schema.contains("maxItems"))
-    size = fmt::format(" of {}", schema.at("minItems").dump());
+    size = schema.at("minItems") == schema.at("maxItems")
+               ? fmt::format(" of {}", schema.at("minItems").dump())
+               : fmt::format(" of {} to {}", schema.at("minItems").dump(), schema.at("maxItems").dump());
   else if (schema.contains("minItems"))
     size = fmt::format(" of at least {}", schema.at("minItems").dump());
-  const std::string each = schema.contains("items") ? ", each " + expectation(root, schema.at("items")) : "";
-  return "an array" + size + each;
+  const bool alike = schema.contains("items") && schema.at("items").is_object();
+  return "an array" + size + (alike ? ", each " + expectation(root, schema.at("items")) : "");
 }
 
 std::string one_of(const json &root, const json &alternatives) {
@@ -55,12 +57,24 @@ std::string listed(const json &values) {
   return fmt::format("{}", fmt::join(texts, " or "));
 }
 
+// Whether `value` has a key whose text is another than the constant that the schema states for it.
+bool has_other_constant(const json &schema, const json &value) {
+  const json properties = schema.value("properties", json::object());
+  const auto items = properties.items();
+  return value.is_object() && std::any_of(items.begin(), items.end(), [&](const auto &property) {
+           return property.value().contains("const") && property.value().at("const").is_string() &&
+                  value.contains(property.key()) && value.at(property.key()) != property.value().at("const");
+         });
+}
+
 } // namespace
 
 bool is_about(const json &schema, const json &value) {
   if (schema.contains("const"))
     return value == schema.at("const");
   if (schema.contains("type") && !has_type(value, schema.at("type")))
+    return false;
+  if (has_other_constant(schema, value))
     return false;
   const json required = schema.value("required", json::array());
   return std::all_of(required.begin(), required.end(),

@@ -1,6 +1,6 @@
 #pragma once
 // Steps through a JSON Schema (draft-07) beside a document that it describes. Knows the keywords that our
-// schemas use: $ref into definitions, anyOf, properties, items.
+// schemas use: $ref into definitions, anyOf, properties, items (one schema, or one for each item).
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,7 +17,15 @@ const Json &resolved(const Json &root, const Json &schema) {
   return root.at(typename Json::json_pointer(text.substr(1)));
 }
 
-// Whether `value` is what `schema` is about: it has the type and, an object, all required keys.
+// The schema of an array's item; `array_schema` has items, and one for this index.
+template <class Json>
+const Json &item_schema(const Json &array_schema, std::size_t index) {
+  const Json &items = array_schema.at("items");
+  return items.is_array() ? items.at(index) : items;
+}
+
+// Whether `value` is what `schema` is about: it has the type and, an object, all required keys and no other
+// text than a constant one ("model": "fisheye").
 bool is_about(const nlohmann::json &schema, const nlohmann::json &value);
 
 // The alternative of an anyOf that `value` is meant as; the schema itself where there is none or no anyOf.

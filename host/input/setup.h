@@ -16,7 +16,7 @@ struct Setup {
   std::filesystem::path file;
   Scene scene;
   Backscatter backscatter = Backscatter::lambert;
-  std::vector<Sensor> sensors;           // one until several are supported
+  std::vector<Sensor> sensors;           // at least one, each with a name of its own
   std::vector<Illuminator> illuminators; // one until several are supported
   nlohmann::ordered_json as_used;        // the setup with every default filled in, as the manifest shows it
   std::vector<std::string> warnings;     // one line each, for stderr; e.g. that the scene is empty

@@ -8,9 +8,11 @@
 #include "host/input/schemas.h"
 #include "host/input/setup_illuminator.h"
 #include "host/input/setup_pose.h"
+#include "host/input/setup_sensor.h"
 #include "host/input/setup_support.h"
 
 #include <fmt/format.h>
+#include <set>
 
 namespace pmdsim {
 
@@ -55,30 +57,12 @@ ordered_json read_setup(const Place &root) {
   return setup;
 }
 
-double focus_distance_m(const ordered_json &sensor, const Place &place) {
-  const ordered_json &focus = sensor.at("focus_distance_m");
-  if (focus.is_null())
-    return std::numeric_limits<double>::infinity();
-  const auto distance_m = focus.get<double>();
-  if (distance_m <= sensor.at("focal_length_m").get<double>())
-    throw input_error(place / "focus_distance_m", fmt::format("expected more than the focal length of {} m",
-                                                              sensor.at("focal_length_m").dump()));
-  return distance_m;
-}
-
-Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene &scene) {
-  Sensor result;
-  result.name = sensor.at("name");
-  result.resolution = {sensor.at("resolution").at(0).get<std::uint32_t>(),
-                       sensor.at("resolution").at(1).get<std::uint32_t>()};
-  result.pixel_pitch_m = {sensor.at("pixel_pitch_m").at(0).get<double>(),
-                          sensor.at("pixel_pitch_m").at(1).get<double>()};
-  result.focal_length_m = sensor.at("focal_length_m");
-  result.focus_distance_m = focus_distance_m(sensor, place);
-  result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", scene, {});
-  result.modulation_hz = sensor.at("modulation_hz").get<std::vector<double>>();
-  result.samples = sensor.at("samples");
-  return result;
+void refuse_doubled_names(const std::vector<Sensor> &sensors, const Place &place) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    if (!names.insert(sensors[i].name).second)
+      throw input_error(place / i / "name", fmt::format("expected a name that no other sensor has, found {}",
+                                                        in_quotes(sensors[i].name)));
 }
 
 Illuminator illuminator_of(const ordered_json &illuminator, const Place &place, const GltfScene &scene,
@@ -117,6 +101,7 @@ Setup load_setup(const std::filesystem::path &file) {
   const ordered_json &sensors = setup.as_used.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
     setup.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
+  refuse_doubled_names(setup.sensors, root / "sensors");
   const ordered_json &illuminators = setup.as_used.at("illuminators");
   for (std::size_t i = 0; i < illuminators.size(); ++i)
     setup.illuminators.push_back(

@@ -1,0 +1,50 @@
+#include "host/input/lens_fault_text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <vector>
+
+namespace pmdsim {
+namespace {
+
+// The image's corners and, between them, the middles of its sides.
+std::vector<glm::dvec2> rim(const Sensor &sensor) {
+  std::vector<glm::dvec2> places;
+  const glm::dvec2 end(sensor.resolution);
+  for (const double row : {0.0, 0.5, 1.0})
+    for (const double column : {0.0, 0.5, 1.0})
+      if (row != 0.5 || column != 0.5)
+        places.push_back(glm::dvec2(column, row) * end);
+  return places;
+}
+
+// How far one gets from the optical axis towards a place without a ray, pixels.
+double pixels_to_fold(const Sensor &sensor, const Lens &lens, const glm::dvec2 &axis_m,
+                      const glm::dvec2 &place_m) {
+  constexpr int halvings = 50;
+  double reached = 0.0, missed = 1.0; // of the way
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (reached + missed);
+    (lens.ray(glm::mix(axis_m, place_m, middle)) ? reached : missed) = middle;
+  }
+  return reached * glm::length((place_m - axis_m) / sensor.pixel_pitch_m);
+}
+
+} // namespace
+
+std::string expectation(LensFault fault, const Sensor &sensor) {
+  if (fault == LensFault::chip_behind_lens)
+    return "expected the whole chip in front of the lens";
+  const std::string text = "expected a distortion that does not fold over inside the image";
+  const Lens lens(sensor);
+  const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
+  const std::vector<glm::dvec2> places = rim(sensor);
+  const auto place = std::ranges::find_if(
+      places, [&](const glm::dvec2 &pixel) { return !lens.ray(lens.on_chip_m(pixel)); });
+  if (!axis_m || place == places.end())
+    return text;
+  return fmt::format("{}; it does {:.4g} pixels from the optical axis towards column {}, row {}", text,
+                     pixels_to_fold(sensor, lens, *axis_m, lens.on_chip_m(*place)), place->x, place->y);
+}
+
+} // namespace pmdsim
