@@ -82,7 +82,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
           points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
                       options.precision),
           AccumulatePass(device, groups, model, signal, options),
-          ResolvePass(device, signal, groups.largest_intensity_w_sr, options.precision)};
+          ResolvePass(device, signal, groups.largest_intensity_w_sr, is_tiled(sensor), options.precision)};
 }
 
 } // namespace
@@ -159,7 +159,7 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
   sum(planned, prepared->accumulate.runs(), progress);
   resolve(planned);
   recorder.finish();
-  store_strip(planned.strip, prepared->buffers, prepared->signal, measurement);
+  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
   progress(1.0);
 }
 

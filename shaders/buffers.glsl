@@ -20,10 +20,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Di
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };
 
 // Where the tag of a pixel's sample is, in a strip of `extent` pixels (interface.h).
-uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, uint tiles) {
-  uint side = samples / tiles;
-  uvec2 in_tile = pixel * side + subsample % side;
-  uvec2 at = subsample / side * extent * side + in_tile;
+uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool tiled) {
+  uvec2 at = tiled ? subsample * extent + pixel : pixel * samples + subsample;
   return at.y * extent.x * samples + at.x;
 }
 

@@ -48,6 +48,7 @@ PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surface
 PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
 PMDSIM_CONSTANT constant_chip = 2;       // 1: the chip stands anyhow or is filled in part; 0: nominal
 PMDSIM_CONSTANT constant_distortion = 3; // one of distortion_*
+PMDSIM_CONSTANT constant_tiled = 5;      // of the resolve pass, too: 1: the tags lie in tiles
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -143,13 +144,12 @@ struct Strip {
   uint resolution_y;
   uint samples;       // S
   uint padded_pixels; // columns * rows, rounded up to whole workgroups
-  uint tiles;         // T: the strip's tags are T x T tiles
 };
 
-// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing was hit. They
-// lie in T x T tiles, each an image of the strip with S / T x S / T fragments a pixel: T is 1 where the samples are an even
-// grid over the whole strip, S where pixels are filled in part. With distortion, fragments are no samples: their tags only
-// say what is seen (pixel id 1), and the samples' tags follow from a search.
+// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing was hit. Those
+// of samples that are an even grid over the whole strip lie row by row. Where pixels are filled in part, there are S x S
+// tiles of one sample a pixel each. With distortion, fragments are no samples: their tags only say what is seen (pixel id
+// 1), and the samples' tags follow from a search, row by row.
 struct VisibilityConstants {
   vec2 shift;                    // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
   uint tile_x, tile_y;           // of its first fragment
@@ -161,7 +161,6 @@ struct VisibilityConstants {
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
-  uint padding_1, padding_2, padding_3;
   vec4 slope;        // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
   uvec2 chip;        // in, else: ChipPlace
   uvec2 tags;        // in: tags
@@ -179,7 +178,6 @@ struct PointsConstants {
 // triangle wave half a turn on is its negative.
 struct SearchConstants {
   Strip strip;
-  uint padding;
   uvec2 lens;        // in: LensModel and its table
   uvec2 view;        // in: RasterView
   uvec2 fragments;   // in: tags of the view's fragments
@@ -222,7 +220,6 @@ struct ResolveConstants {
   uint samples;
   uint padded_pixels;
   uint pixels;        // of the strip
-  uint tiles;         // of the tags
   uint plane;         // elements of a plane of the sum
   uint first_channel; // of the frequency
 };
@@ -243,17 +240,17 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
-static_assert(sizeof(Strip) == 36);
+static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(VisibilityConstants) == 32);
-static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 48);
-static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 40);
+static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(SearchConstants) == 112 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
-static_assert(sizeof(ResolveConstants) == 112 && offsetof(ResolveConstants, turns_per_m) == 56);
+static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif
 

@@ -11,6 +11,7 @@
 
 layout(push_constant, std430) uniform Constants { PointsConstants constants; };
 layout(constant_id = constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 // The ray (x, y, 1) of a sample, from the lens.
 Real3 sample_ray(Sample at) {
@@ -49,7 +50,7 @@ void main() {
     store_miss(constants.position_hi, constants.backscatter, i);
     return;
   }
-  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, strip.tiles);
+  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
   uvec2 tag = Tags(constants.tags).at[tag_at];
   if (tag.x == 0u) {
     store_miss(constants.position_hi, constants.backscatter, i);

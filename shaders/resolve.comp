@@ -17,6 +17,7 @@ layout(constant_id = constant_resolve_waveform) const uint waveform = waveform_s
 layout(constant_id = constant_resolve_taps) const uint taps = 4;
 layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
 layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -159,7 +160,7 @@ void store_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
   uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
-  uint i = tag_index(at, uvec2(middle), extent, constants.samples, constants.tiles);
+  uint i = tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0);
   uvec2 tag = Tags(constants.tags).at[i];
   bool hit = tag.x != 0u;
   store(channel_triangle_id, pixel, hit ? tag.y : no_triangle);

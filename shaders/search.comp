@@ -133,7 +133,7 @@ void main() {
   uint seen[neighbours];
   look_around(ray, seen);
   Hit hit = hit_or_stand_in(ray, seen);
-  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, 1u);
+  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
   if (hit.triangle == no_triangle) {
     Tags(constants.tags).at[tag_at] = uvec2(0u);
     store_miss(constants.position_hi, constants.backscatter, i);

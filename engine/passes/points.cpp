@@ -2,6 +2,7 @@
 
 #include "engine/passes/chip_place.h"
 #include "engine/passes/double_pair.h"
+#include "engine/passes/raster_blocks.h"
 #include "engine/passes/sample_precision.h"
 #include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
@@ -26,18 +27,15 @@ vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
 PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces,
                        SamplePrecision precision)
     : slope_(slope_of(sensor)), chip_(upload_chip(device, sensor)),
-      pipeline_(
-          device, choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
-          sizeof(shader::PointsConstants),
-          {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, is_plain(sensor) ? 0u : 1u}) {
-}
+      pipeline_(device,
+                choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
+                sizeof(shader::PointsConstants),
+                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
+                 is_plain(sensor) ? 0u : 1u, 0u, 0u, is_tiled(sensor) ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                         const StripBuffers &buffers, const vulkan::Buffer &planes) const {
   const shader::PointsConstants constants{strip,
-                                          0,
-                                          0,
-                                          0,
                                           slope_,
                                           words(chip_.address()),
                                           words(buffers.tags.address()),

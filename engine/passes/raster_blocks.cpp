@@ -9,12 +9,12 @@ constexpr double grid = 256.0; // steps of the raster's grid a fragment
 
 } // namespace
 
-std::uint32_t raster_tiles(const Sensor &sensor) {
-  return sensor.has_distortion() || sensor.fill_factor == glm::dvec2(1.0) ? 1 : sensor.samples;
+bool is_tiled(const Sensor &sensor) {
+  return !sensor.has_distortion() && sensor.fill_factor != glm::dvec2(1.0);
 }
 
 glm::vec2 raster_shift(const Sensor &sensor, const glm::uvec2 &subsample) {
-  if (raster_tiles(sensor) == 1)
+  if (!is_tiled(sensor))
     return glm::vec2(0.0f);
   const glm::dvec2 from_centre =
       ((glm::dvec2(subsample) + 0.5) / static_cast<double>(sensor.samples) - 0.5) * sensor.fill_factor;
@@ -22,7 +22,7 @@ glm::vec2 raster_shift(const Sensor &sensor, const glm::uvec2 &subsample) {
 }
 
 std::vector<RasterBlock> chip_blocks(const Sensor &sensor, std::uint32_t block_fragments) {
-  const std::uint32_t side = sensor.samples / raster_tiles(sensor); // fragments along a pixel
+  const std::uint32_t side = is_tiled(sensor) ? 1 : sensor.samples; // fragments along a pixel
   // From the chip's metres to the frame's fragments, and the depth in front of the chip's plane to metres.
   const glm::dvec2 scale = static_cast<double>(side) / sensor.pixel_pitch_m;
   const glm::dvec2 middle = 0.5 * side * glm::dvec2(sensor.resolution);

@@ -13,17 +13,17 @@ namespace pmdsim {
 struct RasterBlock {
   glm::uvec2 first_pixel;        // column, row
   glm::uvec2 pixels;             // columns, rows
-  glm::uvec2 fragments;          // columns, rows; with T x T tiles, of one of them
+  glm::uvec2 fragments;          // columns, rows; of one tile where there are tiles
   glm::dmat3 raster_from_camera; // (x, y) = (h.x, h.y) / h.z fragments from the block's top left, h.z a depth
                                  // in metres
   bool distorted = false;        // the fragments are no samples, and all are there for every strip
   std::uint32_t first_vertex = 0, vertex_count = 0; // in Projection::vertices
 };
 
-// T: 1 where the samples are an even grid over the whole frame or search on a grid of their own, S where
-// pixels are filled in part. One raster holds the samples of equal place in their pixels then, and there are
-// T x T of them, each moved by raster_shift().
-std::uint32_t raster_tiles(const Sensor &sensor);
+// Whether pixels are filled in part, so that samples are no even grid over the frame. Each raster then holds
+// the samples of equal place in their pixels, and there are S x S of them, tiles, each moved by
+// raster_shift().
+bool is_tiled(const Sensor &sensor);
 
 // From the centre of a fragment to the sample (k_x, k_y) that it stands for, in fragments; a multiple of
 // 1/256.

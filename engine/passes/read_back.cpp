@@ -1,5 +1,6 @@
 #include "engine/passes/read_back.h"
 
+#include "engine/passes/raster_blocks.h"
 #include "engine/scene.h"
 
 #include "engine/vulkan/commands.h"
@@ -20,16 +21,15 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
                 from + row * row_bytes, row_bytes);
 }
 
-// Tags lie in tiles (shaders/interface.h).
-void store_sample_tags(const std::byte *from, const shader::Strip &strip, Measurement &to) {
+// Where `tiled`, tags lie in tiles (shaders/interface.h).
+void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool tiled, Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
-  const std::uint32_t side = strip.samples / strip.tiles;
-  const glm::uvec2 tile_size = glm::uvec2(strip.columns, strip.rows) * side;
+  const glm::uvec2 pixels(strip.columns, strip.rows);
   for (std::uint32_t row = 0; row < samples.y; ++row)
     for (std::uint32_t column = 0; column < samples.x; ++column) {
       const glm::uvec2 sample(column, row), pixel = sample / strip.samples,
                                             subsample = sample % strip.samples;
-      const glm::uvec2 at = subsample / side * tile_size + pixel * side + subsample % side;
+      const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
       shader::uvec2 tag;
       std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * sizeof(tag), sizeof(tag));
       const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
@@ -79,8 +79,8 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
-                 Measurement &measurement) {
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, Measurement &measurement) {
   const auto store = [&](std::uint32_t channel, auto &to) {
     store_rows(buffers.channels_read.mapped().data() +
                    std::size_t{channel} * strip.padded_pixels * sizeof(float),
@@ -101,7 +101,7 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
       store(first + shader::channel_first_tap + k, to.taps[k]);
   }
   if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(buffers.tags_read.mapped().data(), strip, measurement);
+    store_sample_tags(buffers.tags_read.mapped().data(), strip, is_tiled(sensor), measurement);
 }
 
 } // namespace pmdsim

@@ -14,7 +14,7 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
                       const StripBuffers &buffers, const Signal &signal);
 
 // Once that is done: copies it to its place in the frame.
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
-                 Measurement &measurement);
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, Measurement &measurement);
 
 } // namespace pmdsim

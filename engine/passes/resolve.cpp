@@ -18,22 +18,23 @@ float largest_float_below(double value) {
 }
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
-                                      SamplePrecision precision, bool first) {
+                                      SamplePrecision precision, bool tiled, bool first) {
   return {device,
           choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants),
-          {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u}};
+          {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u,
+           tiled ? 1u : 0u}};
 }
 
 } // namespace
 
 ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr,
-                         SamplePrecision precision)
+                         bool tiled, SamplePrecision precision)
     : signal_(signal), amplitude_scale_(static_cast<float>(largest_intensity_w_sr)),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
-      first_(make_pipeline(device, signal, precision, true)) {
+      first_(make_pipeline(device, signal, precision, tiled, true)) {
   if (signal.frequencies() > 1)
-    later_ = make_pipeline(device, signal, precision, false);
+    later_ = make_pipeline(device, signal, precision, tiled, false);
 }
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -60,7 +61,6 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
         strip.samples,
         strip.padded_pixels,
         strip.columns * strip.rows,
-        strip.tiles,
         plane,
         signal_.first_channel(f)};
     (f == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);

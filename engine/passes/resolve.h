@@ -10,7 +10,8 @@ namespace pmdsim {
 
 class ResolvePass {
 public:
-  ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr,
+  // `tiled`: whether the tags lie in tiles (shaders/interface.h).
+  ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr, bool tiled,
               SamplePrecision precision);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

@@ -101,7 +101,6 @@ void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedSt
                         const StripBuffers &buffers, const vulkan::Buffer &planes) const {
   const shader::SearchConstants constants{
       planned.strip,
-      0,
       words(lens_.address()),
       words(views_.address() + planned.block * sizeof(shader::RasterView)),
       words(buffers.fragments.address()),

@@ -9,7 +9,7 @@ namespace pmdsim {
 
 struct StripBuffers {
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
-  vulkan::Buffer tags;      // uvec2 a sample, in tiles (shaders/interface.h): pixel id, triangle id
+  vulkan::Buffer tags;      // uvec2 a sample (shaders/interface.h): pixel id, triangle id
   vulkan::Buffer
       position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;

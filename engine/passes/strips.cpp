@@ -19,7 +19,7 @@ std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<Ra
       const std::uint32_t height = std::min(rows, block.pixels.y - row);
       strips.push_back(
           {{block.first_pixel.x, block.first_pixel.y + row, block.pixels.x, height, sensor.resolution.x,
-            sensor.resolution.y, sensor.samples, padded(block.pixels.x * height), raster_tiles(sensor)},
+            sensor.resolution.y, sensor.samples, padded(block.pixels.x * height)},
            b});
     }
   }

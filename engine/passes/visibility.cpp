@@ -129,8 +129,9 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
     return;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
   commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
-  for (std::uint32_t row = 0; row < planned.strip.tiles; ++row)
-    for (std::uint32_t column = 0; column < planned.strip.tiles; ++column)
+  const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
+  for (std::uint32_t row = 0; row < tiles; ++row)
+    for (std::uint32_t column = 0; column < tiles; ++column)
       draw_tile(commands, planned, {column, row});
 }
 
@@ -138,8 +139,9 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
                                const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
-  const std::uint32_t side = strip.samples / strip.tiles; // fragments along a pixel, but for distortion
-  const glm::uvec2 size = strip_fragments(planned.strip, block) / strip.tiles;
+  const bool tiled = is_tiled(sensor_);
+  const std::uint32_t side = tiled ? 1 : strip.samples; // fragments along a pixel, but for distortion
+  const glm::uvec2 size = strip_fragments(strip, block) / (tiled ? strip.samples : 1u);
   const glm::uvec2 in_block =
       block.distorted ? glm::uvec2(0) : (glm::uvec2(strip.column, strip.row) - block.first_pixel) * side;
   const glm::uvec2 corner = tile * size;
