@@ -1,6 +1,8 @@
 #include "host/options.h"
 
 #include "engine/error.h"
+#include "host/input/calibration_sensor.h"
+#include "host/input/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,15 +16,17 @@ const std::map<std::string, Command> command_names{{"render", Command::render},
                                                    {"deform", Command::deform},
                                                    {"check", Command::check},
                                                    {"bench", Command::bench},
+                                                   {"import-calibration", Command::import_calibration},
                                                    {"devices", Command::devices}};
 const std::map<std::string, Format> format_names{
     {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
 
 // The command line before it is checked; what comes later is kept to be refused.
 struct Written {
-  std::string setup, output_directory, device;
+  std::string setup, output_directory, device, calibration, sensor_name;
   std::string frames = "0:1", mode = "exact", precision = "fp32", max_error, max_amplitude_error;
   std::uint32_t samples = 0; // 0: as in the setup
+  std::optional<double> pixel_pitch_m;
   std::vector<std::string> formats;
   bool no_wide_vectors = false, json = false;
 };
@@ -64,6 +68,17 @@ void add_writing(CLI::App &command, Written &written, const std::string &default
   command.add_option("--frames", written.frames, "A:B, frames A to B - 1; only 0:1 is supported yet");
 }
 
+void add_importing(CLI::App &command, Written &written) {
+  command
+      .add_option("FILE", written.calibration,
+                  "calibration: OpenCV's FileStorage (YAML or JSON) or ROS's camera_info (YAML)")
+      ->required();
+  command.add_option("--pixel-pitch-m", written.pixel_pitch_m,
+                     fmt::format("distance from pixel to pixel along the columns, metres, 1e-9 to 1000 [{}]",
+                                 default_pixel_pitch_m));
+  command.add_option("--name", written.sensor_name, "the sensor's name, instead of the file's");
+}
+
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure a frame: amplitude, phase, distance and ground truth");
@@ -84,13 +99,15 @@ void add_commands(CLI::App &app, Written &written) {
   bench->add_option("SETUP", written.setup, "setup file (JSON); running without one is not supported yet");
   add_measuring(*bench, written);
 
+  CLI::App *import_calibration = app.add_subcommand(
+      "import-calibration", "print a sensor, for a setup, from what calibration tools write");
+  add_importing(*import_calibration, written);
+
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {render, deform, check, bench, devices})
+  for (CLI::App *command : {render, deform, check, bench, import_calibration, devices})
     add_json(*command, written);
 
   app.add_subcommand("tradeoff", "speed against accuracy; not supported yet")->allow_extras();
-  app.add_subcommand("import-calibration", "a sensor from calibration tools' files; not supported yet")
-      ->allow_extras();
 }
 
 void refuse(bool asked_for, const std::string &feature) {
@@ -113,13 +130,29 @@ std::filesystem::path output_directory(const Written &written, const std::string
   return std::filesystem::path("out") / std::filesystem::path(written.setup).stem() / command;
 }
 
+void check_importing(const Written &written) {
+  const double pitch_m = written.pixel_pitch_m.value_or(default_pixel_pitch_m);
+  if (!(pitch_m >= min_length_m && pitch_m <= max_length_m))
+    throw Error(ExitCode::usage, fmt::format("--pixel-pitch-m: expected a number from {} to {}, found {}",
+                                             min_length_m, max_length_m, pitch_m));
+  if (!written.sensor_name.empty() && !is_sensor_name(written.sensor_name))
+    throw Error(ExitCode::usage,
+                "--name: expected up to 64 letters, digits, dots, dashes and underscores, the "
+                "first a letter or digit, found " +
+                    in_quotes(written.sensor_name));
+}
+
 Options checked(const Written &written, const std::string &command) {
   refuse(!command_names.contains(command), command);
   refuse(command == "bench" && written.setup.empty(), "bench without a setup");
   refuse_what_comes_later(written);
+  check_importing(written);
   Options options;
   options.command = command_names.at(command);
   options.setup = written.setup;
+  options.calibration = written.calibration;
+  options.pixel_pitch_m = written.pixel_pitch_m;
+  options.sensor_name = written.sensor_name;
   options.device = written.device;
   options.json = written.json;
   if (written.samples != 0)

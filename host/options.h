@@ -9,16 +9,19 @@
 
 namespace pmdsim {
 
-enum class Command { render, deform, check, bench, devices };
+enum class Command { render, deform, check, bench, import_calibration, devices };
 enum class Format { exr, npy, png, csv };
 
 struct Options {
   Command command = Command::devices;
-  std::filesystem::path setup;            // all but devices
+  std::filesystem::path setup;            // all but import-calibration and devices
   std::filesystem::path output_directory; // render and deform; filled in where -o is absent
   std::set<Format> formats;               // render and deform
   std::string device;                     // as SimulatorOptions::device, or "reference" in any case
   std::optional<std::uint32_t> samples;   // S, instead of the setup's
+  std::filesystem::path calibration;      // import-calibration, and the two below
+  std::optional<double> pixel_pitch_m;    // along the columns, instead of the default
+  std::string sensor_name;                // instead of the file's; empty where it is not given
   bool json = false;
 };
 

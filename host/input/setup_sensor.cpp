@@ -1,7 +1,6 @@
 #include "host/input/setup_sensor.h"
 
-#include "engine/lens.h"
-#include "host/input/lens_fault_text.h"
+#include "host/input/lens_check.h"
 #include "host/input/limits.h"
 #include "host/input/setup_pose.h"
 
@@ -41,7 +40,8 @@ Distortion distortion_of(const ordered_json &distortion) {
   if (distortion.at("model") == "fisheye")
     return Fisheye{number("k1"), number("k2"), number("k3"), number("k4")};
   const BrownConrady brown{number("k1"), number("k2"), number("p1"), number("p2"), number("k3")};
-  const bool bends = brown.k1 != 0.0 || brown.k2 != 0.0 || brown.p1 != 0.0 || brown.p2 != 0.0 || brown.k3 != 0.0;
+  const bool bends =
+      brown.k1 != 0.0 || brown.k2 != 0.0 || brown.p1 != 0.0 || brown.p2 != 0.0 || brown.k3 != 0.0;
   return bends ? Distortion(brown) : Distortion();
 }
 
@@ -61,15 +61,14 @@ void check_highest_harmonic(const Sensor &sensor, const Place &place) {
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
     if (sensor.modulation_hz[i] * static_cast<double>(harmonics) > max_modulation_hz)
       throw input_error(place / "modulation_hz" / i,
-                        fmt::format("expected harmonic {} of the waveform within {} Hz, found {} Hz", harmonics,
-                                    max_modulation_hz,
+                        fmt::format("expected harmonic {} of the waveform within {} Hz, found {} Hz",
+                                    harmonics, max_modulation_hz,
                                     sensor.modulation_hz[i] * static_cast<double>(harmonics)));
 }
 
 void check_lens(const Sensor &sensor, const Place &place) {
-  if (const auto fault = lens_fault(sensor))
-    throw input_error(place / (*fault == LensFault::distortion_folds ? "distortion" : "chip"),
-                      expectation(*fault, sensor));
+  if (const auto problem = lens_problem(sensor))
+    throw input_error(place / problem->key, problem->expectation);
 }
 
 } // namespace

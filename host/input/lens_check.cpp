@@ -1,4 +1,6 @@
-#include "host/input/lens_fault_text.h"
+#include "host/input/lens_check.h"
+
+#include "engine/lens.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,32 +21,40 @@ std::vector<glm::dvec2> rim(const Sensor &sensor) {
 }
 
 // How far one gets from the optical axis towards a place without a ray, pixels.
-double pixels_to_fold(const Sensor &sensor, const Lens &lens, const glm::dvec2 &axis_m,
-                      const glm::dvec2 &place_m) {
+double pixels_to_fold(const Lens &lens, const glm::dvec2 &axis_pixel, const glm::dvec2 &pixel) {
   constexpr int halvings = 50;
   double reached = 0.0, missed = 1.0; // of the way
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (reached + missed);
-    (lens.ray(glm::mix(axis_m, place_m, middle)) ? reached : missed) = middle;
+    (lens.ray(lens.on_chip_m(glm::mix(axis_pixel, pixel, middle))) ? reached : missed) = middle;
   }
-  return reached * glm::length((place_m - axis_m) / sensor.pixel_pitch_m);
+  return reached * glm::length(pixel - axis_pixel);
+}
+
+std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
+  const std::string text = "expected a distortion that does not fold over inside the image";
+  const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
+  const std::vector<glm::dvec2> places = rim(sensor);
+  const auto place =
+      std::ranges::find_if(places, [&](const glm::dvec2 &pixel) { return !lens.ray(lens.on_chip_m(pixel)); });
+  if (!axis_m || place == places.end())
+    return text;
+  return fmt::format("{}; it does {:.4g} pixels from the optical axis towards column {}, row {}", text,
+                     pixels_to_fold(lens, lens.pixel(*axis_m), *place), place->x, place->y);
 }
 
 } // namespace
 
-std::string expectation(LensFault fault, const Sensor &sensor) {
-  if (fault == LensFault::chip_behind_lens)
-    return "expected the whole chip in front of the lens";
-  const std::string text = "expected a distortion that does not fold over inside the image";
+std::optional<LensProblem> lens_problem(const Sensor &sensor) {
   const Lens lens(sensor);
-  const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
-  const std::vector<glm::dvec2> places = rim(sensor);
-  const auto place = std::ranges::find_if(
-      places, [&](const glm::dvec2 &pixel) { return !lens.ray(lens.on_chip_m(pixel)); });
-  if (!axis_m || place == places.end())
-    return text;
-  return fmt::format("{}; it does {:.4g} pixels from the optical axis towards column {}, row {}", text,
-                     pixels_to_fold(sensor, lens, *axis_m, lens.on_chip_m(*place)), place->x, place->y);
+  if (!(glm::determinant(lens.lens_from_chip()) > 0.0))
+    return LensProblem{"chip", "expected the front of the chip towards the lens"};
+  const std::optional<LensFault> fault = lens_fault(sensor);
+  if (!fault)
+    return std::nullopt;
+  return *fault == LensFault::chip_behind_lens
+             ? LensProblem{"chip", "expected the whole chip in front of the lens"}
+             : LensProblem{"distortion", fold_expectation(sensor, lens)};
 }
 
 } // namespace pmdsim

@@ -1,0 +1,19 @@
+#pragma once
+// Whether a sensor's lens and chip can make an image, for people.
+
+#include "engine/sensor.h"
+
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+struct LensProblem {
+  std::string key;         // of the sensor in a setup: "distortion" or "chip"
+  std::string expectation; // "expected ..."
+};
+
+// Nothing where every place of the image has a ray and the chip's front is towards the lens.
+std::optional<LensProblem> lens_problem(const Sensor &sensor);
+
+} // namespace pmdsim
