@@ -79,23 +79,6 @@ Polynomial radial_slope(const std::array<double, 4> &c) {
   return {1.0, 3.0 * c[0], 5.0 * c[1], 7.0 * c[2], 9.0 * c[3]};
 }
 
-// Undistorted radius or angle of a distorted one, where the radial polynomial rises from 0 to `largest`.
-double radial_inverse(const std::array<double, 4> &c, double distorted, double largest) {
-  double low = 0.0, high = largest, r = std::min(distorted, largest);
-  const Polynomial slope = radial_slope(c);
-  for (int i = 0; i < 100; ++i) {
-    const double excess = r * stretch(c, r * r) - distorted;
-    (excess > 0.0 ? high : low) = r;
-    double next = r - excess / value_at(slope, r * r);
-    if (!(next >= low && next <= high))
-      next = 0.5 * (low + high);
-    if (next == r)
-      break;
-    r = next;
-  }
-  return r;
-}
-
 struct Distorted {
   glm::dvec2 slope;
   glm::dmat2 jacobian; // of the distorted slope by the undistorted one
@@ -193,11 +176,33 @@ std::optional<glm::dvec2> Lens::distorted(const glm::dvec3 &ray) const {
   return across <= largest_radius_ * ray.z ? std::optional(brown_conrady(*brown, slope).slope) : std::nullopt;
 }
 
+double Lens::radial_inverse(double distorted_radius) const {
+  const auto c = radial_coefficients(distortion_);
+  const Polynomial slope = radial_slope(c);
+  double low = 0.0, high = largest_radius_, r = std::min(distorted_radius, largest_radius_);
+  for (int i = 0; i < 100; ++i) {
+    const double excess = r * stretch(c, r * r) - distorted_radius;
+    (excess > 0.0 ? high : low) = r;
+    double next = r - excess / value_at(slope, r * r);
+    if (!(next >= low && next <= high))
+      next = 0.5 * (low + high);
+    if (next == r)
+      break;
+    r = next;
+  }
+  return r;
+}
+
+Lens::Coefficients Lens::coefficients() const {
+  const auto *brown = std::get_if<BrownConrady>(&distortion_);
+  return {radial_coefficients(distortion_), {brown ? brown->p1 : 0.0, brown ? brown->p2 : 0.0}};
+}
+
 std::optional<glm::dvec3> Lens::undistorted(const glm::dvec2 &slope) const {
   if (std::holds_alternative<std::monostate>(distortion_))
     return glm::normalize(glm::dvec3(slope, 1.0));
   const double radius = glm::length(slope);
-  const double inverse = radial_inverse(radial_coefficients(distortion_), radius, largest_radius_);
+  const double inverse = radial_inverse(radius);
   const glm::dvec2 outward = radius > 0.0 ? slope / radius : glm::dvec2(0.0);
   if (const auto *brown = std::get_if<BrownConrady>(&distortion_)) {
     const auto found = brown_conrady_inverse(*brown, slope, inverse * outward);

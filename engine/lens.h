@@ -4,6 +4,7 @@
 
 #include "engine/sensor.h"
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -33,6 +34,16 @@ public:
   std::optional<glm::dvec2> distorted(const glm::dvec3 &ray) const;
   // Its inverse, on the branch that begins at the optical axis; unit length.
   std::optional<glm::dvec3> undistorted(const glm::dvec2 &slope) const;
+
+  // The distortion along a radius is r (1 + k1 r^2 + k2 r^4 + k3 r^6 + k4 r^8), of slopes or (fisheye) of
+  // angles. The r whose distorted radius this is, on the branch that begins at 0; where that folds over
+  // before, the fold.
+  double radial_inverse(double distorted_radius) const;
+  struct Coefficients {
+    std::array<double, 4> radial;     // k1, k2, k3, k4
+    std::array<double, 2> tangential; // p1, p2
+  };
+  Coefficients coefficients() const;
 
 private:
   Distortion distortion_;

@@ -76,6 +76,7 @@ struct Sensor {
   double ambiguity_m(std::size_t frequency = 0) const {
     return speed_of_light_m_s / (2.0 * modulation_hz[frequency]);
   }
+  bool has_distortion() const { return !std::holds_alternative<std::monostate>(distortion); }
   std::uint64_t pixel_count() const { return std::uint64_t{resolution.x} * resolution.y; }
 };
 

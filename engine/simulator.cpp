@@ -8,6 +8,7 @@
 #include "engine/passes/projection.h"
 #include "engine/passes/read_back.h"
 #include "engine/passes/resolve.h"
+#include "engine/passes/search.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/passes/strips.h"
 #include "engine/passes/visibility.h"
@@ -16,14 +17,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <variant>
 
 namespace pmdsim {
 namespace {
 
-constexpr std::uint32_t default_strip_samples = 1u << 20;
 // One submission's work at most, so that a frame can be stopped and shows its progress.
 constexpr std::uint64_t interactions_per_submission = 2'000'000'000;
 
@@ -37,35 +37,52 @@ DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
 // What one sensor, illuminator and scene need on the device.
 struct Prepared {
   Sensor sensor;
+  Signal signal;
   std::vector<PlannedStrip> strips;
   vulkan::Buffer planes;
   StripBuffers buffers;
   VisibilityPass visibility;
-  PointsPass points;
+  std::variant<PointsPass, SearchPass> points; // without and with distortion
   AccumulatePass accumulate;
   ResolvePass resolve;
 };
+
+std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, const Sensor &sensor,
+                                                 const CameraScene &camera, const Scene &scene,
+                                                 const std::vector<RasterBlock> &blocks, bool surfaces,
+                                                 SamplePrecision precision) {
+  if (sensor.has_distortion())
+    return SearchPass(device, sensor, camera, scene, blocks, surfaces, precision);
+  return PointsPass(device, sensor, surfaces, precision);
+}
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
                         const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter) {
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<Diode> diodes = to_camera(illuminator, sensor);
-  const Projection projection = project(camera, sensor, raster_block_samples(device));
-  const double wavenumber_rad_m = 2.0 * std::numbers::pi * sensor.modulation_hz[0] / speed_of_light_m_s;
-  const DiodeGroups groups = group_diodes(diodes, projection.visible, wavenumber_rad_m);
+  const Signal signal = signal_of(sensor, options);
+  const std::uint32_t strip_samples = options.max_strip_samples > 0
+                                          ? options.max_strip_samples
+                                          : samples_of_a_strip(signal, sensor.samples * sensor.samples);
+  const std::uint32_t block_fragments = raster_block_fragments(device);
+  const Projection projection =
+      project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments, strip_samples)
+                                              : chip_blocks(sensor, block_fragments));
+  const DiodeGroups groups = group_diodes(diodes, projection.visible, signal.largest_wavenumber_rad_m());
   const SumModel model = sum_model(diodes, backscatter, all_face_the_light(camera, diodes));
-  const auto strips =
-      plan_strips(sensor, projection.blocks,
-                  options.max_strip_samples > 0 ? options.max_strip_samples : default_strip_samples);
-  const auto planes = triangle_planes(camera, scene, backscatter);
+  const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
+  const auto planes = triangle_planes(camera, scene, backscatter,
+                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
   return {sensor,
+          signal,
           strips,
           vulkan::upload(device, std::as_bytes(std::span(planes))),
-          make_strip_buffers(device, strips, options.keep_sample_tags),
-          VisibilityPass(device, projection, strips),
-          PointsPass(device, sensor, model.asks_for_surfaces(), options.precision),
-          AccumulatePass(device, groups, model, sensor.modulation_hz[0], options),
-          ResolvePass(device, sensor, groups.largest_intensity_w_sr, options.precision)};
+          make_strip_buffers(device, strips, projection.blocks, signal, options.keep_sample_tags),
+          VisibilityPass(device, projection, sensor, strips),
+          points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
+                      options.precision),
+          AccumulatePass(device, groups, model, signal, options),
+          ResolvePass(device, signal, groups.largest_intensity_w_sr, is_tiled(sensor), options.precision)};
 }
 
 } // namespace
@@ -90,9 +107,14 @@ struct Simulator::State {
 };
 
 void Simulator::State::see(const PlannedStrip &planned) {
-  prepared->visibility.record(recorder.commands(), planned, prepared->buffers);
+  const StripBuffers &buffers = prepared->buffers;
+  const auto *points = std::get_if<PointsPass>(&prepared->points);
+  prepared->visibility.record(recorder.commands(), planned, points ? buffers.tags : buffers.fragments);
   recorder.end_pass("visibility");
-  prepared->points.record(recorder.commands(), planned.strip, prepared->buffers, prepared->planes);
+  if (points)
+    points->record(recorder.commands(), planned.strip, buffers, prepared->planes);
+  else
+    std::get<SearchPass>(prepared->points).record(recorder.commands(), planned, buffers, prepared->planes);
   recorder.end_pass("points");
 }
 
@@ -114,7 +136,7 @@ void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t runs, cons
 void Simulator::State::resolve(const PlannedStrip &planned) {
   prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->planes);
   recorder.end_pass("resolve");
-  record_read_back(recorder.commands(), planned.strip, prepared->buffers);
+  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
   recorder.end_pass("read_back");
 }
 
@@ -137,7 +159,7 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
   sum(planned, prepared->accumulate.runs(), progress);
   resolve(planned);
   recorder.finish();
-  store_strip(planned.strip, prepared->buffers, measurement);
+  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
   progress(1.0);
 }
 
@@ -163,7 +185,8 @@ Measurement Simulator::measure(const Progress &progress) {
     throw std::logic_error("measure() before prepare()");
   const auto start = std::chrono::steady_clock::now();
   state_->recorder.reset();
-  Measurement measurement = make_measurement(state_->prepared->sensor, state_->options.keep_sample_tags);
+  Measurement measurement =
+      make_measurement(state_->prepared->sensor, state_->prepared->signal, state_->options.keep_sample_tags);
   const auto &strips = state_->prepared->strips;
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {

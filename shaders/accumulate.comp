@@ -9,48 +9,10 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
-#include "buffers.glsl"
-#include "compensated.glsl"
-#include "elementary.glsl"
-#include "real.glsl"
+#include "accumulate.glsl"
 
-layout(local_size_x = workgroup_size) in;
-layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
 layout(constant_id = constant_moments) const uint moments = 4;
-layout(constant_id = constant_backscatter) const uint backscatter_model = backscatter_flat;
-layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotropic;
-layout(constant_id = constant_order) const uint power = 1;
-layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
-layout(constant_id = constant_first) const uint is_first = 0;
-
-// A sample's point as the group sees it.
-struct Point {
-  vec3 position; // P - G, m
-  float rho;     // |P - G|, m
-  vec3 normal;   // turned to the lens
-  float height;  // of G over the surface's plane, m
-};
-
-#include "radiation.glsl"
-
-// w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
-vec2 weight_and_excess(Point point, GroupDiode diode) {
-  float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
-  float r2 = point.rho * point.rho + q;
-  float r = sqrt(r2);
-  float sum = r + point.rho;
-  float inverse = 1.0 / (r2 * sum);
-  float inverse_r2 = sum * inverse;
-  float weight = diode.intensity * inverse_r2;
-  float inverse_r = r * inverse_r2;
-  if (backscatter_model != backscatter_flat) {
-    float height = point.height - 0.5 * dot(point.normal, diode.position.xyz); // of the diode over the surface
-    weight *= backscatter_model == backscatter_lambert ? max(0.0, height * inverse_r) : (height > 0.0 ? 1.0 : 0.0);
-  }
-  if (pattern_model != pattern_isotropic)
-    weight *= radiation(point, diode, inverse_r, inverse_r2);
-  return vec2(weight, q * r2 * inverse);
-}
+layout(constant_id = constant_tones) const uint tones = 1;
 
 void add_block(inout float total[moments], Point point, Diodes diodes, uint first) {
   float part[moments];
@@ -81,18 +43,8 @@ vec2 return_of(float total[moments], float kappa) {
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
-  Real3 position = real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
-  vec4 surface = Vec4s(constants.surface).at[i];
-  vec4 reference_hi = constants.reference_hi, reference_lo = constants.reference_lo;
-
-  Real3 from_reference = subtract3(position, real3(reference_hi.xyz, reference_lo.xyz));
-  Real rho = length3(from_reference);
   Point point;
-  point.position = high3(from_reference);
-  point.rho = high(rho);
-  point.normal = surface.xyz;
-  point.height = surface.w + dot(surface.xyz, reference_hi.xyz);
-
+  ReferencePath path = load_point(i, point);
   float total[moments];
   [[unroll]] for (uint k = 0; k < moments; ++k)
     total[k] = 0.0;
@@ -106,14 +58,11 @@ void main() {
 #endif
 
   // Samples are summed relative to twice their own range, which the resolve pass turns back.
-  Real detour = add(rho, negate(length3(position)));
-  float turns = turn_fraction(multiply(detour, real(reference_hi.w, reference_lo.w)));
-  vec2 z = complex_multiply(return_of(total, constants.wavenumber), unit_phasor(turns));
+  Real detour = add(path.rho, negate(path.range));
   float backscatter = Floats(constants.backscatter).at[i];
-  vec2 term = backscatter > 0.0 ? backscatter * z : vec2(0.0); // a sample that hit nothing adds nothing, not even NaN
-  Vec4s sums = Vec4s(constants.sum);
-  if (is_first != 0)
-    sums.at[i] = vec4(term, 0.0, 0.0);
-  else
-    sums.at[i] = compensated_add(sums.at[i], term);
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
+    Tone tone = Tones(constants.tones).at[t];
+    float turns = turn_fraction(multiply(detour, real(tone.turns_per_m.x, tone.turns_per_m.y)));
+    add_to_plane(t, i, backscatter, complex_multiply(return_of(total, tone.wavenumber), unit_phasor(turns)));
+  }
 }

@@ -24,16 +24,34 @@ PMDSIM_CONSTANT workgroup_size = 64;
 PMDSIM_CONSTANT diodes_per_block = 16;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
 
-// Specialization constants of the accumulate pass.
-PMDSIM_CONSTANT constant_moments = 0;     // K, the number of moments
+// Specialization constants of the accumulate pass, by moments and direct.
+PMDSIM_CONSTANT constant_moments = 0;     // by moments: K, the number of moments
 PMDSIM_CONSTANT constant_backscatter = 1; // one of backscatter_*
 PMDSIM_CONSTANT constant_pattern = 2;     // one of pattern_*
 PMDSIM_CONSTANT constant_order = 3;       // of pattern_power
 PMDSIM_CONSTANT constant_blocks = 4;      // blocks of diodes that one dispatch sums
 PMDSIM_CONSTANT constant_first = 5;       // 1: of the frame's runs this is the first, there is no sum yet
+PMDSIM_CONSTANT constant_tones = 6;       // by moments: tones that one dispatch sums
+PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
+PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
+PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
 
-// Specialization constant of the points pass: 1 where the sum asks for the surfaces.
-PMDSIM_CONSTANT constant_surfaces = 0;
+// Specialization constants of the resolve pass.
+PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
+PMDSIM_CONSTANT constant_resolve_waveform = 1; // one of waveform_*
+PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
+PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
+PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
+
+// Specialization constants of the points passes.
+PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
+PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
+PMDSIM_CONSTANT constant_chip = 2;       // 1: the chip stands anyhow or is filled in part; 0: nominal
+PMDSIM_CONSTANT constant_distortion = 3; // one of distortion_*
+PMDSIM_CONSTANT constant_tiled = 5;      // of the resolve pass, too: 1: the tags lie in tiles
+
+PMDSIM_CONSTANT distortion_brown = 0;
+PMDSIM_CONSTANT distortion_fisheye = 1;
 
 PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of every surface
 PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
@@ -42,10 +60,14 @@ PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
 PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
 PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
 
-// A vertex of a triangle as it lies on the chip.
+PMDSIM_CONSTANT waveform_sine = 0;
+PMDSIM_CONSTANT waveform_square = 1;
+PMDSIM_CONSTANT waveform_harmonics = 2;
+
+// A vertex of a triangle as it lies on a raster.
 struct RasterVertex {
-  float x_samples;     // from the raster block's left edge, a multiple of 1/256
-  float y_samples;     // from its top edge, likewise
+  float x_fragments;   // from the raster block's left edge, a multiple of 1/256
+  float y_fragments;   // from its top edge, likewise
   float inverse_depth; // 0.5 * nearest depth of the frame / depth, 0 to 0.5
   uint triangle;       // id in the scene
 };
@@ -56,8 +78,46 @@ struct TrianglePlane {
   vec4 plane_lo;     // their rests
   float backscatter; // rho (constant) or rho / pi (lambert), 1/sr
   uint object;       // id in the scene
-  float depth_min_m; // of the triangle's points, a hair wider than exact
-  float depth_max_m;
+  float along_min; // where a ray can meet the triangle, a hair wider than exact: depth, with distortion range, m
+  float along_max;
+};
+
+// A triangle's corners a, b, c, camera frame, m, and what lies beyond its edges.
+struct TriangleCorners {
+  vec4 hi[3];
+  vec4 lo[3];
+  uint beyond[3]; // the visible triangle that shares the edge ab, bc, ca; no_triangle where there is none
+  uint padding;
+};
+
+// Where a sample lies in the camera frame, on the chip as seen in front of the lens, m:
+//   origin + (2 column + 1 - columns) half_column + (2 row + 1 - rows) half_row      of the whole frame
+//          + (2 k_x + 1 - S) half_step_x + (2 k_y + 1 - S) half_step_y               within the pixel
+struct ChipPlace {
+  vec4 origin_hi, origin_lo;
+  vec4 half_column_hi, half_column_lo;
+  vec4 half_row_hi, half_row_lo;
+  vec4 half_step_x_hi, half_step_x_lo;
+  vec4 half_step_y_hi, half_step_y_lo;
+};
+
+// The lens's distortion, from the slopes on the chip's side back to the ray. A table of lens_guesses floats follows: how many
+// times its distorted radius the undistorted one (or the angle) is, at radii i / guesses_per_radius.
+struct LensModel {
+  ChipPlace chip;
+  vec4 radial_hi; // k1, k2, k3, and of a fisheye k4
+  vec4 radial_lo;
+  vec4 tangential; // p1, p2: hi, lo, hi, lo
+  float guesses_per_radius;
+  float padding_1, padding_2, padding_3;
+};
+PMDSIM_CONSTANT lens_guesses = 1024;
+
+// The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) / (z . ray).
+struct RasterView {
+  vec4 x, y, z;
+  uint columns, rows; // fragments
+  uint padding_1, padding_2;
 };
 
 // A diode, relative to the reference point of its group, camera frame.
@@ -67,6 +127,13 @@ struct GroupDiode {
   float intensity; // over the frame's largest
   float order;     // of the cosine; below 0: isotropic
   vec2 padding;
+};
+
+// A harmonic of a modulation frequency.
+struct Tone {
+  vec2 turns_per_m; // of path, frequency / c: hi, lo
+  float wavenumber; // 2 pi frequency / c, rad/m
+  float padding;
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -79,16 +146,23 @@ struct Strip {
   uint padded_pixels; // columns * rows, rounded up to whole workgroups
 };
 
+// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing was hit. Those
+// of samples that are an even grid over the whole strip lie row by row. Where pixels are filled in part, there are S x S
+// tiles of one sample a pixel each. With distortion, fragments are no samples: their tags only say what is seen (pixel id
+// 1), and the samples' tags follow from a search, row by row.
 struct VisibilityConstants {
-  Strip strip;
+  vec2 shift;                    // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
+  uint tile_x, tile_y;           // of its first fragment
+  uint column, row;              // of the strip's first pixel
+  uint resolution_x;             // of the frame
+  uint fragments_per_pixel_side; // 0: with distortion
 };
 
-// Tags are uvec2(pixel id, triangle id), row-major over the strip's samples; the pixel id is
-// row * resolution_x + column + 1, or 0 where nothing was hit. Sample (sx, sy) of the strip's pixel p is
-// stored at (sy * S + sx) * padded_pixels + p.
+// Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
-  vec4 slope;        // half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  vec4 slope;        // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  uvec2 chip;        // in, else: ChipPlace
   uvec2 tags;        // in: tags
   uvec2 planes;      // in: TrianglePlane[]
   uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
@@ -98,26 +172,46 @@ struct PointsConstants {
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
 };
 
+// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
+// sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
+// each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
+// triangle wave half a turn on is its negative.
+struct SearchConstants {
+  Strip strip;
+  uvec2 lens;        // in: LensModel and its table
+  uvec2 view;        // in: RasterView
+  uvec2 fragments;   // in: tags of the view's fragments
+  uvec2 planes;      // in: TrianglePlane[]
+  uvec2 corners;     // in: TriangleCorners[]
+  uvec2 tags;        // out: tags of the samples
+  uvec2 position_hi; // out, as in PointsConstants
+  uvec2 position_lo;
+  uvec2 surface;
+  uvec2 backscatter;
+};
+
 struct AccumulateConstants {
   uvec2 position_hi; // in, as the points pass left them
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;    // in (but for the first run) and out: vec4[], real, imaginary, what rounding took from either
+  uvec2 sum;    // in (but for the first run) and out: of the first tone, or direct, of the frequency
   uvec2 diodes; // in: GroupDiode[]
-  vec4 reference_hi; // the group's reference point (camera frame, m), and modulation_hz / c
-  vec4 reference_lo; // their rests
-  float wavenumber;  // 2 pi f / c, rad/m
-  uint blocks;       // blocks of diodes to sum, for the looped variant
+  uvec2 tones;  // in: Tone[]
+  uint blocks;  // blocks of diodes to sum, for the looped variant
+  uint plane;   // elements of a plane of the sum
+  vec4 reference_hi; // the group's reference point (camera frame, m)
+  vec4 reference_lo; // its rest
 };
 
 struct ResolveConstants {
   uvec2 position_hi;
   uvec2 position_lo;
-  uvec2 sum;
+  uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
   uvec2 planes;
   uvec2 channels;        // out: channel by channel (channel_*), each padded_pixels values of 32 bits
+  uvec2 harmonics;       // in: float[], amplitudes of the harmonics
   vec2 turns_per_m;      // of range, 2 f / c: hi, lo
   vec2 ambiguity_m;      // c / (2 f): hi, lo
   vec2 limits;           // the largest floats below 2 pi and below c / (2 f)
@@ -125,27 +219,38 @@ struct ResolveConstants {
   uint columns;          // of the strip
   uint samples;
   uint padded_pixels;
-  uint pixels; // of the strip
+  uint pixels;        // of the strip
+  uint plane;         // elements of a plane of the sum
+  uint first_channel; // of the frequency
 };
 
+// The ground truth comes first, then the channels of each frequency, the taps (if kept) last.
+PMDSIM_CONSTANT channel_range_m = 0;
+PMDSIM_CONSTANT channel_z_m = 1;
+PMDSIM_CONSTANT channel_coverage = 2;
+PMDSIM_CONSTANT channel_triangle_id = 3;
+PMDSIM_CONSTANT channel_object_id = 4;
+PMDSIM_CONSTANT truth_channels = 5;
 PMDSIM_CONSTANT channel_amplitude = 0;
 PMDSIM_CONSTANT channel_phase_rad = 1;
 PMDSIM_CONSTANT channel_distance_m = 2;
-PMDSIM_CONSTANT channel_range_m = 3;
-PMDSIM_CONSTANT channel_z_m = 4;
-PMDSIM_CONSTANT channel_coverage = 5;
-PMDSIM_CONSTANT channel_triangle_id = 6;
-PMDSIM_CONSTANT channel_object_id = 7;
-PMDSIM_CONSTANT channel_count = 8;
+PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 48);
 static_assert(sizeof(Strip) == 32);
-static_assert(sizeof(PointsConstants) == 96 && offsetof(PointsConstants, slope) == 32);
-static_assert(sizeof(AccumulateConstants) == 88 && offsetof(AccumulateConstants, reference_hi) == 48);
-static_assert(sizeof(ResolveConstants) == 92 && offsetof(ResolveConstants, turns_per_m) == 48);
+static_assert(sizeof(TriangleCorners) == 112);
+static_assert(sizeof(ChipPlace) == 160);
+static_assert(sizeof(LensModel) == 224);
+static_assert(sizeof(RasterView) == 64);
+static_assert(sizeof(VisibilityConstants) == 32);
+static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(SearchConstants) == 112 && offsetof(SearchConstants, lens) == 32);
+static_assert(sizeof(Tone) == 16);
+static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif
 

@@ -106,6 +106,20 @@ struct Real3 {
 Real3 real3(vec3 hi, vec3 lo) { return Real3(real(hi.x, lo.x), real(hi.y, lo.y), real(hi.z, lo.z)); }
 Real dot3(Real3 a, Real3 b) { return add(add(multiply(a.x, b.x), multiply(a.y, b.y)), multiply(a.z, b.z)); }
 
+// The sign of dot3(d, cross3(a, b)) is exactly the opposite of dot3(d, cross3(b, a))'s: nothing is fused.
+Real cross_term(Real a, Real b, Real c, Real d) {
+  precise Real p = multiply(a, b);
+  precise Real q = multiply(c, d);
+  precise Real difference = add(p, negate(q));
+  return difference;
+}
+Real3 cross3(Real3 a, Real3 b) {
+  return Real3(cross_term(a.y, b.z, a.z, b.y), cross_term(a.z, b.x, a.x, b.z), cross_term(a.x, b.y, a.y, b.x));
+}
+Real3 add3(Real3 a, Real3 b) { return Real3(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)); }
+Real3 scale3(Real3 a, Real factor) {
+  return Real3(multiply(a.x, factor), multiply(a.y, factor), multiply(a.z, factor));
+}
 Real3 subtract3(Real3 a, Real3 b) {
   return Real3(add(a.x, negate(b.x)), add(a.y, negate(b.y)), add(a.z, negate(b.z)));
 }

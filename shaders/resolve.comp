@@ -1,8 +1,10 @@
 #version 460
-// Phase, amplitude, distance and ground truth of each pixel from the returns of its samples, summed in a fixed order.
+// Phase, amplitude, distance, taps and ground truth of each pixel from the sums of its samples, in a fixed order; of one
+// modulation frequency.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
 #include "buffers.glsl"
 #include "compensated.glsl"
 #include "elementary.glsl"
@@ -10,38 +12,56 @@
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
+layout(constant_id = constant_planes) const uint planes = 1;
+layout(constant_id = constant_resolve_waveform) const uint waveform = waveform_sine;
+layout(constant_id = constant_resolve_taps) const uint taps = 4;
+layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
+layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
-  vec4 z;      // compensated, relative to twice the reference range
-  Real range;  // sum over the hits, m
+  vec4 z[planes]; // compensated; of a tone relative to twice the reference range
+  Real range;     // sum over the hits, m
   Real depth;
   Real reference_m; // range of the first hit
   uint hits;
 };
 
-PixelSum sum_samples(uint pixel) {
-  PixelSum sum = PixelSum(vec4(0.0), real(0.0), real(0.0), real(0.0), 0u);
-  Real turns_per_m = real(constants.turns_per_m.x, constants.turns_per_m.y);
+Real turns_per_m(uint plane) {
+  return multiply(real(constants.turns_per_m.x, constants.turns_per_m.y), real(float(plane + 1)));
+}
+
+void add_return(inout PixelSum sum, uint i, Real excess_m) {
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    vec2 z = compensated_value(Vec4s(constants.sum).at[p * constants.plane + i]);
+    if (waveform != waveform_square) // each plane is a harmonic
+      z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(p)))));
+    sum.z[p] = compensated_add(sum.z[p], z);
+  }
+}
+
+void sum_samples(uint pixel, out PixelSum sum) {
+  [[unroll]] for (uint p = 0; p < planes; ++p)
+    sum.z[p] = vec4(0.0);
+  sum.range = sum.depth = sum.reference_m = real(0.0);
+  sum.hits = 0u;
   uint count = constants.samples * constants.samples;
   for (uint s = 0; s < count; ++s) {
     uint i = s * constants.padded_pixels + pixel;
     vec3 hi = load_vec3(constants.position_hi, i);
-    if (hi.z == 0.0)
+    if (hi == vec3(0.0))
       continue;
     Real3 position = real3(hi, load_vec3(constants.position_lo, i));
     Real range = length3(position);
     if (sum.hits == 0u)
       sum.reference_m = range;
-    float turns = turn_fraction(multiply(add(range, negate(sum.reference_m)), turns_per_m));
-    vec2 z = compensated_value(Vec4s(constants.sum).at[i]);
-    sum.z = compensated_add(sum.z, complex_multiply(z, unit_phasor(turns)));
+    add_return(sum, i, add(range, negate(sum.reference_m)));
     sum.range = add(sum.range, range);
     sum.depth = add(sum.depth, position.z);
     sum.hits += 1u;
   }
-  return sum;
 }
 
 void store(uint channel, uint pixel, uint word) {
@@ -58,25 +78,74 @@ float magnitude(vec2 z) {
   return larger * sqrt(dot(scaled, scaled));
 }
 
-void store_return(uint pixel, PixelSum sum) {
-  vec2 z = compensated_value(sum.z);
-  float amplitude = constants.amplitude_scale * magnitude(z) / float(constants.samples * constants.samples);
-  store(channel_amplitude, pixel, amplitude);
-  if (amplitude == 0.0) {
-    store(channel_phase_rad, pixel, nan());
-    store(channel_distance_m, pixel, nan());
+// exp(j 2 pi k / N).
+vec2 tap_phasor(uint k) {
+  float turns = float(k % taps) / float(taps);
+  return unit_phasor(turns > 0.5 ? turns - 1.0 : turns);
+}
+
+// The N correlation samples, up to the amplitude's scale.
+void find_taps(PixelSum sum, out float tap[taps]) {
+  if (waveform == waveform_square) {
+    [[unroll]] for (uint k = 0; k < taps; ++k) {
+      uint distinct = taps % 2 == 0 ? k % (taps / 2) : k;
+      vec2 pair = compensated_value(sum.z[distinct / 2]);
+      float value = distinct % 2 == 0 ? pair.x : pair.y;
+      tap[k] = k == distinct ? value : -value;
+    }
     return;
   }
-  Real turns = multiply(sum.reference_m, real(constants.turns_per_m.x, constants.turns_per_m.y));
+  [[unroll]] for (uint k = 0; k < taps; ++k)
+    tap[k] = 0.0;
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    float turns = turn_fraction(multiply(sum.reference_m, turns_per_m(p)));
+    vec2 z = complex_multiply(compensated_value(sum.z[p]), unit_phasor(turns));
+    float harmonic = waveform == waveform_sine ? 1.0 : Floats(constants.harmonics).at[p];
+    [[unroll]] for (uint k = 0; k < taps; ++k)
+      tap[k] += harmonic * dot(z, tap_phasor(k * (p + 1)));
+  }
+}
+
+// What the camera makes of its taps.
+vec2 demodulate(float tap[taps]) {
+  vec2 z = vec2(0.0);
+  [[unroll]] for (uint k = 0; k < taps; ++k)
+    z += tap[k] * tap_phasor(k);
+  return z * (2.0 / float(taps));
+}
+
+void store_phase(uint pixel, Real turns) {
   turns = add(turns, negate(round_to_whole(turns)));
-  turns = add(turns, real(angle_turns(z)));
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
   Real two_pi = real(6.2831855, -1.7484555e-7);
   // Rounding to float must not reach the end of the half-open interval.
-  store(channel_phase_rad, pixel, clamp(high(multiply(turns, two_pi)), 0.0, constants.limits.x));
+  uint channel = constants.first_channel;
+  store(channel + channel_phase_rad, pixel, clamp(high(multiply(turns, two_pi)), 0.0, constants.limits.x));
   Real distance = multiply(turns, real(constants.ambiguity_m.x, constants.ambiguity_m.y));
-  store(channel_distance_m, pixel, clamp(high(distance), 0.0, constants.limits.y));
+  store(channel + channel_distance_m, pixel, clamp(high(distance), 0.0, constants.limits.y));
+}
+
+void store_return(uint pixel, PixelSum sum) {
+  float scale = constants.amplitude_scale / float(constants.samples * constants.samples);
+  float tap[taps];
+  if (waveform != waveform_sine || keep_taps != 0)
+    find_taps(sum, tap);
+  if (keep_taps != 0)
+    [[unroll]] for (uint k = 0; k < taps; ++k)
+      store(constants.first_channel + channel_first_tap + k, pixel, scale * tap[k]);
+  // Of a sine the taps would give z itself; this way its phase is exact to the last bit of the output.
+  vec2 z = waveform == waveform_sine ? compensated_value(sum.z[0]) : demodulate(tap);
+  float amplitude = scale * magnitude(z);
+  store(constants.first_channel + channel_amplitude, pixel, amplitude);
+  if (amplitude == 0.0) {
+    store(constants.first_channel + channel_phase_rad, pixel, nan());
+    store(constants.first_channel + channel_distance_m, pixel, nan());
+    return;
+  }
+  Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(0)) : real(0.0);
+  turns = add(turns, negate(round_to_whole(turns)));
+  store_phase(pixel, add(turns, real(angle_turns(z))));
 }
 
 void store_ground_truth(uint pixel, PixelSum sum) {
@@ -89,8 +158,10 @@ void store_ground_truth(uint pixel, PixelSum sum) {
 // Of the sample nearest the pixel's centre; ties go up and left.
 void store_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
-  uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns) * constants.samples + middle;
-  uvec2 tag = Tags(constants.tags).at[at.y * constants.columns * constants.samples + at.x];
+  uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
+  uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
+  uint i = tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0);
+  uvec2 tag = Tags(constants.tags).at[i];
   bool hit = tag.x != 0u;
   store(channel_triangle_id, pixel, hit ? tag.y : no_triangle);
   store(channel_object_id, pixel, hit ? Planes(constants.planes).at[tag.y].object : no_triangle);
@@ -100,8 +171,11 @@ void main() {
   uint pixel = gl_GlobalInvocationID.x;
   if (pixel >= constants.pixels)
     return;
-  PixelSum sum = sum_samples(pixel);
+  PixelSum sum;
+  sum_samples(pixel, sum);
   store_return(pixel, sum);
-  store_ground_truth(pixel, sum);
-  store_ids(pixel);
+  if (ground_truth != 0) {
+    store_ground_truth(pixel, sum);
+    store_ids(pixel);
+  }
 }

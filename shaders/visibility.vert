@@ -1,17 +1,18 @@
 #version 460
-// A triangle's corner, already projected onto the chip and snapped to the raster's 1/256 sample by the host, so that
+// A triangle's corner, already projected onto the raster and snapped to its 1/256 fragment by the host, so that
 // every step from here to the rasteriser is exact and a strip's place in the frame cannot change a bit.
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
 
-layout(location = 0) in vec3 corner; // x_samples, y_samples, inverse_depth
+layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
+layout(location = 0) in vec3 corner; // x_fragments, y_fragments, inverse_depth
 layout(location = 1) in uint triangle;
 layout(location = 0) flat out uint visible_triangle;
 
 layout(constant_id = 0) const float half_viewport = 8192.0; // a power of two
 
 void main() {
-  // The block's samples fill the middle half of the viewport.
-  gl_Position = vec4((corner.xy - 0.5 * half_viewport) / half_viewport, corner.z, 1.0);
+  // The block's fragments fill the middle half of the viewport.
+  gl_Position = vec4((corner.xy - constants.shift - 0.5 * half_viewport) / half_viewport, corner.z, 1.0);
   visible_triangle = triangle;
 }

@@ -3,6 +3,10 @@
 #include "engine/passes/double_pair.h"
 #include "engine/passes/sample_precision.h"
 #include "engine/vulkan/commands.h"
+#include "spirv/accumulate_direct_looped_double_float.h"
+#include "spirv/accumulate_direct_looped_fp64.h"
+#include "spirv/accumulate_direct_straight_double_float.h"
+#include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
@@ -10,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pmdsim {
 namespace {
@@ -18,23 +21,39 @@ namespace {
 // Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
 constexpr double largest_whole_power = 8.0;
 
-std::span<const std::uint32_t> accumulate_spirv(const vulkan::Device &device,
-                                                const SimulatorOptions &options) {
-  const bool straight =
-      options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line;
-  return straight ? choose(device, options.precision, shader::accumulate_straight_fp64_spirv,
-                           shader::accumulate_straight_double_float_spirv)
-                  : choose(device, options.precision, shader::accumulate_looped_fp64_spirv,
-                           shader::accumulate_looped_double_float_spirv);
+// One of the forms of a shader: straight or looped, with fp64 or with pairs of floats.
+struct Forms {
+  std::span<const std::uint32_t> straight_fp64, straight_double_float, looped_fp64, looped_double_float;
+
+  std::span<const std::uint32_t> choose(const vulkan::Device &device, const SimulatorOptions &options) const {
+    const bool straight =
+        options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line;
+    return straight ? pmdsim::choose(device, options.precision, straight_fp64, straight_double_float)
+                    : pmdsim::choose(device, options.precision, looped_fp64, looped_double_float);
+  }
+};
+
+const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
+                         shader::accumulate_straight_double_float_spirv, shader::accumulate_looped_fp64_spirv,
+                         shader::accumulate_looped_double_float_spirv};
+const Forms direct_forms{
+    shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
+    shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
+
+vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
+  const std::vector<shader::Tone> tones = signal.all_tones();
+  return vulkan::upload(device, std::as_bytes(std::span(tones)));
 }
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
-                                      const SumModel &model, const SimulatorOptions &options, bool first) {
+                                      const SumModel &model, const Signal &signal,
+                                      const SimulatorOptions &options, bool first) {
   return {device,
-          accumulate_spirv(device, options),
+          (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
-           first ? 1u : 0u}};
+           first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
+           signal.distinct_taps}};
 }
 
 } // namespace
@@ -58,36 +77,41 @@ SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bo
 }
 
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               double modulation_hz, const SimulatorOptions &options)
-    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), modulation_hz_(modulation_hz),
+                               const Signal &signal, const SimulatorOptions &options)
+    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run),
+      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
+      tones_(upload_tones(device, signal)),
       diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
-      first_(make_pipeline(device, groups, model, options, true)) {
+      first_(make_pipeline(device, groups, model, signal, options, true)) {
   if (runs_.size() > 1)
-    later_ = make_pipeline(device, groups, model, options, false);
+    later_ = make_pipeline(device, groups, model, signal, options, false);
 }
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
-  return std::uint64_t{sample_count(strip)} * blocks_per_run_ * shader::diodes_per_block;
+  return std::uint64_t{sample_count(strip)} * blocks_per_run_ * shader::diodes_per_block * dispatches_;
 }
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                             const StripBuffers &buffers, std::uint32_t first, std::uint32_t last) const {
-  const double per_wavelength = modulation_hz_ / speed_of_light_m_s;
+  const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
-    const DoublePair4 reference(runs_[run].reference_m, per_wavelength);
-    const shader::AccumulateConstants constants{
-        words(buffers.position_hi.address()),
-        words(buffers.position_lo.address()),
-        words(buffers.surface.address()),
-        words(buffers.backscatter.address()),
-        words(buffers.sum.address()),
-        words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
-        reference.hi,
-        reference.lo,
-        static_cast<float>(2.0 * std::numbers::pi * per_wavelength),
-        blocks_per_run_};
-    (run == 0 ? first_ : later_).dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
+    const DoublePair4 reference(runs_[run].reference_m, 0.0);
+    for (std::uint32_t d = 0; d < dispatches_; ++d) {
+      const shader::AccumulateConstants constants{
+          words(buffers.position_hi.address()),
+          words(buffers.position_lo.address()),
+          words(buffers.surface.address()),
+          words(buffers.backscatter.address()),
+          words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
+          words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
+          words(tones_.address() + d * sizeof(shader::Tone)),
+          blocks_per_run_,
+          plane,
+          reference.hi,
+          reference.lo};
+      (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
+    }
   }
 }
 

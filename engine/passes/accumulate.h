@@ -1,7 +1,9 @@
 #pragma once
-// The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order.
+// The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
+// moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
 #include "engine/passes/diode_groups.h"
+#include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
 #include "engine/simulator_options.h"
@@ -23,7 +25,7 @@ SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bo
 class AccumulatePass {
 public:
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                 double modulation_hz, const SimulatorOptions &options);
+                 const Signal &signal, const SimulatorOptions &options);
 
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
@@ -35,7 +37,9 @@ public:
 private:
   std::vector<DiodeRun> runs_;
   std::uint32_t blocks_per_run_;
-  double modulation_hz_;
+  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;     // of the sum, of each frequency
+  vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
   vulkan::ComputePipeline first_; // of a frame's runs
   vulkan::ComputePipeline later_; // all the others; empty where there are none

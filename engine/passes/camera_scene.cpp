@@ -23,6 +23,36 @@ std::optional<Plane> visible_plane(const std::array<glm::dvec3, 3> &corners_m, b
   return offset_m < 0.0 ? Plane{normal, offset_m} : Plane{-normal, -offset_m};
 }
 
+struct Bounds {
+  double low, high;
+};
+
+Bounds depths_m(const std::array<glm::dvec3, 3> &corners_m) {
+  const auto [nearest, farthest] = std::minmax({corners_m[0].z, corners_m[1].z, corners_m[2].z});
+  return {nearest, farthest};
+}
+
+double distance_to_edge_m(const glm::dvec3 &from, const glm::dvec3 &to) {
+  const glm::dvec3 edge = to - from;
+  const double along = std::clamp(-glm::dot(from, edge) / glm::dot(edge, edge), 0.0, 1.0);
+  return glm::length(from + along * edge);
+}
+
+// Of the triangle's points from the lens: the nearest lies on an edge, or below the lens if that is over the
+// triangle.
+Bounds ranges_m(const std::array<glm::dvec3, 3> &corners_m, const Plane &plane) {
+  const auto &[a, b, c] = corners_m;
+  const glm::dvec3 below = plane.offset_m * plane.normal;
+  const auto side = [&](const glm::dvec3 &from, const glm::dvec3 &to) {
+    return glm::dot(plane.normal, glm::cross(to - from, below - from));
+  };
+  const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
+  const bool over = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  return {over ? -plane.offset_m
+               : std::min({distance_to_edge_m(a, b), distance_to_edge_m(b, c), distance_to_edge_m(c, a)}),
+          std::max({glm::length(a), glm::length(b), glm::length(c)})};
+}
+
 } // namespace
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
@@ -58,7 +88,7 @@ std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &senso
 }
 
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
-                                                   Backscatter backscatter) {
+                                                   Backscatter backscatter, AlongRay along) {
   // A hair wider than the triangle, so that rounding to float never clamps a true hit.
   constexpr double slack = 1e-6;
   const double per_reflectivity = backscatter == Backscatter::lambert ? std::numbers::inv_pi : 1.0;
@@ -66,15 +96,16 @@ std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, co
   for (std::size_t i = 0; i < camera.triangles.size(); ++i) {
     const auto &[corners_m, id] = camera.triangles[i];
     const Plane &plane = camera.planes[i];
-    const auto [nearest, farthest] = std::minmax({corners_m[0].z, corners_m[1].z, corners_m[2].z});
+    const auto [nearest_m, farthest_m] =
+        along == AlongRay::depth ? depths_m(corners_m) : ranges_m(corners_m, plane);
     const Triangle &triangle = scene.triangles[id];
     const DoublePair4 pair(plane.normal, plane.offset_m);
     records[id] = {pair.hi,
                    pair.lo,
                    static_cast<float>(scene.surfaces[triangle.surface].reflectivity * per_reflectivity),
                    triangle.object,
-                   static_cast<float>(std::max(0.0, nearest) * (1.0 - slack)),
-                   static_cast<float>(std::max(0.0, farthest) * (1.0 + slack))};
+                   static_cast<float>(std::max(0.0, nearest_m) * (1.0 - slack)),
+                   static_cast<float>(std::max(0.0, farthest_m) * (1.0 + slack))};
   }
   return records;
 }

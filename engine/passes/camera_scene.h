@@ -34,9 +34,12 @@ CameraScene to_camera(const Scene &scene, const Sensor &sensor);
 // The illuminator's diodes with positions and axes in the camera frame.
 std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &sensor);
 
-// The records that the points pass looks up by triangle id, one for each of the scene's triangles.
+// What TrianglePlane::along_* bound: the ray's depth, or its range.
+enum class AlongRay { depth, range };
+
+// The records that the points passes look up by triangle id, one for each of the scene's triangles.
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
-                                                   Backscatter backscatter);
+                                                   Backscatter backscatter, AlongRay along);
 
 // True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
 bool all_face_the_light(const CameraScene &camera, const std::vector<Diode> &camera_diodes);

@@ -8,7 +8,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr double largest_phase_rad = 0.5;         // of a group's radius: 8 moments at most
+constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 8 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 constexpr std::uint32_t largest_run_blocks = 16;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
@@ -30,24 +30,59 @@ Box box_of(std::span<const Diode> diodes) {
 
 struct Group {
   glm::dvec3 reference_m;
-  double radius_m; // of the sphere around the reference point that holds all its diodes
+  double radius_m = 0.0; // of the sphere around the reference point that holds all its diodes
+  double range_m =
+      std::numeric_limits<double>::infinity(); // at least, from the reference point to what is visible
+  double excess_m = 0.0; // at most, |r_nm - rho| over its diodes and all that is visible
 };
 
-Group group_of(std::span<const Diode> diodes) {
-  const Box box = box_of(diodes);
-  // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
-  Group group{diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), 0.0};
-  for (const Diode &diode : diodes)
-    group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
-  return group;
+// How far diodes reach from a reference point, along each axis and across it.
+struct Reach {
+  glm::dvec3 along_m{0.0};
+  glm::dvec3 across_m{0.0};
+
+  void add(const glm::dvec3 &p) {
+    along_m = glm::max(along_m, glm::abs(p));
+    across_m =
+        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
+  }
+};
+
+// A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
+// Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
+// exact.)
+double largest_product(const glm::dvec3 &p, const Reach &reach) {
+  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
+  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
+  return std::min({bounds.x, bounds.y, bounds.z});
 }
 
-// A lower bound of the distance from `point_m` to anything visible.
-double range_at_least_m(const glm::dvec3 &point_m, const std::vector<VisibleBox> &visible) {
-  double range_m = std::numeric_limits<double>::infinity();
-  for (const VisibleBox &box : visible)
-    range_m = std::min(range_m, glm::distance(point_m, glm::clamp(point_m, box.low_m, box.high_m)));
-  return range_m;
+// |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
+// across the view; it is never more than |I|.
+double excess_at_most_m(const Group &group, const Reach &reach, const VisibleBox &box, double rho_m) {
+  const glm::dvec3 farthest_m =
+      glm::max(glm::abs(box.low_m - group.reference_m), glm::abs(box.high_m - group.reference_m));
+  const double q_m2 = group.radius_m * group.radius_m + 2.0 * largest_product(farthest_m, reach);
+  const double sum_m = rho_m + std::max(0.0, rho_m - group.radius_m);
+  return sum_m > 0.0 ? std::min(group.radius_m, q_m2 / sum_m) : group.radius_m;
+}
+
+Group group_of(std::span<const Diode> diodes, const std::vector<VisibleBox> &visible) {
+  const Box box = box_of(diodes);
+  // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
+  Group group{diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
+  Reach reach;
+  for (const Diode &diode : diodes) {
+    group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
+    reach.add(diode.position_m - group.reference_m);
+  }
+  for (const VisibleBox &seen : visible) {
+    const double rho_m =
+        glm::distance(group.reference_m, glm::clamp(group.reference_m, seen.low_m, seen.high_m));
+    group.range_m = std::min(group.range_m, rho_m);
+    group.excess_m = std::max(group.excess_m, excess_at_most_m(group, reach, seen, rho_m));
+  }
+  return group;
 }
 
 shader::GroupDiode dark_diode() { return {glm::vec4(0), glm::vec4(0, 0, 1, 0), 0.0f, -1.0f, glm::vec2(0)}; }
@@ -70,7 +105,7 @@ public:
 
   // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
   void split(std::span<Diode> diodes) {
-    const Group group = group_of(diodes);
+    const Group group = group_of(diodes, visible_);
     if (is_small_enough(group)) {
       groups_.emplace_back(group, diodes);
       return;
@@ -89,8 +124,8 @@ public:
 
 private:
   bool is_small_enough(const Group &group) const {
-    return wavenumber_rad_m_ * group.radius_m <= largest_phase_rad &&
-           group.radius_m <= largest_radius_over_range * range_at_least_m(group.reference_m, visible_);
+    return wavenumber_rad_m_ * group.excess_m <= largest_phase_rad &&
+           group.radius_m <= largest_radius_over_range * group.range_m;
   }
 
   const std::vector<VisibleBox> &visible_;
@@ -135,13 +170,13 @@ DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<Vis
 
   DiodeGroups result;
   std::vector<std::uint32_t> group_blocks;
-  double radius_m = 0.0;
+  double excess_m = 0.0;
   for (const auto &[group, members] : grouping.groups()) {
     group_blocks.push_back(blocks_for(members.size()));
-    radius_m = std::max(radius_m, group.radius_m);
+    excess_m = std::max(excess_m, group.excess_m);
   }
   result.blocks_per_run = cheapest_run_blocks(group_blocks);
-  result.moments = moments_needed(wavenumber_rad_m * radius_m);
+  result.moments = moments_needed(wavenumber_rad_m * excess_m);
   for (const Diode &diode : diodes)
     result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
 

@@ -1,6 +1,8 @@
 #include "engine/passes/points.h"
 
+#include "engine/passes/chip_place.h"
 #include "engine/passes/double_pair.h"
+#include "engine/passes/raster_blocks.h"
 #include "engine/passes/sample_precision.h"
 #include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
@@ -15,19 +17,27 @@ shader::vec4 slope_of(const Sensor &sensor) {
   return {x.hi, x.lo, y.hi, y.lo};
 }
 
+vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
+  const shader::ChipPlace place = chip_place(sensor);
+  return vulkan::upload(device, std::as_bytes(std::span(&place, 1)));
+}
+
 } // namespace
 
 PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces,
                        SamplePrecision precision)
-    : slope_(slope_of(sensor)),
+    : slope_(slope_of(sensor)), chip_(upload_chip(device, sensor)),
       pipeline_(device,
                 choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
-                sizeof(shader::PointsConstants), {surfaces ? 1u : 0u}) {}
+                sizeof(shader::PointsConstants),
+                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
+                 is_plain(sensor) ? 0u : 1u, 0u, 0u, is_tiled(sensor) ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                         const StripBuffers &buffers, const vulkan::Buffer &planes) const {
   const shader::PointsConstants constants{strip,
                                           slope_,
+                                          words(chip_.address()),
                                           words(buffers.tags.address()),
                                           words(planes.address()),
                                           words(buffers.position_hi.address()),

@@ -1,6 +1,6 @@
 #pragma once
 // The points pass: for every sample the point of the scene that it sees, from its triangle's plane and its
-// exact ray.
+// exact ray. For sensors without distortion.
 
 #include "engine/passes/strip_buffers.h"
 #include "engine/sensor.h"
@@ -20,6 +20,7 @@ public:
 
 private:
   shader::vec4 slope_;
+  vulkan::Buffer chip_;
   vulkan::ComputePipeline pipeline_;
 };
 

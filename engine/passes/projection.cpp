@@ -9,22 +9,11 @@
 namespace pmdsim {
 namespace {
 
-constexpr double grid = 256.0; // steps of the raster's grid a sample: Vulkan's usual sub-pixel precision
-constexpr double margin_samples = 16; // kept around a block, so that clipped edges' snapping stays outside it
+constexpr double grid = 256.0; // steps of the raster's grid a fragment: Vulkan's usual sub-pixel precision
+constexpr double margin =
+    16; // fragments kept around a block, so that clipped edges' snapping stays outside it
 constexpr double nearest_depth_m = 1e-7;
 constexpr std::size_t boxes_at_most = 1024;
-
-// Samples (x, y) = scale * (X, Y) / Z + centre, counted from the frame's top left.
-struct Optics {
-  glm::dvec2 scale;
-  glm::dvec2 centre;
-};
-
-Optics optics_of(const Sensor &sensor) {
-  const double samples = sensor.samples;
-  return {samples * sensor.image_distance_m() / sensor.pixel_pitch_m,
-          0.5 * samples * glm::dvec2(sensor.resolution)};
-}
 
 // The half-space normal . P >= offset.
 struct HalfSpace {
@@ -38,14 +27,14 @@ using Frustum = std::array<HalfSpace, 5>;
 using Polygon = std::vector<glm::dvec3>;
 
 // In front of the lens, and between the block's borders widened by the margin.
-Frustum frustum_of(const Optics &optics, const glm::dvec2 &first_sample, const glm::dvec2 &last_sample) {
-  const glm::dvec2 low = optics.centre - first_sample + margin_samples;
-  const glm::dvec2 high = last_sample + margin_samples - optics.centre;
-  return {{{{0, 0, 1}, nearest_depth_m},
-           {{optics.scale.x, 0, low.x}, 0},
-           {{-optics.scale.x, 0, high.x}, 0},
-           {{0, optics.scale.y, low.y}, 0},
-           {{0, -optics.scale.y, high.y}, 0}}};
+Frustum frustum_of(const RasterBlock &block) {
+  const glm::dmat3 rows = glm::transpose(block.raster_from_camera);
+  const glm::dvec2 high = glm::dvec2(block.fragments) + margin;
+  return {{{rows[2], nearest_depth_m},
+           {rows[0] + margin * rows[2], 0},
+           {high.x * rows[2] - rows[0], 0},
+           {rows[1] + margin * rows[2], 0},
+           {high.y * rows[2] - rows[1], 0}}};
 }
 
 bool comes_before(const glm::dvec3 &a, const glm::dvec3 &b) {
@@ -102,19 +91,15 @@ private:
   std::vector<VisibleBox> boxes_; // low above high: nothing visible
 };
 
-shader::RasterVertex raster_vertex(const glm::dvec3 &p, const Optics &optics, const glm::dvec2 &first_sample,
-                                   std::uint32_t triangle) {
-  const glm::dvec2 sample = optics.scale * glm::dvec2(p) / p.z + optics.centre;
-  const glm::dvec2 snapped = glm::roundEven(sample * grid) / grid - first_sample;
-  return {static_cast<float>(snapped.x), static_cast<float>(snapped.y), static_cast<float>(0.5 / p.z),
+shader::RasterVertex raster_vertex(const glm::dvec3 &p, const RasterBlock &block, std::uint32_t triangle) {
+  const glm::dvec3 h = block.raster_from_camera * p;
+  const glm::dvec2 snapped = glm::roundEven(glm::dvec2(h) / h.z * grid) / grid;
+  return {static_cast<float>(snapped.x), static_cast<float>(snapped.y), static_cast<float>(0.5 / h.z),
           triangle};
 }
 
-void project_block(const CameraScene &camera, const Optics &optics, std::uint32_t samples, RasterBlock &block,
-                   Projection &projection, BoxBuilder &boxes) {
-  const glm::dvec2 first_sample = glm::dvec2(block.first_pixel * samples);
-  const Frustum frustum =
-      frustum_of(optics, first_sample, glm::dvec2((block.first_pixel + block.pixels) * samples));
+void project_block(const CameraScene &camera, RasterBlock &block, Projection &projection, BoxBuilder &boxes) {
+  const Frustum frustum = frustum_of(block);
   Polygon polygon, scratch;
   block.first_vertex = static_cast<std::uint32_t>(projection.vertices.size());
   for (std::size_t i = 0; i < camera.triangles.size(); ++i) {
@@ -125,27 +110,11 @@ void project_block(const CameraScene &camera, const Optics &optics, std::uint32_
     if (polygon.size() < 3)
       continue;
     boxes.add(i, polygon);
-    const auto vertex = [&](std::size_t k) {
-      return raster_vertex(polygon[k], optics, first_sample, triangle.id);
-    };
+    const auto vertex = [&](std::size_t k) { return raster_vertex(polygon[k], block, triangle.id); };
     for (std::size_t k = 2; k < polygon.size(); ++k)
       projection.vertices.insert(projection.vertices.end(), {vertex(0), vertex(k - 1), vertex(k)});
   }
   block.vertex_count = static_cast<std::uint32_t>(projection.vertices.size()) - block.first_vertex;
-}
-
-// Into blocks as even as can be: a strip's image is as wide as the widest and as high as the highest of them.
-std::vector<RasterBlock> cut_into_blocks(const Sensor &sensor, std::uint32_t block_samples) {
-  const glm::uvec2 largest(block_samples / sensor.samples);
-  const glm::uvec2 counts = (sensor.resolution + largest - 1u) / largest;
-  const glm::uvec2 size = (sensor.resolution + counts - 1u) / counts;
-  std::vector<RasterBlock> blocks;
-  for (std::uint32_t row = 0; row < sensor.resolution.y; row += size.y)
-    for (std::uint32_t column = 0; column < sensor.resolution.x; column += size.x) {
-      const glm::uvec2 first(column, row);
-      blocks.push_back({first, glm::min(size, sensor.resolution - first), 0, 0});
-    }
-  return blocks;
 }
 
 // From 0.5 / depth to 0.5 * nearest / depth, which fills the depth buffer's range.
@@ -159,13 +128,12 @@ void scale_depths(Projection &projection) {
 
 } // namespace
 
-Projection project(const CameraScene &camera, const Sensor &sensor, std::uint32_t block_samples) {
-  const Optics optics = optics_of(sensor);
+Projection project(const CameraScene &camera, std::vector<RasterBlock> blocks) {
   Projection projection;
-  projection.blocks = cut_into_blocks(sensor, block_samples);
+  projection.blocks = std::move(blocks);
   BoxBuilder boxes(camera.triangles.size());
   for (RasterBlock &block : projection.blocks)
-    project_block(camera, optics, sensor.samples, block, projection, boxes);
+    project_block(camera, block, projection, boxes);
   scale_depths(projection);
   projection.visible = boxes.take();
   return projection;

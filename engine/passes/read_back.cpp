@@ -1,5 +1,8 @@
 #include "engine/passes/read_back.h"
 
+#include "engine/passes/raster_blocks.h"
+#include "engine/scene.h"
+
 #include "engine/vulkan/commands.h"
 
 #include <cstring>
@@ -18,46 +21,54 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
                 from + row * row_bytes, row_bytes);
 }
 
-void store_sample_triangles(const std::byte *from, const shader::Strip &strip,
-                            std::vector<std::uint32_t> &to) {
-  const std::size_t samples = strip.samples;
-  const std::size_t columns = strip.columns * samples, rows = strip.rows * samples;
-  const std::size_t frame_columns = strip.resolution_x * samples;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
+// Where `tiled`, tags lie in tiles (shaders/interface.h).
+void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool tiled, Measurement &to) {
+  const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
+  const glm::uvec2 pixels(strip.columns, strip.rows);
+  for (std::uint32_t row = 0; row < samples.y; ++row)
+    for (std::uint32_t column = 0; column < samples.x; ++column) {
+      const glm::uvec2 sample(column, row), pixel = sample / strip.samples,
+                                            subsample = sample % strip.samples;
+      const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
       shader::uvec2 tag;
-      std::memcpy(&tag, from + (row * columns + column) * sizeof(tag), sizeof(tag));
-      to[(strip.row * samples + row) * frame_columns + strip.column * samples + column] =
-          tag.x != 0 ? tag.y : no_id;
+      std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * sizeof(tag), sizeof(tag));
+      const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
+      const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
+      to.sample_pixel_id[to_at] = tag.x;
+      to.sample_triangle_id[to_at] = tag.x != 0 ? tag.y : no_id;
     }
 }
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, bool keep_sample_tags) {
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool keep_sample_tags) {
   Measurement measurement;
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
-  measurement.returns.resize(1);
-  for (auto *channel :
-       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
-        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  measurement.returns.resize(signal.frequencies());
+  for (Return &of_frequency : measurement.returns) {
+    for (auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
+      channel->resize(pixels);
+    of_frequency.taps.assign(signal.keep_taps ? signal.taps : 0, std::vector<float>(pixels));
+  }
+  for (auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
   if (keep_sample_tags)
-    measurement.sample_triangle_id.resize(pixels * sensor.samples * sensor.samples);
+    for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
+      ids->resize(pixels * sensor.samples * sensor.samples);
   return measurement;
 }
 
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers) {
+                      const StripBuffers &buffers, const Signal &signal) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
   const vk::DeviceSize channel_bytes =
-      vk::DeviceSize{strip.padded_pixels} * shader::channel_count * sizeof(float);
+      vk::DeviceSize{strip.padded_pixels} * signal.channels() * sizeof(float);
   commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                       vk::BufferCopy(0, 0, channel_bytes));
   if (buffers.tags_read.bytes() > 0) {
@@ -68,23 +79,29 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measurement &measurement) {
-  const auto channel = [&](std::uint32_t index) {
-    return buffers.channels_read.mapped().data() + std::size_t{index} * strip.padded_pixels * sizeof(float);
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, Measurement &measurement) {
+  const auto store = [&](std::uint32_t channel, auto &to) {
+    store_rows(buffers.channels_read.mapped().data() +
+                   std::size_t{channel} * strip.padded_pixels * sizeof(float),
+               strip, strip.resolution_x, to);
   };
-  const auto store = [&](std::uint32_t index, auto &to) {
-    store_rows(channel(index), strip, strip.resolution_x, to);
-  };
-  store(shader::channel_amplitude, measurement.returns[0].amplitude);
-  store(shader::channel_phase_rad, measurement.returns[0].phase_rad);
-  store(shader::channel_distance_m, measurement.returns[0].distance_m);
   store(shader::channel_range_m, measurement.range_m);
   store(shader::channel_z_m, measurement.z_m);
   store(shader::channel_coverage, measurement.coverage);
   store(shader::channel_triangle_id, measurement.triangle_id);
   store(shader::channel_object_id, measurement.object_id);
-  if (!measurement.sample_triangle_id.empty())
-    store_sample_triangles(buffers.tags_read.mapped().data(), strip, measurement.sample_triangle_id);
+  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
+    const std::uint32_t first = signal.first_channel(f);
+    Return &to = measurement.returns[f];
+    store(first + shader::channel_amplitude, to.amplitude);
+    store(first + shader::channel_phase_rad, to.phase_rad);
+    store(first + shader::channel_distance_m, to.distance_m);
+    for (std::uint32_t k = 0; k < to.taps.size(); ++k)
+      store(first + shader::channel_first_tap + k, to.taps[k]);
+  }
+  if (!measurement.sample_pixel_id.empty())
+    store_sample_tags(buffers.tags_read.mapped().data(), strip, is_tiled(sensor), measurement);
 }
 
 } // namespace pmdsim

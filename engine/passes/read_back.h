@@ -7,13 +7,14 @@
 namespace pmdsim {
 
 // An empty frame of the sensor's size.
-Measurement make_measurement(const Sensor &sensor, bool keep_sample_tags);
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool keep_sample_tags);
 
 // Copies what the resolve pass (and, if kept, the visibility pass) left to memory that the host can read.
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers);
+                      const StripBuffers &buffers, const Signal &signal);
 
 // Once that is done: copies it to its place in the frame.
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, Measurement &measurement);
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, Measurement &measurement);
 
 } // namespace pmdsim

@@ -17,35 +17,54 @@ float largest_float_below(double value) {
   return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, 0.0f);
 }
 
+vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
+                                      SamplePrecision precision, bool tiled, bool first) {
+  return {device,
+          choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
+          sizeof(shader::ResolveConstants),
+          {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u,
+           tiled ? 1u : 0u}};
+}
+
 } // namespace
 
-ResolvePass::ResolvePass(const vulkan::Device &device, const Sensor &sensor, double largest_intensity_w_sr,
-                         SamplePrecision precision)
-    : ambiguity_m_(sensor.ambiguity_m()), amplitude_scale_(static_cast<float>(largest_intensity_w_sr)),
-      pipeline_(device,
-                choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
-                sizeof(shader::ResolveConstants)) {}
+ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr,
+                         bool tiled, SamplePrecision precision)
+    : signal_(signal), amplitude_scale_(static_cast<float>(largest_intensity_w_sr)),
+      harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
+      first_(make_pipeline(device, signal, precision, tiled, true)) {
+  if (signal.frequencies() > 1)
+    later_ = make_pipeline(device, signal, precision, tiled, false);
+}
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                          const StripBuffers &buffers, const vulkan::Buffer &planes) const {
   vulkan::compute_barrier(commands);
-  const DoublePair turns_per_m(1.0 / ambiguity_m_), ambiguity(ambiguity_m_);
-  const shader::ResolveConstants constants{
-      words(buffers.position_hi.address()),
-      words(buffers.position_lo.address()),
-      words(buffers.sum.address()),
-      words(buffers.tags.address()),
-      words(planes.address()),
-      words(buffers.channels.address()),
-      {turns_per_m.hi, turns_per_m.lo},
-      {ambiguity.hi, ambiguity.lo},
-      {largest_float_below(2.0 * std::numbers::pi), largest_float_below(ambiguity_m_)},
-      amplitude_scale_,
-      strip.columns,
-      strip.samples,
-      strip.padded_pixels,
-      strip.columns * strip.rows};
-  pipeline_.dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
+  const std::uint32_t plane = sample_count(strip);
+  for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
+    const double ambiguity_m = speed_of_light_m_s / (2.0 * signal_.modulation_hz[f]);
+    const DoublePair turns_per_m(1.0 / ambiguity_m), ambiguity(ambiguity_m);
+    const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
+    const shader::ResolveConstants constants{
+        words(buffers.position_hi.address()),
+        words(buffers.position_lo.address()),
+        words(buffers.sum.address() + first_plane * plane * sizeof(shader::vec4)),
+        words(buffers.tags.address()),
+        words(planes.address()),
+        words(buffers.channels.address()),
+        words(harmonics_.address()),
+        {turns_per_m.hi, turns_per_m.lo},
+        {ambiguity.hi, ambiguity.lo},
+        {largest_float_below(2.0 * std::numbers::pi), largest_float_below(ambiguity_m)},
+        amplitude_scale_,
+        strip.columns,
+        strip.samples,
+        strip.padded_pixels,
+        strip.columns * strip.rows,
+        plane,
+        signal_.first_channel(f)};
+    (f == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
+  }
 }
 
 } // namespace pmdsim

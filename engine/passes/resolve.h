@@ -1,8 +1,8 @@
 #pragma once
-// The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance and ground truth.
+// The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
+#include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
-#include "engine/sensor.h"
 #include "engine/simulator_options.h"
 #include "engine/vulkan/compute_pipeline.h"
 
@@ -10,16 +10,19 @@ namespace pmdsim {
 
 class ResolvePass {
 public:
-  ResolvePass(const vulkan::Device &device, const Sensor &sensor, double largest_intensity_w_sr,
+  // `tiled`: whether the tags lie in tiles (shaders/interface.h).
+  ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr, bool tiled,
               SamplePrecision precision);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
               const StripBuffers &buffers, const vulkan::Buffer &planes) const;
 
 private:
-  double ambiguity_m_;
+  Signal signal_;
   float amplitude_scale_;
-  vulkan::ComputePipeline pipeline_;
+  vulkan::Buffer harmonics_;
+  vulkan::ComputePipeline first_; // of the frequencies: stores the ground truth, too
+  vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
 } // namespace pmdsim

@@ -5,10 +5,13 @@
 namespace pmdsim {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
                                 bool keep_sample_tags) {
   using Usage = vk::BufferUsageFlagBits;
-  vk::DeviceSize samples = 0, pixels = 0;
+  vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
+    if (blocks[block].distorted)
+      fragments = std::max(fragments, vk::DeviceSize{blocks[block].fragments.x} * blocks[block].fragments.y);
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
@@ -18,17 +21,25 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const auto read = [&](vk::DeviceSize bytes) {
     return vulkan::Buffer(device, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
-  const vk::DeviceSize channel_bytes = pixels * shader::channel_count * sizeof(float);
+  const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
-  return {storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
+  return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
+          storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * 3 * sizeof(float)),
           storage(samples * 3 * sizeof(float)),
           storage(samples * sizeof(shader::vec4)),
           storage(samples * sizeof(float)),
-          storage(samples * sizeof(shader::vec4)),
+          storage(samples * signal.sum_planes() * sizeof(shader::vec4)),
           storage(channel_bytes, Usage::eTransferSrc),
           read(channel_bytes),
           read(keep_sample_tags ? tag_bytes : 0)};
+}
+
+std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel) {
+  constexpr std::uint32_t usual = 1u << 20, buffer_bytes = 1u << 27;
+  constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
+  return std::min({usual, buffer_bytes / (signal.sum_planes() * plane_bytes),
+                   buffer_bytes / (signal.channels() * channel_bytes) * samples_per_pixel});
 }
 
 } // namespace pmdsim

@@ -1,26 +1,33 @@
 #pragma once
 // The device's buffers for one strip, made once for the largest and used for all.
 
+#include "engine/passes/signal.h"
 #include "engine/passes/strips.h"
 #include "engine/vulkan/buffer.h"
 
 namespace pmdsim {
 
 struct StripBuffers {
-  vulkan::Buffer tags; // uvec2 a sample, row-major: pixel id, triangle id
+  vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
+  vulkan::Buffer tags;      // uvec2 a sample (shaders/interface.h): pixel id, triangle id
   vulkan::Buffer
       position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;
   vulkan::Buffer surface;     // vec4 a sample
   vulkan::Buffer backscatter; // float a sample
-  vulkan::Buffer sum;         // vec4 a sample
-  vulkan::Buffer channels;    // shader::channel_count times padded_pixels words
+  vulkan::Buffer sum;         // plane by plane (shaders/interface.h), a vec4 a sample
+  vulkan::Buffer channels;    // channel by channel, padded_pixels words each
   vulkan::Buffer channels_read;
   vulkan::Buffer tags_read; // empty unless the samples' triangles are asked for
 };
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
                                 bool keep_sample_tags);
+
+// The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
+// MiB.
+std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel);
 
 inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;

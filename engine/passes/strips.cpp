@@ -26,4 +26,8 @@ std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<Ra
   return strips;
 }
 
+glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block) {
+  return block.distorted ? block.fragments : glm::uvec2(strip.columns, strip.rows) * strip.samples;
+}
+
 } // namespace pmdsim

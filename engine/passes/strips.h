@@ -1,7 +1,7 @@
 #pragma once
 // The frame cut into strips that fit the device's buffers.
 
-#include "engine/passes/projection.h"
+#include "engine/passes/raster_blocks.h"
 #include "engine/sensor.h"
 #include "shaders/interface.h"
 
@@ -17,6 +17,9 @@ struct PlannedStrip {
 // Whole rows of the blocks, each strip of at most `max_samples` samples but at least one row of a block.
 std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<RasterBlock> &blocks,
                                       std::uint32_t max_samples);
+
+// Columns and rows of fragments that are rasterised for a strip of `block`, all tiles together.
+glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block);
 
 // Invocations for `pixels` pixels: whole workgroups.
 std::uint32_t padded(std::uint32_t pixels);

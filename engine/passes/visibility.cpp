@@ -18,17 +18,19 @@ using Layout = vk::ImageLayout;
 
 constexpr auto tag_format = vk::Format::eR32G32Uint;
 constexpr auto depth_format = vk::Format::eD32Sfloat;
+constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
-vk::Extent2D extent_of(const shader::Strip &strip) {
-  return {strip.columns * strip.samples, strip.rows * strip.samples};
+vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBlock> &blocks) {
+  const glm::uvec2 fragments = strip_fragments(planned.strip, blocks[planned.block]);
+  return {fragments.x, fragments.y};
 }
 
-vk::Extent2D largest_extent(const std::vector<PlannedStrip> &strips) {
+vk::Extent2D largest_extent(const std::vector<RasterBlock> &blocks, const std::vector<PlannedStrip> &strips) {
   vk::Extent2D largest;
-  for (const auto &[strip, block] : strips) {
-    largest.width = std::max(largest.width, extent_of(strip).width);
-    largest.height = std::max(largest.height, extent_of(strip).height);
+  for (const PlannedStrip &planned : strips) {
+    largest.width = std::max(largest.width, extent_of(planned, blocks).width);
+    largest.height = std::max(largest.height, extent_of(planned, blocks).height);
   }
   return largest;
 }
@@ -39,8 +41,7 @@ vk::raii::ShaderModule shader_module(const vulkan::Device &device, std::span<con
 
 vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
   return vulkan::checked([&] {
-    const vk::PushConstantRange range(vk::ShaderStageFlagBits::eFragment, 0,
-                                      sizeof(shader::VisibilityConstants));
+    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
     return vk::raii::PipelineLayout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
   });
 }
@@ -58,7 +59,7 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
     const vk::VertexInputBindingDescription binding(0, sizeof(shader::RasterVertex));
     const std::array attributes{
         vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32B32Sfloat,
-                                            offsetof(shader::RasterVertex, x_samples)),
+                                            offsetof(shader::RasterVertex, x_fragments)),
         vk::VertexInputAttributeDescription(1, 0, vk::Format::eR32Uint,
                                             offsetof(shader::RasterVertex, triangle))};
     const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
@@ -84,26 +85,26 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
 
 } // namespace
 
-std::uint32_t raster_block_samples(const vulkan::Device &device) {
+std::uint32_t raster_block_fragments(const vulkan::Device &device) {
   return std::min(std::bit_floor(device.limits().viewport_samples) / 2, device.limits().raster_samples);
 }
 
 VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
-                               const std::vector<PlannedStrip> &strips)
-    : blocks_(projection.blocks),
+                               const Sensor &sensor, const std::vector<PlannedStrip> &strips)
+    : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
-      tags_(device, largest_extent(strips), tag_format,
+      tags_(device, largest_extent(projection.blocks, strips), tag_format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
             vk::ImageAspectFlagBits::eColor),
-      depth_(device, largest_extent(strips), depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
-             vk::ImageAspectFlagBits::eDepth),
+      depth_(device, largest_extent(projection.blocks, strips), depth_format,
+             vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
       layout_(make_layout(device)), pipeline_(make_pipeline(device, layout_, half_viewport_)) {}
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                            const StripBuffers &buffers) const {
-  const vk::Extent2D extent = extent_of(planned.strip);
+                            const vulkan::Buffer &tags) const {
+  const vk::Extent2D extent = extent_of(planned, blocks_);
   tags_.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
   depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
@@ -119,36 +120,54 @@ void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const Plann
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
   draw(commands, planned);
   commands.endRendering();
-  copy_tags(commands, extent, buffers);
+  copy_tags(commands, extent, tags);
 }
 
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
-  const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
-  // The block's sample 0 lies a quarter into the viewport; the viewport moves so that the strip starts at 0.
-  // All of these are whole numbers that float holds.
-  const glm::vec2 offset((glm::uvec2(strip.column, strip.row) - block.first_pixel) * strip.samples);
-  const glm::vec2 origin = glm::vec2(-0.5f * half_viewport_) - offset;
+  commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
+  const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
+  for (std::uint32_t row = 0; row < tiles; ++row)
+    for (std::uint32_t column = 0; column < tiles; ++column)
+      draw_tile(commands, planned, {column, row});
+}
+
+void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                               const glm::uvec2 &tile) const {
+  const shader::Strip &strip = planned.strip;
+  const RasterBlock &block = blocks_[planned.block];
+  const bool tiled = is_tiled(sensor_);
+  const std::uint32_t side = tiled ? 1 : strip.samples; // fragments along a pixel, but for distortion
+  const glm::uvec2 size = strip_fragments(strip, block) / (tiled ? strip.samples : 1u);
+  const glm::uvec2 in_block =
+      block.distorted ? glm::uvec2(0) : (glm::uvec2(strip.column, strip.row) - block.first_pixel) * side;
+  const glm::uvec2 corner = tile * size;
+  // The block's fragment 0 lies a quarter into the viewport; the viewport moves so that the strip starts at
+  // the tile's corner. All of these are whole numbers that float holds.
+  const glm::vec2 origin = glm::vec2(-0.5f * half_viewport_) - glm::vec2(in_block) + glm::vec2(corner);
   commands.setViewport(0,
                        vk::Viewport(origin.x, origin.y, 2 * half_viewport_, 2 * half_viewport_, 0.0f, 1.0f));
-  commands.setScissor(0, vk::Rect2D({0, 0}, extent_of(strip)));
-  commands.pushConstants<shader::VisibilityConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
-                                                      {{strip}});
-  commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
+  commands.setScissor(0,
+                      vk::Rect2D({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)},
+                                 {size.x, size.y}));
+  const shader::VisibilityConstants constants{
+      raster_shift(sensor_, tile), corner.x, corner.y, strip.column, strip.row, strip.resolution_x,
+      block.distorted ? 0 : side};
+  commands.pushConstants<shader::VisibilityConstants>(*layout_, stages_with_constants, 0, constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
 }
 
 void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                               const StripBuffers &buffers) const {
+                               const vulkan::Buffer &tags) const {
   tags_.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
                    Access::eTransferRead);
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(tags_.get(), Layout::eTransferSrcOptimal, buffers.tags.get(), region);
+  commands.copyImageToBuffer(tags_.get(), Layout::eTransferSrcOptimal, tags.get(), region);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
                          Stage::eComputeShader | Stage::eTransfer,
                          Access::eShaderStorageRead | Access::eTransferRead);

@@ -2,6 +2,7 @@
 // The visibility pass: rasterises the projected triangles and tags every visible sample with its pixel ID and
 // its triangle ID, nearest wins.
 
+#include "engine/passes/projection.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/image.h"
@@ -11,23 +12,27 @@
 namespace pmdsim {
 
 // The largest raster block that the device rasterises exactly: half of its largest power-of-two viewport.
-std::uint32_t raster_block_samples(const vulkan::Device &device);
+std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class VisibilityPass {
 public:
   // `strips` tell how large an image is needed.
-  VisibilityPass(const vulkan::Device &device, const Projection &projection,
+  VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                  const std::vector<PlannedStrip> &strips);
 
-  // Leaves the strip's tags in `buffers.tags`, visible to compute shaders and transfers.
+  // Leaves the tags of the strip's samples, or with distortion of its block's fragments, in `tags`, visible
+  // to compute shaders and transfers.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-              const StripBuffers &buffers) const;
+              const vulkan::Buffer &tags) const;
 
 private:
   void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
+  void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                 const glm::uvec2 &tile) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                 const StripBuffers &buffers) const;
+                 const vulkan::Buffer &tags) const;
 
+  Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
   vulkan::Image tags_;

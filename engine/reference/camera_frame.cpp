@@ -1,5 +1,7 @@
 #include "engine/reference/camera_frame.h"
 
+#include "engine/reference/lens_model.h"
+
 namespace pmdsim::reference {
 
 namespace {
@@ -8,14 +10,6 @@ namespace {
 // away the world's origin is.
 glm::dvec3 point_in_camera(const glm::dvec3 &position_world_m, const Pose &world_from_camera) {
   return glm::transpose(world_from_camera.rotation) * (position_world_m - world_from_camera.translation_m);
-}
-
-double sample_position_m(std::uint32_t sample, std::uint32_t samples_per_pixel, std::uint32_t pixels,
-                         double pitch_m) {
-  const std::uint32_t pixel = sample / samples_per_pixel;
-  const double k = sample % samples_per_pixel;
-  const double from_pixel_centre = (k + 0.5) / samples_per_pixel - 0.5;
-  return (pixel + 0.5 - 0.5 * pixels + from_pixel_centre) * pitch_m;
 }
 
 } // namespace
@@ -54,11 +48,7 @@ std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor
 }
 
 glm::dvec3 sample_ray(const Sensor &sensor, const glm::uvec2 &sample) {
-  const glm::uvec2 &pixels = sensor.resolution;
-  const glm::dvec2 &pitch_m = sensor.pixel_pitch_m;
-  return glm::normalize(glm::dvec3(sample_position_m(sample.x, sensor.samples, pixels.x, pitch_m.x),
-                                   sample_position_m(sample.y, sensor.samples, pixels.y, pitch_m.y),
-                                   sensor.image_distance_m()));
+  return LensModel(sensor).sample_ray(sample).value();
 }
 
 } // namespace pmdsim::reference

@@ -27,8 +27,8 @@ std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor
 // The illuminator's diodes with position and axis in the camera's frame.
 std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor &sensor);
 
-// Unit vector from the lens through sample `sample` (column, row in 0 ... S * resolution - 1) of the chip as
-// it is seen in front of the lens.
+// The ray of one sample, as LensModel gives it; throws std::bad_optional_access where the sample sees
+// nothing.
 glm::dvec3 sample_ray(const Sensor &sensor, const glm::uvec2 &sample);
 
 } // namespace pmdsim::reference

@@ -30,22 +30,49 @@ std::vector<float> rounded_below(const std::vector<double> &values, double end) 
   return result;
 }
 
+Return rounded(const FrameReturn &exact) {
+  Return result{rounded(exact.amplitude),
+                rounded_below(exact.phase_rad, full_turn_rad),
+                rounded_below(exact.distance_m, exact.ambiguity_m),
+                {}};
+  for (const std::vector<double> &tap : exact.taps)
+    result.taps.push_back(rounded(tap));
+  return result;
+}
+
+void set_return(FrameReturn &channels, std::size_t pixel, const ReturnSum &sum, std::uint32_t samples) {
+  for (std::uint32_t k = 0; k < channels.taps.size(); ++k)
+    channels.taps[k][pixel] = sum.tap(k) / samples;
+  const std::complex<double> z = sum.z() / static_cast<double>(samples);
+  channels.z[pixel] = z;
+  channels.amplitude[pixel] = std::abs(z);
+  if (channels.amplitude[pixel] > 0) {
+    channels.phase_rad[pixel] = phase_of_rad(z);
+    channels.distance_m[pixel] =
+        below(channels.ambiguity_m * (channels.phase_rad[pixel] / full_turn_rad), channels.ambiguity_m);
+  }
+}
+
 } // namespace
+
+PixelSums::PixelSums(const Sensor &sensor) {
+  returns.reserve(sensor.modulation_hz.size());
+  for (const double modulation_hz : sensor.modulation_hz)
+    returns.emplace_back(sensor, modulation_hz);
+}
 
 Frame dark_frame(const Sensor &sensor) {
   const std::size_t pixels = sensor.pixel_count();
   const std::size_t samples = pixels * sensor.samples * sensor.samples;
+  const std::vector<double> dark(pixels, 0.0), unknown(pixels, nan);
   Frame frame;
   frame.resolution = sensor.resolution;
-  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
-    const std::vector<double> dark(pixels, 0.0), unknown(pixels, nan);
-    frame.returns.push_back(
-        {sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown, unknown, {}});
-  }
-  for (auto *channel : {&frame.coverage})
-    channel->assign(pixels, 0.0);
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    frame.returns.push_back({sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown,
+                             unknown, std::vector(sensor.taps, dark)});
+  frame.coverage = dark;
   for (auto *channel : {&frame.range_m, &frame.z_m})
-    channel->assign(pixels, nan);
+    *channel = unknown;
   for (auto *ids : {&frame.triangle_id, &frame.object_id})
     ids->assign(pixels, no_id);
   frame.sample_triangle_id.assign(samples, no_id);
@@ -58,25 +85,15 @@ void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::u
     frame.range_m[pixel] = sums.range_m.value() / sums.hits;
     frame.z_m[pixel] = sums.z_m.value() / sums.hits;
   }
-  const std::complex<double> z = sums.z.value() / static_cast<double>(samples);
-  frame.returns[0].z[pixel] = z;
-  frame.returns[0].amplitude[pixel] = std::abs(z);
-  if (frame.returns[0].amplitude[pixel] > 0) {
-    frame.returns[0].phase_rad[pixel] = phase_of_rad(z);
-    frame.returns[0].distance_m[pixel] =
-        below(frame.returns[0].ambiguity_m * (frame.returns[0].phase_rad[pixel] / full_turn_rad),
-              frame.returns[0].ambiguity_m);
-  }
+  for (std::size_t i = 0; i < sums.returns.size(); ++i)
+    set_return(frame.returns[i], pixel, sums.returns[i], samples);
 }
 
 Measurement to_measurement(const Frame &frame) {
   Measurement measurement;
   measurement.resolution = frame.resolution;
-  measurement.returns.resize(1);
-  measurement.returns[0].amplitude = rounded(frame.returns[0].amplitude);
-  measurement.returns[0].phase_rad = rounded_below(frame.returns[0].phase_rad, full_turn_rad);
-  measurement.returns[0].distance_m =
-      rounded_below(frame.returns[0].distance_m, frame.returns[0].ambiguity_m);
+  for (const FrameReturn &of_frequency : frame.returns)
+    measurement.returns.push_back(rounded(of_frequency));
   measurement.range_m = rounded(frame.range_m);
   measurement.z_m = rounded(frame.z_m);
   measurement.coverage = rounded(frame.coverage);

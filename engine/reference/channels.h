@@ -3,16 +3,20 @@
 
 #include "engine/reference/compensated_sum.h"
 #include "engine/reference/reference.h"
+#include "engine/reference/return_sum.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace pmdsim::reference {
 
 // Sums over the samples of one pixel that hit something.
 struct PixelSums {
-  ComplexSum z;                // eq. 5's double sum, before 1/N_p
-  CompensatedSum range_m, z_m; // distance to the lens, depth along the optical axis
+  explicit PixelSums(const Sensor &sensor);
+
+  std::vector<ReturnSum> returns; // beside Sensor::modulation_hz
+  CompensatedSum range_m, z_m;    // distance to the lens, depth along the optical axis
   std::uint32_t hits = 0;
 };
 

@@ -59,6 +59,14 @@ void attach(RTCDevice device, RTCScene scene, const std::vector<CameraTriangle> 
 // Rounding keeps order, so the sign is right or the result is zero, and swapping p and q negates it exactly.
 double cross(const glm::dvec2 &p, const glm::dvec2 &q) { return p.x * q.y - p.y * q.x; }
 
+// z where several are equally long.
+glm::length_t longest_component(const glm::dvec3 &direction) {
+  const glm::dvec3 length = glm::abs(direction);
+  if (length.z >= length.x && length.z >= length.y)
+    return 2;
+  return length.y >= length.x ? 1 : 0;
+}
+
 } // namespace
 
 RayCaster::RayCaster(std::vector<CameraTriangle> triangles)
@@ -90,12 +98,14 @@ std::optional<Hit> RayCaster::nearest(const glm::dvec3 &direction) const {
 }
 
 // After S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013: seen along the
-// ray every vertex becomes one point of the plane, the same for all triangles that share it, and the ray is
-// the plane's origin. As zero counts as inside, no ray slips through an edge or a vertex.
+// ray every vertex becomes one point of the plane across the ray's longest component, the same for all
+// triangles that share it, and the ray is the plane's origin. As zero counts as inside, no ray slips through
+// an edge or a vertex.
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  const glm::dvec2 slope = glm::dvec2(direction) / direction.z;
+  const glm::length_t along = longest_component(direction), u = (along + 1) % 3, v = (along + 2) % 3;
+  const glm::dvec2 slope = glm::dvec2(direction[u], direction[v]) / direction[along];
   const auto seen_along_ray = [&](const glm::dvec3 &vertex_m) {
-    return glm::dvec2(vertex_m) - slope * vertex_m.z;
+    return glm::dvec2(vertex_m[u], vertex_m[v]) - slope * vertex_m[along];
   };
   const glm::dvec2 a = seen_along_ray(triangle.corners_m[0]);
   const glm::dvec2 b = seen_along_ray(triangle.corners_m[1]);

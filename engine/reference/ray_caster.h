@@ -23,9 +23,9 @@ public:
   // Throws Error: out_of_memory.
   explicit RayCaster(std::vector<CameraTriangle> triangles);
 
-  // The nearest triangle in front of the lens along `direction` (unit length, z > 0) whose face the lens can
-  // see; the lowest id where several are equally near. A ray through the edge that two triangles share hits
-  // one of them. Any number of threads may call this at once.
+  // The nearest triangle along `direction` (unit length) whose face the lens can see; the lowest id where
+  // several are equally near. A ray through the edge that two triangles share hits one of them. Any number of
+  // threads may call this at once.
   std::optional<Hit> nearest(const glm::dvec3 &direction) const;
 
   const CameraTriangle &triangle(std::uint32_t id) const { return triangles_[id]; }
@@ -36,9 +36,8 @@ private:
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };
 
-// The distance along `direction` (unit length, z > 0) from the lens to where it passes through `triangle`,
-// edges included; nothing where it misses, runs in the triangle's plane or meets a face that the lens cannot
-// see.
+// The distance along `direction` (unit length) from the lens to where it passes through `triangle`, edges
+// included; nothing where it misses, runs in the triangle's plane or meets a face that the lens cannot see.
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle);
 
 } // namespace pmdsim::reference

@@ -3,7 +3,8 @@
 #include "engine/reference/camera_frame.h"
 #include "engine/reference/channels.h"
 #include "engine/reference/for_each_row.h"
-#include "engine/reference/path_sum.h"
+#include "engine/reference/lens_model.h"
+#include "engine/reference/light_paths.h"
 #include "engine/reference/ray_caster.h"
 
 #include <chrono>
@@ -19,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 class FrameJob {
 public:
   FrameJob(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter)
-      : scene_(scene), sensor_(sensor), backscatter_(backscatter),
+      : scene_(scene), sensor_(sensor), backscatter_(backscatter), lens_(sensor),
         diodes_(diodes_in_camera(illuminator, sensor)), caster_(triangles_in_camera(scene, sensor)),
         frame_(dark_frame(sensor)) {}
 
@@ -34,7 +35,7 @@ public:
 
 private:
   void compute_pixel(const glm::uvec2 &pixel) {
-    PixelSums sums;
+    PixelSums sums(sensor_);
     for (std::uint32_t k_row = 0; k_row < sensor_.samples; ++k_row)
       for (std::uint32_t k_column = 0; k_column < sensor_.samples; ++k_column)
         add_sample(sums, pixel * sensor_.samples + glm::uvec2(k_column, k_row));
@@ -49,22 +50,27 @@ private:
   }
 
   void add_sample(PixelSums &sums, const glm::uvec2 &sample) {
-    const glm::dvec3 direction = sample_ray(sensor_, sample);
-    const auto hit = caster_.nearest(direction);
+    const auto direction = lens_.sample_ray(sample);
+    if (!direction)
+      return;
+    const auto hit = caster_.nearest(*direction);
     if (!hit)
       return;
     frame_.sample_triangle_id[sample_index(sample)] = hit->triangle;
-    const SurfacePoint point = surface_point(direction, *hit);
+    const SurfacePoint point = surface_point(*direction, *hit);
     ++sums.hits;
     sums.range_m.add(hit->range_m);
     sums.z_m.add(point.position_m.z);
-    add_paths(sums.z, point, diodes_, backscatter_, sensor_.modulation_hz[0]);
+    const auto paths = light_paths(point, diodes_, backscatter_);
+    for (ReturnSum &sum : sums.returns)
+      sum.add(paths);
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
     const CameraTriangle &triangle = caster_.triangle(hit.triangle);
     const glm::dvec3 front = glm::normalize(triangle.front());
-    return {hit.range_m * direction, glm::dot(front, direction) < 0 ? front : -front, triangle.reflectivity};
+    return {hit.range_m * direction, glm::dot(front, direction) < 0 ? front : -front, triangle.reflectivity,
+            lens_.vignetting_gain(direction)};
   }
 
   std::size_t sample_index(const glm::uvec2 &sample) const {
@@ -74,6 +80,7 @@ private:
   const Scene &scene_;
   const Sensor &sensor_;
   Backscatter backscatter_;
+  LensModel lens_;
   std::vector<Diode> diodes_;
   RayCaster caster_;
   Frame frame_;

@@ -1,6 +1,6 @@
 #pragma once
 // The judge: the same measurement by the CPU in double precision, with its own ray casting and the standard
-// library's trigonometry. Shares no code with the shaders, the passes or their projection.
+// library's trigonometry. Shares no code with the shaders, the passes, their projection or engine/lens.h.
 
 #include "engine/illuminator.h"
 #include "engine/measurement.h"
@@ -31,7 +31,8 @@ struct Frame {
   double frame_ms = 0.0;
 };
 
-// `progress` is called with the fraction done, from one thread only; may throw to stop.
+// Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,
+// from one thread only; may throw to stop.
 Frame simulate(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
                Backscatter backscatter, const std::function<void(double)> &progress = {});
 

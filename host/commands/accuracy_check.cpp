@@ -4,22 +4,32 @@
 #include "host/commands/camera.h"
 #include "host/commands/coarser_sensor.h"
 #include "host/commands/progress_bar.h"
+#include "host/commands/report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace pmdsim {
 namespace {
 
 constexpr double affordable_interactions = 2e8; // some seconds of the reference
 
-// With few enough pixels for what the reference can afford.
-Sensor affordable(const Sensor &sensor, std::size_t diode_count) {
+// What the reference does for one path, in sines: every frequency has its own correlation function.
+double terms_per_path(const Sensor &sensor) {
+  const Waveform &waveform = sensor.waveform;
+  const double terms = waveform.kind == Waveform::Kind::harmonics
+                           ? static_cast<double>(waveform.harmonics.size())
+                       : waveform.kind == Waveform::Kind::square ? sensor.taps
+                                                                 : 1.0;
+  return terms * static_cast<double>(sensor.modulation_hz.size());
+}
+
+// With few enough pixels for what the reference can afford, one of `sensors` that share it.
+Sensor affordable(const Sensor &sensor, std::size_t diode_count, std::size_t sensors) {
   const double interactions = static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
-                              static_cast<double>(diode_count);
-  return coarser(sensor, std::sqrt(interactions / affordable_interactions));
+                              static_cast<double>(diode_count) * terms_per_path(sensor);
+  return coarser(sensor, std::sqrt(interactions * static_cast<double>(sensors) / affordable_interactions));
 }
 
 // Whether every sample of the pixel hits the same triangle in both.
@@ -35,41 +45,52 @@ bool same_triangles(const Measurement &a, const reference::Frame &b, std::uint32
   return true;
 }
 
+// In W/(m^2 sr).
+double darkest_comparable(const reference::FrameReturn &truth) {
+  double brightest = std::ranges::max(truth.amplitude);
+  for (const std::vector<double> &tap : truth.taps)
+    for (const double value : tap)
+      brightest = std::max(brightest, std::abs(value));
+  return 1e-3 * brightest;
+}
+
 // Beyond it the device computes something else: float32 holds a distance to 6e-8 of the ambiguity range.
-double largest_plausible_error_m(const Sensor &sensor) {
-  return std::max(10e-6, 1e-6 * sensor.ambiguity_m());
+double largest_plausible_error_m(double ambiguity_m) { return std::max(10e-6, 1e-6 * ambiguity_m); }
+
+void add_difference(AccuracyCheck &check, double difference_m) {
+  ++check.pixels;
+  if (std::isfinite(difference_m))
+    check.distance_max_m =
+        std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, check.ambiguity_m)));
+  else
+    ++check.not_finite;
 }
 
 } // namespace
 
-AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor) {
-  AccuracyCheck check{sensor.resolution, 0, 0, 0, std::numeric_limits<double>::quiet_NaN()};
-  const double darkest =
-      1e-3 * *std::max_element(truth.returns[0].amplitude.begin(), truth.returns[0].amplitude.end());
+AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
+                      std::size_t frequency) {
+  AccuracyCheck check{sensor.name, sensor.modulation_hz[frequency], sensor.ambiguity_m(frequency),
+                      sensor.resolution};
+  const reference::FrameReturn &expected = truth.returns[frequency];
+  const std::vector<float> &found_m = found.returns[frequency].distance_m;
+  const double darkest = darkest_comparable(expected);
   for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
     for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {
       const std::size_t pixel = std::size_t{row} * sensor.resolution.x + column;
-      if (!std::isfinite(truth.returns[0].distance_m[pixel]) ||
-          !(truth.returns[0].amplitude[pixel] > darkest))
+      if (!std::isfinite(expected.distance_m[pixel]) || !(expected.amplitude[pixel] > darkest))
         continue;
       ++check.comparable;
-      if (!same_triangles(found, truth, column, row, sensor.samples))
-        continue;
-      ++check.pixels;
-      const double difference_m =
-          static_cast<double>(found.returns[0].distance_m[pixel]) - truth.returns[0].distance_m[pixel];
-      if (std::isfinite(difference_m))
-        check.distance_max_m =
-            std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, sensor.ambiguity_m())));
-      else
-        ++check.not_finite;
+      if (same_triangles(found, truth, column, row, sensor.samples))
+        add_difference(check, static_cast<double>(found_m[pixel]) - expected.distance_m[pixel]);
     }
   return check;
 }
 
-void require_plausible(const AccuracyCheck &check, const Sensor &sensor, const std::string &device) {
+void require_plausible(const AccuracyCheck &check, const std::string &device) {
   const auto fail = [&](const std::string &what) {
-    throw Error(ExitCode::internal, fmt::format("{}: {}", device, what));
+    throw Error(ExitCode::internal, fmt::format("{}: sensor {} at {}: {}", device, check.sensor,
+                                                frequency_text(check.modulation_hz), what));
   };
   // Rounding moves samples to another triangle at edges only.
   if (2 * check.pixels < check.comparable)
@@ -78,22 +99,27 @@ void require_plausible(const AccuracyCheck &check, const Sensor &sensor, const s
   if (check.not_finite > 0)
     fail(fmt::format("distances are not finite in {} of {} pixels where the reference's are",
                      check.not_finite, check.pixels));
-  const double limit_m = largest_plausible_error_m(sensor);
+  const double limit_m = largest_plausible_error_m(check.ambiguity_m);
   if (check.distance_max_m > limit_m)
     fail(fmt::format("distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
                      1e3 * check.distance_max_m, 1e3 * limit_m));
 }
 
-AccuracyCheck check_accuracy(const Setup &setup, const std::string &device) {
+std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device) {
   const Illuminator &illuminator = setup.illuminators.front();
-  const Sensor sensor = affordable(setup.sensors.front(), illuminator.diodes.size());
-  Camera camera(device, Camera::SampleTriangles::keep);
-  camera.prepare(setup.scene, sensor, illuminator, setup.backscatter);
-  const Measurement found = camera.measure("measuring what is checked");
-  ProgressBar bar("checking against the reference");
-  const reference::Frame truth =
-      reference::simulate(setup.scene, sensor, illuminator, setup.backscatter, interruptible_progress(bar));
-  return compare(found, truth, sensor);
+  Camera camera(device, {.sample_triangles = true});
+  std::vector<AccuracyCheck> checks;
+  for (const Sensor &fine : setup.sensors) {
+    const Sensor sensor = affordable(fine, illuminator.diodes.size(), setup.sensors.size());
+    camera.prepare(setup.scene, sensor, illuminator, setup.backscatter);
+    const Measurement found = camera.measure("measuring what is checked");
+    ProgressBar bar("checking against the reference");
+    const reference::Frame truth =
+        reference::simulate(setup.scene, sensor, illuminator, setup.backscatter, interruptible_progress(bar));
+    for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+      checks.push_back(compare(found, truth, sensor, i));
+  }
+  return checks;
 }
 
 } // namespace pmdsim

@@ -5,12 +5,12 @@
 #include "host/commands/report.h"
 #include "host/output/manifest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace pmdsim {
 namespace {
@@ -19,10 +19,10 @@ using nlohmann::ordered_json;
 
 constexpr int measured_frames = 7;
 
+// Of one sensor's frame or, summed, of all sensors' frames.
 struct Timing {
-  Spread frame_ms;
+  Spread frame_ms{0.0, 0.0, 0.0};
   std::vector<PassTime> passes; // medians, in the order of the frame
-  double interactions_per_s;    // NaN where there is no pass named "accumulate"
 };
 
 std::string processor_name() {
@@ -33,23 +33,27 @@ std::string processor_name() {
   return "unknown";
 }
 
-std::optional<AccuracyCheck> check_before_timing(const Setup &setup, const Camera &camera,
-                                                 const std::string &device) {
+// Nothing where the camera is the reference itself.
+std::vector<AccuracyCheck> check_before_timing(const Setup &setup, const Camera &camera,
+                                               const std::string &device) {
   if (camera.is_reference())
-    return std::nullopt;
-  const AccuracyCheck check = check_accuracy(setup, device);
-  require_plausible(check, setup.sensors.front(), camera.device());
-  return check;
+    return {};
+  std::vector<AccuracyCheck> checks = check_accuracy(setup, device);
+  for (const AccuracyCheck &check : checks)
+    require_plausible(check, camera.device());
+  return checks;
 }
 
+// Of all sensors.
 double interaction_count(const Setup &setup) {
-  const Sensor &sensor = setup.sensors.front();
-  return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
-         static_cast<double>(setup.illuminators.front().diodes.size());
+  double samples = 0.0;
+  for (const Sensor &sensor : setup.sensors)
+    samples += static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
+  return samples * static_cast<double>(setup.illuminators.front().diodes.size());
 }
 
 // Only times are kept: frames of the largest sensors would not fit side by side.
-Timing time_frames(Camera &camera, double interactions) {
+Timing time_frames(Camera &camera) {
   std::vector<double> frames_ms;
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> passes_ms;
@@ -63,31 +67,62 @@ Timing time_frames(Camera &camera, double interactions) {
       passes_ms[pass.name].push_back(pass.ms);
     }
   }
-  Timing timing{spread_of(frames_ms), {}, std::numeric_limits<double>::quiet_NaN()};
+  Timing timing{spread_of(frames_ms), {}};
   for (const std::string &name : order)
     timing.passes.push_back({name, spread_of(passes_ms[name]).median});
-  if (passes_ms.contains("accumulate"))
-    timing.interactions_per_s = interactions / (1e-3 * spread_of(passes_ms["accumulate"]).median);
   return timing;
+}
+
+void add(Timing &sum, const Timing &timing) {
+  sum.frame_ms.min += timing.frame_ms.min;
+  sum.frame_ms.median += timing.frame_ms.median;
+  sum.frame_ms.max += timing.frame_ms.max;
+  for (const PassTime &pass : timing.passes) {
+    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
+    if (known == sum.passes.end())
+      sum.passes.push_back(pass);
+    else
+      known->ms += pass.ms;
+  }
+}
+
+Timing time_all_sensors(const Setup &setup, Camera &camera) {
+  Timing sum;
+  for (const Sensor &sensor : setup.sensors) {
+    camera.prepare(setup.scene, sensor, setup.illuminators.front(), setup.backscatter);
+    add(sum, time_frames(camera));
+  }
+  return sum;
+}
+
+// NaN where there is no pass named "accumulate".
+double interactions_per_s(const Setup &setup, const Timing &timing) {
+  const auto accumulate = std::ranges::find(timing.passes, "accumulate", &PassTime::name);
+  return accumulate == timing.passes.end() ? std::numeric_limits<double>::quiet_NaN()
+                                           : interaction_count(setup) / (1e-3 * accumulate->ms);
 }
 
 double frames_per_s(const Timing &timing) { return 1e3 / timing.frame_ms.median; }
 
-ordered_json error_json(const std::optional<AccuracyCheck> &check) {
-  return check ? ordered_json(check->distance_max_m) : ordered_json(nullptr);
+// The largest of all sensors and frequencies; NaN where nothing could be compared.
+double largest_error_m(const std::vector<AccuracyCheck> &checks) {
+  double largest_m = std::numeric_limits<double>::quiet_NaN();
+  for (const AccuracyCheck &check : checks)
+    largest_m = std::fmax(largest_m, check.distance_max_m);
+  return largest_m;
 }
 
-ordered_json report_json(const Camera &camera, const Timing &timing,
-                         const std::optional<AccuracyCheck> &check) {
+ordered_json report_json(const Setup &setup, const Camera &camera, const Timing &timing,
+                         const std::vector<AccuracyCheck> &checks) {
   const ordered_json result{{"name", "setup"},
                             {"mode", "exact"},
                             {"frame_ms", timing.frame_ms.median},
                             {"frame_ms_min", timing.frame_ms.min},
                             {"frame_ms_max", timing.frame_ms.max},
                             {"frames_per_s", frames_per_s(timing)},
-                            {"interactions_per_s", timing.interactions_per_s},
+                            {"interactions_per_s", interactions_per_s(setup, timing)},
                             {"passes_ms", passes_json(timing.passes)},
-                            {"error_found_m", error_json(check)}};
+                            {"error_found_m", largest_error_m(checks)}};
   return {{"device", camera.device()},
           {"driver", camera.driver()},
           {"processor", processor_name()},
@@ -96,26 +131,28 @@ ordered_json report_json(const Camera &camera, const Timing &timing,
 }
 
 std::string error_text(const AccuracyCheck &check) {
+  const std::string what = fmt::format("{}, {}: ", check.sensor, frequency_text(check.modulation_hz));
   if (check.comparable == 0)
-    return "nothing to compare: the reference is dark in every pixel";
-  return fmt::format("at most {:.4g} µm over {} pixels of {} x {}, against the reference",
-                     1e6 * check.distance_max_m, check.pixels, check.resolution.x, check.resolution.y);
+    return what + "nothing to compare, the reference is dark in every pixel";
+  return what + fmt::format("at most {:.4g} µm over {} pixels of {} x {}, against the reference",
+                            1e6 * check.distance_max_m, check.pixels, check.resolution.x, check.resolution.y);
 }
 
-std::string report_text(const Camera &camera, const Timing &timing,
-                        const std::optional<AccuracyCheck> &check) {
+std::string report_text(const Setup &setup, const Camera &camera, const Timing &timing,
+                        const std::vector<AccuracyCheck> &checks) {
   std::string text =
       fmt::format("device     {} ({})\nprocessor  {}\n", camera.device(), camera.driver(), processor_name());
-  if (check)
-    text += fmt::format("error      {}\n", error_text(*check));
-  text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames), {:.4g} frames/s\n",
+  for (const AccuracyCheck &check : checks)
+    text += fmt::format("error      {}\n", error_text(check));
+  const std::string sensors =
+      setup.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.sensors.size()) : "";
+  text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames{}), {:.4g} frames/s\n",
                       timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max, measured_frames,
-                      frames_per_s(timing));
+                      sensors, frames_per_s(timing));
   for (const PassTime &pass : timing.passes)
     text += fmt::format("  {:<20}{:>10.3f} ms\n", pass.name, pass.ms);
-  if (!std::isnan(timing.interactions_per_s))
-    text +=
-        fmt::format("rate       {:.4g} interactions/s in the accumulate pass\n", timing.interactions_per_s);
+  if (const double rate = interactions_per_s(setup, timing); !std::isnan(rate))
+    text += fmt::format("rate       {:.4g} interactions/s in the accumulate pass\n", rate);
   return text;
 }
 
@@ -124,13 +161,12 @@ std::string report_text(const Camera &camera, const Timing &timing,
 void run_bench(const Options &options) {
   const Setup setup = load_for_command(options);
   Camera camera(options.device);
-  const std::optional<AccuracyCheck> check = check_before_timing(setup, camera, options.device);
-  camera.prepare(setup.scene, setup.sensors.front(), setup.illuminators.front(), setup.backscatter);
-  const Timing timing = time_frames(camera, interaction_count(setup));
+  const std::vector<AccuracyCheck> checks = check_before_timing(setup, camera, options.device);
+  const Timing timing = time_all_sensors(setup, camera);
   if (options.json)
-    print(report_json(camera, timing, check));
+    print(report_json(setup, camera, timing, checks));
   else
-    print(report_text(camera, timing, check));
+    print(report_text(setup, camera, timing, checks));
 }
 
 } // namespace pmdsim

@@ -26,7 +26,7 @@ bool validation_is_asked_for() {
 
 } // namespace
 
-Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
+Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
   if (names_the_reference(device)) {
     device_ = "reference";
     driver_ = "pmdsim " PMDSIM_VERSION;
@@ -34,7 +34,8 @@ Camera::Camera(const std::string &device, SampleTriangles sample_triangles) {
   }
   SimulatorOptions options;
   options.device = device;
-  options.keep_sample_tags = sample_triangles == SampleTriangles::keep;
+  options.keep_sample_tags = extras.sample_triangles;
+  options.keep_taps = extras.taps;
   options.validate = validation_is_asked_for();
   simulator_.emplace(options);
   device_ = simulator_->device().name;
@@ -55,8 +56,12 @@ Measurement Camera::measure(const std::string &label) {
   progress(0.0);
   if (simulator_)
     return simulator_->measure(progress);
-  return reference::to_measurement(reference::simulate(
+  Measurement measurement = reference::to_measurement(reference::simulate(
       *prepared_.scene, prepared_.sensor, prepared_.illuminator, prepared_.backscatter, progress));
+  if (!extras_.taps)
+    for (Return &of_frequency : measurement.returns)
+      of_frequency.taps.clear();
+  return measurement;
 }
 
 } // namespace pmdsim

@@ -12,14 +12,17 @@
 
 namespace pmdsim {
 
+// What a measurement shall hold beside its other channels.
+struct Extras {
+  bool sample_triangles = false; // Measurement::sample_triangle_id
+  bool taps = false;             // Return::taps
+};
+
 class Camera {
 public:
-  // Whether Measurement::sample_triangle_id is wanted.
-  enum class SampleTriangles { drop, keep };
-
   // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).
   // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
-  explicit Camera(const std::string &device, SampleTriangles sample_triangles = SampleTriangles::drop);
+  explicit Camera(const std::string &device, const Extras &extras = {});
 
   const std::string &device() const { return device_; }
   const std::string &driver() const { return driver_; }
@@ -41,6 +44,7 @@ private:
 
   std::optional<Simulator> simulator_; // empty: the reference
   Prepared prepared_{};
+  Extras extras_;
   std::string device_, driver_;
 };
 

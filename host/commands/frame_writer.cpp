@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "host/commands/interruption.h"
+#include "host/commands/report.h"
 #include "host/output/exr_writer.h"
 #include "host/output/npy_writer.h"
 #include "host/output/preview.h"
@@ -22,7 +23,7 @@ PreviewStyle preview_style(const Channel &channel) {
       {"phase_rad", {"phase", Scale::turn}},
       {"distance_m", {"distance", Scale::sequential}},
       {"deformation_mm", {"deformation", Scale::zero_centred}}};
-  const auto &[quantity, scale] = known.at(channel.name);
+  const auto &[quantity, scale] = known.at(channel.quantity);
   const ColourMap &colours = scale == Scale::turn         ? twilight
                              : scale == Scale::sequential ? viridis
                                                           : blue_white_red;
@@ -31,12 +32,10 @@ PreviewStyle preview_style(const Channel &channel) {
 
 void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
   const PreviewStyle style = preview_style(channel);
-  const std::string title = fmt::format("{}, {}, frame {}", style.quantity, frame.sensor.name, frame.frame);
+  const std::string title = picture_title(style.quantity, frame, channel.frequency);
   draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
       .write_png(file);
 }
-
-} // namespace
 
 void require_name_for_files(const Sensor &sensor) {
   if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
@@ -44,9 +43,24 @@ void require_name_for_files(const Sensor &sensor) {
                 fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
 }
 
+} // namespace
+
+void require_names_for_files(const std::vector<Sensor> &sensors) {
+  for (const Sensor &sensor : sensors)
+    require_name_for_files(sensor);
+}
+
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
   require_name_for_files(sensor);
   return fmt::format("{}_{:04}", sensor.name, frame);
+}
+
+std::string picture_title(const std::string &quantity, const FrameToWrite &frame,
+                          const std::optional<std::size_t> &frequency) {
+  std::string title = quantity;
+  if (frequency)
+    title += ", " + frequency_text(frame.sensor.modulation_hz[*frequency]);
+  return fmt::format("{}, {}, frame {}", title, frame.sensor.name, frame.frame);
 }
 
 void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats) {
@@ -61,12 +75,18 @@ void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<F
     add(stem + ".profile.csv",
         [&](OutputFile &file) { write_profile_csv(file, frame.channels, frame.sensor); });
   for (const Channel &channel : frame.channels.channels) {
-    const std::string name = fmt::format("{}.{}", stem, channel.name);
+    const std::string name = fmt::format("{}.{}", stem, channel.name());
     if (formats.contains(Format::npy))
       add(name + ".npy", [&](OutputFile &file) { write_npy(file, channel, frame.channels.resolution); });
-    if (formats.contains(Format::png) && std::ranges::count(frame.previewed, channel.name) != 0)
+    if (formats.contains(Format::png) && std::ranges::count(frame.previewed, channel.quantity) != 0)
       add(name + ".png", [&](OutputFile &file) { write_preview(file, frame, channel); });
   }
+}
+
+void publish_run(OutputSet &outputs, const RunRecord &run) {
+  outputs.add(manifest_name, [&](OutputFile &file) { file.write(json_text(manifest_json(run))); });
+  throw_if_interrupted();
+  outputs.publish();
 }
 
 } // namespace pmdsim

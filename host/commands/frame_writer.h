@@ -1,33 +1,44 @@
 #pragma once
 // The files of one frame: SENSOR_FRAME.exr, SENSOR_FRAME.CHANNEL.npy, SENSOR_FRAME.CHANNEL.png and
-// SENSOR_FRAME.profile.csv, as far as the command line asks for them.
+// SENSOR_FRAME.profile.csv, as far as the command line asks for them; and the manifest of all.
 
 #include "engine/sensor.h"
 #include "host/options.h"
 #include "host/output/channel.h"
+#include "host/output/manifest.h"
 #include "host/output/output_set.h"
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace pmdsim {
 
-// Throws Error (input) where the sensor's name cannot be part of a file's name; to be asked before measuring.
-void require_name_for_files(const Sensor &sensor);
+// Throws Error (input) where a sensor's name cannot be part of a file's name; to be asked before measuring.
+void require_names_for_files(const std::vector<Sensor> &sensors);
 
-// "pmd_0000". Throws as require_name_for_files().
+// "pmd_0000". Throws Error (input) where the name cannot be part of a file's name.
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame);
 
 struct FrameToWrite {
   const Sensor &sensor;
   std::uint32_t frame;
   const ChannelSet &channels;
-  std::vector<std::string> previewed; // names of the channels that get a picture
+  std::vector<std::string> previewed; // quantities of the channels that get a picture
 };
+
+// "distance, pmd, frame 0"; of several frequencies "distance, 20 MHz, pmd, frame 0".
+std::string picture_title(const std::string &quantity, const FrameToWrite &frame,
+                          const std::optional<std::size_t> &frequency);
 
 // Adds the files to `outputs`. Throws Error, interrupted among others.
 void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats);
+
+inline constexpr const char *manifest_name = "manifest.json";
+
+// Adds the manifest and publishes. Throws Error, interrupted among others.
+void publish_run(OutputSet &outputs, const RunRecord &run);
 
 } // namespace pmdsim

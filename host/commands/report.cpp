@@ -11,7 +11,6 @@
 #include <iterator>
 #include <limits>
 #include <system_error>
-#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -42,6 +41,12 @@ void print(const std::string &text) {
 }
 
 void print(const nlohmann::ordered_json &json) { print(json_text(json)); }
+
+std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
+
+std::string written_text(const std::vector<std::string> &paths) {
+  return fmt::format("written:\n  {}\n", fmt::join(paths, "\n  "));
+}
 
 std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value); }
 

@@ -4,12 +4,19 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace pmdsim {
 
 // Text as it is, at once. Throws Error (output) where stdout cannot take it.
 void print(const std::string &text);
 void print(const nlohmann::ordered_json &json);
+
+// "20 MHz".
+std::string frequency_text(double modulation_hz);
+
+// "written:" and the paths below it.
+std::string written_text(const std::vector<std::string> &paths);
 
 // A number for a table, six significant digits; "-" for NaN.
 std::string table_number(double value);

@@ -49,9 +49,9 @@ void write_exr(OutputFile &file, const ChannelSet &channels) {
     std::visit(
         [&](auto values) {
           constexpr std::size_t value_bytes = sizeof(values[0]);
-          header.channels().insert(channel.name, Imf::Channel(pixel_type(values)));
-          frame.insert(channel.name, Imf::Slice(pixel_type(values), base_address(values), value_bytes,
-                                                value_bytes * channels.resolution.x));
+          header.channels().insert(channel.name(), Imf::Channel(pixel_type(values)));
+          frame.insert(channel.name(), Imf::Slice(pixel_type(values), base_address(values), value_bytes,
+                                                  value_bytes * channels.resolution.x));
         },
         channel.values);
   Imf::setGlobalThreadCount(

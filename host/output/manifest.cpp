@@ -2,6 +2,8 @@
 
 #include "host/output/intrinsics.h"
 
+#include <stdexcept>
+
 namespace pmdsim {
 namespace {
 
@@ -22,8 +24,10 @@ ordered_json frame_json(const FrameRecord &record) {
   return {{"sensor", record.sensor.name},
           {"frame", record.frame},
           {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
-          {"modulation_hz", record.sensor.modulation_hz[0]},
-          {"ambiguity_m", record.sensor.ambiguity_m()},
+          {"modulation_hz", record.sensor.modulation_hz},
+          {"ambiguity_m", ambiguities_m(record.sensor)},
+          {"waveform", waveform_json(record.sensor.waveform)},
+          {"taps", record.sensor.taps},
           {"camera", camera_json(record.sensor)},
           {"frame_ms", record.frame_ms},
           {"passes_ms", passes_json(record.passes)},
@@ -32,18 +36,56 @@ ordered_json frame_json(const FrameRecord &record) {
           {"outputs", record.outputs}};
 }
 
+ordered_json how_to_make_points() {
+  return {
+      "1. xy = inverse(camera_matrix) * [column, row, 1]; the centre of pixel (0, 0) lies at (0, 0)",
+      "2. pinhole, brown: [x, y] = cv::undistortPoints(xy, identity, distortion), iterated until it stands",
+      "2. fisheye: [x, y] = cv::fisheye::undistortPoints(xy, identity, distortion), where there is a "
+      "tilt_rad "
+      "after cv::undistortPoints(xy, identity, [12 zeros, tilt_rad]); rays beyond 90 degrees have no slopes: "
+      "solve the model for the angle to the axis",
+      "3. point_world = world_from_camera * [distance_m * normalize([x, y, 1]), 1]; distance_m is radial, "
+      "not the depth z"};
+}
+
 } // namespace
 
 ordered_json camera_json(const Sensor &sensor) {
-  const auto [fx, fy, cx, cy] = intrinsics_of(sensor);
-  return {{"model", "pinhole"},
-          {"fx", fx},
-          {"fy", fy},
-          {"cx", cx},
-          {"cy", cy},
-          {"camera_matrix", {{fx, 0.0, cx}, {0.0, fy, cy}, {0.0, 0.0, 1.0}}},
-          {"distortion", {0.0, 0.0, 0.0, 0.0, 0.0}},
-          {"world_from_camera", matrix_json(sensor.world_from_camera)}};
+  const Intrinsics intrinsics = intrinsics_of(sensor);
+  const auto &matrix = intrinsics.camera_matrix;
+  const auto focal = [&](double pixels) {
+    return intrinsics.rotated ? ordered_json(nullptr) : ordered_json(pixels);
+  };
+  ordered_json camera{{"model", intrinsics.model},
+                      {"fx", focal(matrix[0][0])},
+                      {"fy", focal(matrix[1][1])},
+                      {"cx", matrix[0][2]},
+                      {"cy", matrix[1][2]},
+                      {"camera_matrix", matrix},
+                      {"distortion", intrinsics.distortion}};
+  if (intrinsics.model == "fisheye" && intrinsics.tilt_rad != glm::dvec2(0.0))
+    camera["tilt_rad"] = {intrinsics.tilt_rad.x, intrinsics.tilt_rad.y};
+  camera["world_from_camera"] = matrix_json(sensor.world_from_camera);
+  return camera;
+}
+
+ordered_json waveform_json(const Waveform &waveform) {
+  switch (waveform.kind) {
+  case Waveform::Kind::sine:
+    return "sine";
+  case Waveform::Kind::square:
+    return "square";
+  case Waveform::Kind::harmonics:
+    return {{"harmonics", waveform.harmonics}};
+  }
+  throw std::logic_error("a waveform of no kind");
+}
+
+std::vector<double> ambiguities_m(const Sensor &sensor) {
+  std::vector<double> ambiguities;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    ambiguities.push_back(sensor.ambiguity_m(i));
+  return ambiguities;
 }
 
 ordered_json passes_json(const std::vector<PassTime> &passes) {
@@ -57,17 +99,9 @@ ordered_json manifest_json(const RunRecord &run) {
   ordered_json frames = ordered_json::array();
   for (const FrameRecord &record : run.frames)
     frames.push_back(frame_json(record));
-  return {{"program", "pmdsim"},
-          {"version", PMDSIM_VERSION},
-          {"command", run.command},
-          {"device", run.device},
-          {"driver", run.driver},
-          {"mode", run.mode},
-          {"setup", run.setup},
-          {"points",
-           "point_world = world_from_camera * [distance_m * normalize([(column - cx) / fx, (row - cy) / fy, "
-           "1]), 1]; distance_m is radial, not the depth z"},
-          {"frames", frames}};
+  return {{"program", "pmdsim"},  {"version", PMDSIM_VERSION},      {"command", run.command},
+          {"device", run.device}, {"driver", run.driver},           {"mode", run.mode},
+          {"setup", run.setup},   {"points", how_to_make_points()}, {"frames", frames}};
 }
 
 std::string json_text(const ordered_json &json) {

@@ -2,11 +2,13 @@
 // manifest.json: what an output directory holds and how it came about.
 //
 // From distances to points: `distance_m` is radial, from the lens to the point along the pixel's ray, NOT the
-// depth z. With u the column, v the row and fx, fy, cx, cy of the frame's `camera`,
-//   point_camera = distance_m * normalize([(u - cx) / fx, (v - cy) / fy, 1])
-//   point_world  = world_from_camera * [point_camera, 1]
-// The same holds for `range_m`, the true distance; `z_m` is the depth: point_camera = z_m * [(u-cx)/fx,
-// (v-cy)/fy, 1].
+// depth z. With the frame's `camera` (Intrinsics says what its figures mean) and the slopes (x, y) of the
+// pixel's ray,
+//   (x''', y''', 1) = inverse(camera_matrix) * (column, row, 1)
+//   (x, y)          = (x''', y''') less tilt and distortion, by OpenCV
+//   point_camera    = distance_m * normalize([x, y, 1])
+//   point_world     = world_from_camera * [point_camera, 1]
+// The same holds for `range_m`, the true distance; `z_m` is the depth: point_camera = z_m * [x, y, 1].
 
 #include "engine/measurement.h"
 #include "engine/sensor.h"
@@ -34,9 +36,16 @@ struct RunRecord {
   std::vector<FrameRecord> frames;
 };
 
-// fx, fy, cx, cy, camera_matrix (3 x 3), distortion (k1, k2, p1, p2, k3), world_from_camera (4 x 4, rows;
-// camera frame x right, y down, z forward; world as in glTF).
+// model, fx, fy (null where the chip is turned about z), cx, cy, camera_matrix (3 x 3), distortion,
+// world_from_camera (4 x 4, rows; camera frame x right, y down, z forward; world as in glTF); of a tilted
+// fisheye tilt_rad. Intrinsics says what the figures mean.
 nlohmann::ordered_json camera_json(const Sensor &sensor);
+
+// As a setup writes it: "sine", "square" or {"harmonics": [...]}.
+nlohmann::ordered_json waveform_json(const Waveform &waveform);
+
+// The ambiguity range of every frequency.
+std::vector<double> ambiguities_m(const Sensor &sensor);
 
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);

@@ -72,8 +72,12 @@ void OutputSet::add(const std::string &name, const std::function<void(OutputFile
 std::vector<std::string> OutputSet::paths() const {
   std::vector<std::string> paths(names_.size());
   std::transform(names_.begin(), names_.end(), paths.begin(),
-                 [&](const std::string &name) { return (directory_ / name).string(); });
+                 [&](const std::string &name) { return path_of(name); });
   return paths;
+}
+
+std::vector<std::string> OutputSet::names_from(std::size_t first) const {
+  return {names_.begin() + static_cast<std::ptrdiff_t>(first), names_.end()};
 }
 
 void OutputSet::publish() {

@@ -28,7 +28,10 @@ public:
 
   // Names of the files added so far, in order.
   const std::vector<std::string> &names() const { return names_; }
-  // The same with the directory in front.
+  // Those from the one with the index `first` on.
+  std::vector<std::string> names_from(std::size_t first) const;
+  // A name, and all of them, with the directory in front.
+  std::string path_of(const std::string &name) const { return (directory_ / name).string(); }
   std::vector<std::string> paths() const;
 
   // Renames all files to their names. Throws Error (output): where a directory has one of the names, before

@@ -80,8 +80,8 @@ TEST_CASE("structs of the points and visibility passes") {
   CHECK_OFFSET(offsets, TrianglePlane, plane_lo);
   CHECK_OFFSET(offsets, TrianglePlane, backscatter);
   CHECK_OFFSET(offsets, TrianglePlane, object);
-  CHECK_OFFSET(offsets, TrianglePlane, depth_min_m);
-  CHECK_OFFSET(offsets, TrianglePlane, depth_max_m);
+  CHECK_OFFSET(offsets, TrianglePlane, along_min);
+  CHECK_OFFSET(offsets, TrianglePlane, along_max);
 }
 
 TEST_CASE("structs of the accumulate pass") {
@@ -94,8 +94,11 @@ TEST_CASE("structs of the accumulate pass") {
   CHECK_OFFSET(offsets, AccumulateConstants, diodes);
   CHECK_OFFSET(offsets, AccumulateConstants, reference_hi);
   CHECK_OFFSET(offsets, AccumulateConstants, reference_lo);
-  CHECK_OFFSET(offsets, AccumulateConstants, wavenumber);
+  CHECK_OFFSET(offsets, AccumulateConstants, tones);
   CHECK_OFFSET(offsets, AccumulateConstants, blocks);
+  CHECK_OFFSET(offsets, AccumulateConstants, plane);
+  CHECK_OFFSET(offsets, Tone, turns_per_m);
+  CHECK_OFFSET(offsets, Tone, wavenumber);
   CHECK_OFFSET(offsets, GroupDiode, position);
   CHECK_OFFSET(offsets, GroupDiode, axis);
   CHECK_OFFSET(offsets, GroupDiode, intensity);
@@ -110,9 +113,12 @@ TEST_CASE("structs of the resolve pass") {
   CHECK_OFFSET(offsets, ResolveConstants, tags);
   CHECK_OFFSET(offsets, ResolveConstants, planes);
   CHECK_OFFSET(offsets, ResolveConstants, channels);
+  CHECK_OFFSET(offsets, ResolveConstants, harmonics);
   CHECK_OFFSET(offsets, ResolveConstants, turns_per_m);
   CHECK_OFFSET(offsets, ResolveConstants, ambiguity_m);
   CHECK_OFFSET(offsets, ResolveConstants, limits);
+  CHECK_OFFSET(offsets, ResolveConstants, plane);
+  CHECK_OFFSET(offsets, ResolveConstants, first_channel);
   CHECK_OFFSET(offsets, ResolveConstants, amplitude_scale);
   CHECK_OFFSET(offsets, ResolveConstants, columns);
   CHECK_OFFSET(offsets, ResolveConstants, samples);

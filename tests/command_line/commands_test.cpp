@@ -19,6 +19,33 @@ json run_json(const std::vector<std::string> &arguments) {
   return json::parse(run.output); // throws where anything stands beside the object
 }
 
+// The sensor `left` with two frequencies and three taps, and `right`, which is small_setup()'s.
+std::string two_sensors() {
+  const std::string setup = small_setup();
+  const auto begin = setup.find("[{") + 1, end = setup.find("}],") + 1;
+  const std::string right = with(setup.substr(begin, end - begin), "pmd", "right");
+  const std::string left = with(with(right, "right", "left"), "[20e6]", "[20e6, 50e6], \"taps\": 3");
+  return with(with(setup, "\"sensor\": \"pmd\"", "\"sensor\": \"left\""), setup.substr(begin, end - begin),
+              left + ", " + right);
+}
+
+struct TwoSensors {
+  Workspace work;
+  std::string setup;
+
+  TwoSensors() : setup((work.write("wall.gltf", wall_gltf()), work.write("setup.json", two_sensors()))) {}
+
+  std::vector<std::string> arguments(const std::string &command) const {
+    return {command, setup, "--device", "reference", "--format", "exr,npy,png,csv", "-o", work / "out"};
+  }
+  json report(const std::string &command) const {
+    std::vector<std::string> with_json = arguments(command);
+    with_json.emplace_back("--json");
+    return run_json(with_json);
+  }
+  bool wrote(const std::string &file) const { return std::ranges::count(work.files("out"), file) == 1; }
+};
+
 } // namespace
 
 TEST_CASE("the paper's figures 11 and 13, on the device and on the reference") {
@@ -118,6 +145,63 @@ TEST_CASE("bench SETUP checks its result and reports rates") {
   CHECK(row["interactions_per_s"].get<double>() > 0.0);
   CHECK(row["passes_ms"].contains("visibility"));
   CHECK(report.contains("ratios"));
+}
+
+TEST_CASE("render writes every sensor, every frequency and every tap") {
+  const TwoSensors two;
+  const json report = two.report("render");
+  REQUIRE(report["frames"].size() == 2);
+  CHECK(report["frames"][0]["sensor"] == "left");
+  CHECK(report["frames"][1]["sensor"] == "right");
+  for (const json &frame : report["frames"])
+    for (const std::string output : frame["outputs"])
+      CHECK(std::filesystem::is_regular_file(output));
+  for (const char *file :
+       {"left_0000.f0.amplitude.npy", "left_0000.f1.distance_m.npy", "left_0000.f1.tap2.npy",
+        "left_0000.range_m.npy", "left_0000.f1.distance_m.png", "left_0000.exr", "right_0000.distance_m.npy",
+        "right_0000.tap3.npy", "right_0000.phase_rad.png"}) {
+    INFO(file);
+    CHECK(two.wrote(file));
+  }
+  CHECK_FALSE(two.wrote("left_0000.f1.tap3.npy"));
+  CHECK_FALSE(two.wrote("left_0000.f1.tap2.png"));
+  std::ifstream in(two.work / "out/manifest.json");
+  const json frames = json::parse(in)["frames"];
+  REQUIRE(frames.size() == 2);
+  CHECK(frames[0]["modulation_hz"] == json{20e6, 50e6});
+  CHECK(frames[0]["taps"] == 3);
+  CHECK(std::ranges::count(frames[1]["outputs"], "left_0000.exr") == 0);
+  const std::string text = run_pmdsim(two.arguments("render")).output;
+  CHECK(text.find("\nleft, frame 0") != std::string::npos);
+  CHECK(text.find("distance at 50 MHz") != std::string::npos);
+}
+
+TEST_CASE("deform tells the first sensor's first frequency, and of all the others beside it") {
+  const TwoSensors two;
+  const json report = two.report("deform");
+  REQUIRE(report["frames"].size() == 2);
+  CHECK(report["frames"][0]["deformation_mm"].size() == 2);
+  CHECK(report["frames"][1]["deformation_mm"].size() == 1);
+  CHECK(report["deformation_mm"] == report["frames"][0]["deformation_mm"][0]);
+  CHECK(report["deformation_mm"]["centre"].get<double>() == Approx(2.66).margin(0.01)); // 0.146^2 / 8 m
+  for (const char *file : {"left_0000.f1.deformation_mm.npy", "left_0000.f1.deformation_mm.png",
+                           "left_0000.f1.deformation_profile.png", "right_0000.deformation_profile.png"}) {
+    INFO(file);
+    CHECK(two.wrote(file));
+  }
+  const std::string text = run_pmdsim(two.arguments("deform")).output;
+  CHECK(text.find("\nleft, 50 MHz") != std::string::npos);
+}
+
+TEST_CASE("check and bench tell of all sensors") {
+  const TwoSensors two;
+  const json check = run_json({"check", two.setup, "--json"});
+  REQUIRE(check["sensors"].size() == 2);
+  CHECK(check["sensors"][0]["common_ambiguity_m"].get<double>() == Approx(299792458.0 / 20e6));
+  CHECK(check["ambiguity_m"] == check["sensors"][0]["ambiguity_m"][0]);
+  CHECK(run_pmdsim({"check", two.setup}).output.find(" m at 50 MHz\n") != std::string::npos);
+  CHECK(run_pmdsim({"bench", two.setup, "--device", "reference"})
+            .output.find("warm frames of each of 2 sensors)") != std::string::npos);
 }
 
 TEST_CASE("interrupted, a run ends with 130 and leaves nothing half-written") {

@@ -3,6 +3,7 @@
 #include "tests/gpu_against_reference/projected_edges.h"
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -14,15 +15,21 @@ double relative_error(float measured, double expected) {
   return std::abs(measured - expected) / std::abs(expected);
 }
 
+bool same_light(const Return &measured, const reference::FrameReturn &expected, std::size_t pixel) {
+  const bool lit = expected.amplitude[pixel] > 0;
+  return (measured.amplitude[pixel] > 0) == lit && std::isfinite(measured.phase_rad[pixel]) == lit &&
+         std::isfinite(measured.distance_m[pixel]) == lit;
+}
+
 bool same_truth(const Measurement &measured, const reference::Frame &expected, std::size_t pixel) {
-  const bool hit = expected.coverage[pixel] > 0, lit = expected.returns[0].amplitude[pixel] > 0;
-  return measured.coverage[pixel] == static_cast<float>(expected.coverage[pixel]) &&
-         measured.triangle_id[pixel] == expected.triangle_id[pixel] &&
-         measured.object_id[pixel] == expected.object_id[pixel] &&
-         std::isfinite(measured.range_m[pixel]) == hit && std::isfinite(measured.z_m[pixel]) == hit &&
-         (measured.returns[0].amplitude[pixel] > 0) == lit &&
-         std::isfinite(measured.returns[0].phase_rad[pixel]) == lit &&
-         std::isfinite(measured.returns[0].distance_m[pixel]) == lit;
+  const bool hit = expected.coverage[pixel] > 0;
+  bool same = measured.coverage[pixel] == static_cast<float>(expected.coverage[pixel]) &&
+              measured.triangle_id[pixel] == expected.triangle_id[pixel] &&
+              measured.object_id[pixel] == expected.object_id[pixel] &&
+              std::isfinite(measured.range_m[pixel]) == hit && std::isfinite(measured.z_m[pixel]) == hit;
+  for (std::size_t f = 0; f < expected.returns.size(); ++f)
+    same = same && same_light(measured.returns[f], expected.returns[f], pixel);
+  return same;
 }
 
 // Everything that one comparison reads, and the result as it grows.
@@ -30,7 +37,7 @@ class Comparing {
 public:
   Comparing(const Measurement &measured, const reference::Frame &expected, const Scene &scene,
             const Sensor &sensor)
-      : measured_(measured), expected_(expected), sensor_(sensor),
+      : measured_(measured), expected_(expected), sensor_(sensor), lens_(sensor),
         triangles_(reference::triangles_in_camera(scene, sensor)) {}
 
   // Compares the samples of a pixel; true where all see the same.
@@ -51,17 +58,8 @@ public:
   }
 
   void compare_light(std::size_t pixel) {
-    if (expected_.returns[0].amplitude[pixel] == 0)
-      return;
-    const double distance_error_m = std::abs(
-        std::remainder(measured_.returns[0].distance_m[pixel] - expected_.returns[0].distance_m[pixel],
-                       sensor_.ambiguity_m()));
-    ++result_.pixels;
-    squares_m2_ += distance_error_m * distance_error_m;
-    result_.distance_max_m = std::max(result_.distance_max_m, distance_error_m);
-    result_.amplitude_max_relative =
-        std::max(result_.amplitude_max_relative, relative_error(measured_.returns[0].amplitude[pixel],
-                                                                expected_.returns[0].amplitude[pixel]));
+    for (std::size_t f = 0; f < expected_.returns.size(); ++f)
+      compare_light(measured_.returns[f], expected_.returns[f], sensor_.ambiguity_m(f), pixel);
   }
 
   Comparison result() const {
@@ -72,6 +70,23 @@ public:
   }
 
 private:
+  void compare_light(const Return &measured, const reference::FrameReturn &expected, double ambiguity_m,
+                     std::size_t pixel) {
+    if (expected.amplitude[pixel] == 0)
+      return;
+    const double distance_error_m =
+        std::abs(std::remainder(measured.distance_m[pixel] - expected.distance_m[pixel], ambiguity_m));
+    ++result_.pixels;
+    squares_m2_ += distance_error_m * distance_error_m;
+    result_.distance_max_m = std::max(result_.distance_max_m, distance_error_m);
+    result_.amplitude_max_relative = std::max(
+        result_.amplitude_max_relative, relative_error(measured.amplitude[pixel], expected.amplitude[pixel]));
+    for (std::size_t k = 0; k < measured.taps.size(); ++k)
+      result_.amplitude_max_relative =
+          std::max(result_.amplitude_max_relative,
+                   std::abs(measured.taps[k][pixel] - expected.taps[k][pixel]) / expected.amplitude[pixel]);
+  }
+
   void compare_sample(const glm::uvec2 &sample) {
     const std::size_t index = std::size_t{sample.y} * sensor_.samples * sensor_.resolution.x + sample.x;
     const std::uint32_t measured = measured_.sample_triangle_id[index];
@@ -84,12 +99,14 @@ private:
   }
 
   bool near_edge(const glm::uvec2 &sample, std::uint32_t triangle) const {
-    return triangle < triangles_.size() && pixels_to_edge(sensor_, sample, triangles_[triangle]) <= 1.0;
+    return triangle < triangles_.size() &&
+           pixels_to_edge(lens_, sensor_, sample, triangles_[triangle]) <= 1.0;
   }
 
   const Measurement &measured_;
   const reference::Frame &expected_;
   const Sensor &sensor_;
+  reference::LensModel lens_;
   std::vector<reference::CameraTriangle> triangles_;
   Comparison result_;
   double squares_m2_ = 0.0;
@@ -110,6 +127,17 @@ Comparison compare(const Measurement &measured, const reference::Frame &expected
     }
   }
   return comparing.result();
+}
+
+void check_comparison(const Comparison &comparison, std::size_t pixels) {
+  CHECK(comparison.pixels >= pixels);
+  CHECK(comparison.distance_max_m <= 2e-6);
+  CHECK(comparison.distance_rms_m <= 0.3e-6);
+  CHECK(comparison.amplitude_max_relative <= 1e-5);
+  CHECK(comparison.range_max_relative <= 1e-6);
+  CHECK(comparison.disagreements == 0);
+  CHECK(comparison.differing_fraction() <= 1e-3);
+  CHECK(comparison.differing_far_off == 0);
 }
 
 std::string comparison_heading() {

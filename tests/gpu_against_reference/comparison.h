@@ -12,11 +12,12 @@ struct Comparison {
   std::size_t samples = 0;
   std::size_t differing_samples = 0; // the two see another triangle there
   std::size_t differing_far_off = 0; // of these, more than a pixel from every edge of both triangles
-  std::size_t pixels = 0;            // that see light, and the same triangle in every sample
-  double distance_max_m = 0.0;       // differences over these pixels, wrapped to half the ambiguity distance
+  std::size_t pixels =
+      0; // that see light, and the same triangle in every sample; of all frequencies together
+  double distance_max_m = 0.0; // differences over these pixels, wrapped to half the ambiguity distance
   double distance_rms_m = 0.0;
-  double amplitude_max_relative = 0.0;
-  double range_max_relative = 0.0; // of range_m and z_m
+  double amplitude_max_relative = 0.0; // of the amplitude; of the taps, where measured, relative to it
+  double range_max_relative = 0.0;     // of range_m and z_m
   std::size_t disagreements =
       0; // pixels with the same triangles where NaN, coverage or an id is not the same
 
@@ -29,6 +30,9 @@ struct Comparison {
 // distance and amplitude.
 Comparison compare(const Measurement &measured, const reference::Frame &expected, const Scene &scene,
                    const Sensor &sensor, const std::vector<bool> &left_out = {});
+
+// The figures that the README promises; `pixels` of them at least.
+void check_comparison(const Comparison &comparison, std::size_t pixels);
 
 // One line a comparison, under a heading.
 std::string comparison_heading();

@@ -1,6 +1,7 @@
 #include "tests/gpu_against_reference/grazing_light.h"
 
 #include "engine/reference/camera_frame.h"
+#include "engine/reference/lens_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@ std::vector<bool> pixels_in_grazing_light(const reference::Frame &frame, const S
                                           const Sensor &sensor, const Illuminator &illuminator) {
   const auto triangles = reference::triangles_in_camera(scene, sensor);
   const auto diodes = reference::diodes_in_camera(illuminator, sensor);
+  const reference::LensModel lens(sensor);
   const glm::uvec2 samples = sensor.resolution * sensor.samples;
   std::vector<bool> grazing(sensor.pixel_count(), false);
   for (glm::uvec2 sample(0); sample.y < samples.y; ++sample.y)
@@ -30,7 +32,7 @@ std::vector<bool> pixels_in_grazing_light(const reference::Frame &frame, const S
       if (id == no_id)
         continue;
       const glm::dvec3 normal = glm::normalize(triangles[id].front());
-      const glm::dvec3 direction = reference::sample_ray(sensor, sample);
+      const glm::dvec3 direction = *lens.sample_ray(sample);
       const double range_m = glm::dot(normal, triangles[id].corners_m[0]) / glm::dot(normal, direction);
       if (std::any_of(diodes.begin(), diodes.end(),
                       [&](const Diode &diode) { return grazes(range_m * direction, normal, diode); }))

@@ -1,53 +1,49 @@
 #include "tests/gpu_against_reference/projected_edges.h"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
-#include <utility>
+#include <cmath>
 
 namespace pmdsim::test {
 
 namespace {
 
-using Edge = std::pair<glm::dvec3, glm::dvec3>;
-
-// The part of the edge in front of the lens; so little behind this depth is left out that it lies outside any
-// image.
-std::optional<Edge> in_front(Edge edge) {
-  auto &[from, to] = edge;
-  if (from.z > to.z)
-    std::swap(from, to);
-  const double nearest_z_m = 1e-6 * glm::length(to);
-  if (to.z <= nearest_z_m)
-    return std::nullopt;
-  if (from.z < nearest_z_m)
-    from = glm::mix(from, to, (nearest_z_m - from.z) / (to.z - from.z));
-  return edge;
+double angle_rad(const glm::dvec3 &a, const glm::dvec3 &b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-glm::dvec2 pixels_from_centre(const Sensor &sensor, const glm::dvec3 &point_m) {
-  return glm::dvec2(point_m) / point_m.z * sensor.image_distance_m() / sensor.pixel_pitch_m;
+// Between a ray and the nearest point of an edge, as seen from the lens.
+double angle_to_edge_rad(const glm::dvec3 &ray, const glm::dvec3 &from_m, const glm::dvec3 &to_m) {
+  const glm::dvec3 normal = glm::cross(from_m, to_m);
+  const bool beside =
+      glm::dot(glm::cross(normal, from_m), ray) > 0 && glm::dot(glm::cross(to_m, normal), ray) > 0;
+  if (beside)
+    return std::abs(std::asin(std::clamp(glm::dot(glm::normalize(normal), ray), -1.0, 1.0)));
+  return std::min(angle_rad(ray, from_m), angle_rad(ray, to_m));
 }
 
-double distance_to_segment(const glm::dvec2 &point, const glm::dvec2 &from, const glm::dvec2 &to) {
-  const glm::dvec2 along = to - from;
-  const double length_squared = glm::dot(along, along);
-  const double nearest =
-      length_squared > 0 ? std::clamp(glm::dot(point - from, along) / length_squared, 0.0, 1.0) : 0;
-  return glm::length(point - glm::mix(from, to, nearest));
+// Of a pixel: between the same samples of neighbouring ones, the nearer of both; a single pixel counts as
+// half a turn.
+double pixel_angle_rad(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample) {
+  double smallest_rad = std::acos(-1.0);
+  for (const glm::uvec2 step : {glm::uvec2(sensor.samples, 0), glm::uvec2(0, sensor.samples)}) {
+    const bool has_next = glm::all(glm::lessThan(sample + step, sensor.resolution * sensor.samples));
+    if (!has_next && glm::any(glm::lessThan(sample, step)))
+      continue;
+    const auto next = lens.sample_ray(has_next ? sample + step : sample - step);
+    smallest_rad = std::min(smallest_rad, angle_rad(*lens.sample_ray(sample), *next));
+  }
+  return smallest_rad;
 }
 
 } // namespace
 
-double pixels_to_edge(const Sensor &sensor, const glm::uvec2 &sample,
+double pixels_to_edge(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
                       const reference::CameraTriangle &triangle) {
-  const glm::dvec2 seen_at = pixels_from_centre(sensor, reference::sample_ray(sensor, sample));
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i)
-    if (const auto edge = in_front({triangle.corners_m[i], triangle.corners_m[(i + 1) % 3]}))
-      nearest = std::min(nearest, distance_to_segment(seen_at, pixels_from_centre(sensor, edge->first),
-                                                      pixels_from_centre(sensor, edge->second)));
-  return nearest;
+  const glm::dvec3 ray = *lens.sample_ray(sample);
+  const auto &[a, b, c] = triangle.corners_m;
+  const double nearest_rad =
+      std::min({angle_to_edge_rad(ray, a, b), angle_to_edge_rad(ray, b, c), angle_to_edge_rad(ray, c, a)});
+  return nearest_rad / pixel_angle_rad(lens, sensor, sample);
 }
 
 } // namespace pmdsim::test

@@ -2,12 +2,14 @@
 // Where a triangle's edges lie in the image, in double.
 
 #include "engine/reference/camera_frame.h"
+#include "engine/reference/lens_model.h"
 
 namespace pmdsim::test {
 
-// Distance in pixels from a sample (column, row in 0 ... S * resolution - 1) to the nearest edge of the
-// triangle as the lens projects it; infinity where the whole triangle lies behind the lens.
-double pixels_to_edge(const Sensor &sensor, const glm::uvec2 &sample,
+// Angle at the lens from the ray of a sample (column, row in 0 ... S * resolution - 1) to the triangle's
+// nearest edge, over the angle from the sample's pixel to the next: in pixels, whatever the lens does to
+// straight lines.
+double pixels_to_edge(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
                       const reference::CameraTriangle &triangle);
 
 } // namespace pmdsim::test

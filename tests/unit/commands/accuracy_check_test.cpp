@@ -28,11 +28,11 @@ struct Frames {
     found.sample_triangle_id = truth.sample_triangle_id;
   }
 
-  AccuracyCheck check() const { return compare(found, truth, sensor); }
+  AccuracyCheck check(std::size_t frequency = 0) const { return compare(found, truth, sensor, frequency); }
 
   std::string failure() const {
     try {
-      require_plausible(check(), sensor, "device");
+      require_plausible(check(), "device");
     } catch (const Error &error) {
       CHECK(error.code() == ExitCode::internal);
       return error.what();
@@ -57,16 +57,20 @@ TEST_CASE("a distance that is too far off fails") {
   Frames frames;
   frames.found.returns[0].distance_m[5] += 0.001F;
   CHECK(frames.check().distance_max_m == Approx(0.001).epsilon(1e-3));
-  CHECK(frames.failure().starts_with("device: distances differ from the reference by up to "));
+  CHECK(frames.failure().starts_with(
+      "device: sensor pmd at 20 MHz: distances differ from the reference by up to "));
 }
 
 TEST_CASE("a distance that is not finite fails, be it one or all") {
   const float value = GENERATE(as<float>{}, not_a_number, std::numeric_limits<float>::infinity());
   Frames frames;
   frames.found.returns[0].distance_m[7] = value;
-  CHECK(frames.failure() == "device: distances are not finite in 1 of 16 pixels where the reference's are");
+  CHECK(frames.failure() ==
+        "device: sensor pmd at 20 MHz: distances are not finite in 1 of 16 pixels where the reference's are");
   std::ranges::fill(frames.found.returns[0].distance_m, value);
-  CHECK(frames.failure() == "device: distances are not finite in 16 of 16 pixels where the reference's are");
+  CHECK(
+      frames.failure() ==
+      "device: sensor pmd at 20 MHz: distances are not finite in 16 of 16 pixels where the reference's are");
 }
 
 TEST_CASE("other triangles are forgiven in half of the pixels") {
@@ -75,12 +79,32 @@ TEST_CASE("other triangles are forgiven in half of the pixels") {
   std::fill_n(frames.found.returns[0].distance_m.begin(), 8, not_a_number);
   CHECK(frames.failure() == "none");
   frames.found.sample_triangle_id[8] = no_id;
-  CHECK(frames.failure() ==
-        "device: sees the reference's triangles in 7 of 16 pixels; expected at least half");
+  CHECK(frames.failure() == "device: sensor pmd at 20 MHz: sees the reference's triangles in 7 of 16 pixels; "
+                            "expected at least half");
 }
 
 TEST_CASE("where the reference is dark there is nothing to compare and nothing fails") {
   const Frames frames(wall_at(-2.0));
   CHECK(frames.check().comparable == 0);
   CHECK(frames.failure() == "none");
+}
+
+TEST_CASE("every frequency is compared by its own ambiguity range") {
+  Frames frames;
+  frames.sensor.modulation_hz = {20e6, 50e6};
+  frames.truth.returns.push_back(frames.truth.returns[0]);
+  frames.found.returns.push_back(frames.found.returns[0]);
+  const auto range_m = static_cast<float>(frames.sensor.ambiguity_m(1));
+  for (float &distance_m : frames.found.returns[1].distance_m)
+    distance_m += range_m; // the same place, a turn later
+  frames.found.returns[1].distance_m[3] += 0.001F;
+  CHECK(frames.check(0).distance_max_m < 1e-6);
+  CHECK(frames.check(1).distance_max_m == Approx(0.001).epsilon(1e-3));
+  CHECK(frames.check(1).modulation_hz == 50e6);
+}
+
+TEST_CASE("where the taps cancel there is nothing to compare") {
+  Frames frames;
+  frames.truth.returns[0].taps = {std::vector<double>(16, 1e4 * frames.truth.returns[0].amplitude[0])};
+  CHECK(frames.check().comparable == 0);
 }

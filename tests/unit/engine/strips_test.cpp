@@ -12,9 +12,9 @@ TEST_CASE("strips cover every pixel once, whatever their size") {
       for (const std::uint32_t max_samples : {1u, 1000u, 100000u, 1u << 21}) {
         sensor.resolution = resolution;
         sensor.samples = samples;
-        const auto projection = project({}, sensor, 512);
+        const auto blocks = chip_blocks(sensor, 512);
         std::vector<int> covered(sensor.pixel_count());
-        for (const auto &[strip, block] : plan_strips(sensor, projection.blocks, max_samples)) {
+        for (const auto &[strip, block] : plan_strips(sensor, blocks, max_samples)) {
           CHECK(strip.padded_pixels % shader::workgroup_size == 0);
           CHECK(strip.padded_pixels >= strip.columns * strip.rows);
           CHECK((strip.rows == 1 || strip.columns * strip.rows * samples * samples <= max_samples));

@@ -4,7 +4,10 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <sstream>
 
 using namespace pmdsim;
 
@@ -22,6 +25,8 @@ TEST_CASE("Every setup that ships loads without a warning") {
       {"paper_half_ring.json", {2, 120}},
       {"paper_moire.json", {2, 48}},
       {"room.json", {9950, 240}},
+      {"sensor.json", {9950, 1}},
+      {"signal.json", {9950, 1}},
       {"analytic/wrap_10mhz.json", {6, 1}},
       {"analytic/on_axis_baseline.json", {8, 1}},
       {"analytic/inverse_square.json", {10, 1}},
@@ -44,6 +49,24 @@ TEST_CASE("Every setup that ships loads without a warning") {
     ++found;
   }
   CHECK(found == expected.size());
+}
+
+TEST_CASE("The README shows the examples that ship") {
+  const auto text_of = [](const std::filesystem::path &file) {
+    std::ifstream stream(file);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const std::filesystem::path folder = PMDSIM_SCENES;
+  const std::string readme = text_of(folder / ".." / "README.md");
+  for (const char *name : {"sensor.json", "signal.json"}) {
+    const std::string text = text_of(folder / name);
+    std::istringstream setup(text.substr(text.find("\n{") + 1));
+    std::string shown;
+    for (std::string line; std::getline(setup, line);)
+      shown += "    " + line + "\n";
+    INFO(name);
+    CHECK(readme.find(shown) != std::string::npos);
+  }
 }
 
 TEST_CASE("The room's camera looks down at what stands in it") {

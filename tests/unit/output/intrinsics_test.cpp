@@ -1,7 +1,9 @@
-#include "host/output/intrinsics.h"
+#include "engine/lens.h"
 #include "host/output/manifest.h"
+#include "tests/support/random_scenes.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 using namespace pmdsim;
@@ -18,11 +20,78 @@ Sensor small_sensor() {
   return sensor;
 }
 
+// A lens of the given model (pinhole, brown, fisheye) over a chip that is shifted and perhaps tilted and
+// turned.
+Sensor random_sensor(test::Random &random, int model, bool tilted, bool turned) {
+  Sensor sensor;
+  sensor.resolution = {640, 480};
+  sensor.pixel_pitch_m = {random.uniform(5e-6, 50e-6), random.uniform(5e-6, 50e-6)};
+  sensor.focal_length_m = random.uniform(4e-3, 20e-3);
+  sensor.focus_distance_m = random.uniform(0.5, 5.0);
+  if (model == 1)
+    sensor.distortion =
+        BrownConrady{random.uniform(-0.2, 0.2), random.uniform(-0.1, 0.1), random.uniform(-0.01, 0.01),
+                     random.uniform(-0.01, 0.01), random.uniform(-0.05, 0.05)};
+  if (model == 2)
+    sensor.distortion = Fisheye{random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.05),
+                                random.uniform(-0.02, 0.02), random.uniform(-0.01, 0.01)};
+  if (tilted)
+    sensor.chip.rotation_rad = random.in_box({-0.3, -0.3, 0.0}, {0.3, 0.3, 0.0});
+  if (turned)
+    sensor.chip.rotation_rad.z = random.uniform(-3.0, 3.0);
+  sensor.chip.translation_m = random.in_box(glm::dvec3(-1e-3), glm::dvec3(1e-3));
+  return sensor;
+}
+
+// calib3d's documentation: x'', y'' from the slopes.
+glm::dvec2 opencv_distorted(const nlohmann::ordered_json &camera, const glm::dvec3 &ray) {
+  const double x = ray.x / ray.z, y = ray.y / ray.z, r2 = x * x + y * y;
+  const auto d = camera["distortion"].get<std::vector<double>>();
+  if (camera["model"] == "fisheye") {
+    const double r = std::sqrt(r2), theta = std::atan(r), t2 = theta * theta;
+    const double theta_d =
+        theta * (1 + d[0] * t2 + d[1] * t2 * t2 + d[2] * t2 * t2 * t2 + d[3] * t2 * t2 * t2 * t2);
+    return {theta_d / r * x, theta_d / r * y};
+  }
+  const double radial = 1 + d[0] * r2 + d[1] * r2 * r2 + d[4] * r2 * r2 * r2;
+  return {x * radial + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x),
+          y * radial + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y};
+}
+
+// The same documentation's tilted sensor: x''', y''' of x'', y''. glm takes columns.
+glm::dvec2 opencv_tilted(const glm::dvec2 &tau, const glm::dvec2 &distorted) {
+  const glm::dmat3 about_y(std::cos(tau.y), 0, std::sin(tau.y), 0, 1, 0, -std::sin(tau.y), 0,
+                           std::cos(tau.y));
+  const glm::dmat3 about_x(1, 0, 0, 0, std::cos(tau.x), -std::sin(tau.x), 0, std::sin(tau.x),
+                           std::cos(tau.x));
+  const glm::dmat3 r = about_y * about_x;
+  const glm::dmat3 onto_plane(r[2][2], 0, 0, 0, r[2][2], 0, -r[2][0], -r[2][1], 1);
+  const glm::dvec3 projected = onto_plane * r * glm::dvec3(distorted, 1.0);
+  return glm::dvec2(projected) / projected.z;
+}
+
+glm::dvec2 opencv_pixel(const nlohmann::ordered_json &camera, const glm::dvec3 &ray) {
+  glm::dvec2 tau(0.0);
+  if (camera.contains("tilt_rad"))
+    tau = {camera["tilt_rad"][0].get<double>(), camera["tilt_rad"][1].get<double>()};
+  else if (camera["distortion"].size() == 14)
+    tau = {camera["distortion"][12].get<double>(), camera["distortion"][13].get<double>()};
+  const glm::dvec2 m = opencv_tilted(tau, opencv_distorted(camera, ray));
+  const auto row = [&](std::size_t i) {
+    const auto &matrix = camera["camera_matrix"][i];
+    return matrix[0].get<double>() * m.x + matrix[1].get<double>() * m.y + matrix[2].get<double>();
+  };
+  CHECK(row(2) == 1.0);
+  return {row(0), row(1)};
+}
+
 } // namespace
 
 TEST_CASE("a point on a pixel's ray projects onto that pixel") {
   const Sensor sensor = small_sensor();
-  const auto [fx, fy, cx, cy] = intrinsics_of(sensor);
+  const auto camera = camera_json(sensor);
+  CHECK(camera["model"] == "pinhole");
+  const double fx = camera["fx"], fy = camera["fy"], cx = camera["cx"], cy = camera["cy"];
   for (std::uint32_t column = 0; column < 4; ++column)
     for (std::uint32_t row = 0; row < 2; ++row) {
       // The pixel's centre on the chip, by the design's formula, seen at a depth of 3 m.
@@ -56,6 +125,52 @@ TEST_CASE("the manifest's camera takes distances to points of the world") {
   CHECK(point_world.w == 1.0);
 }
 
+TEST_CASE("OpenCV's formulas with the manifest's figures project rays as the lens does") {
+  test::Random random(20260);
+  for (int i = 0; i < 60; ++i) {
+    const Sensor sensor = random_sensor(random, i % 3, i % 2 == 0, i % 4 < 2);
+    const auto camera = camera_json(sensor);
+    const Lens lens(sensor);
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 ray = glm::normalize(random.in_box({-0.5, -0.5, 1.0}, {0.5, 0.5, 1.0}));
+      const auto chip_m = lens.chip_m(ray);
+      REQUIRE(chip_m);
+      // Of OpenCV the centre of the first pixel lies at (0, 0), of the lens at (0.5, 0.5).
+      const glm::dvec2 expected = lens.pixel(*chip_m) - 0.5;
+      INFO(camera.dump(1));
+      CHECK(glm::distance(opencv_pixel(camera, ray), expected) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("the camera has as many distortion figures as OpenCV's model needs") {
+  Sensor sensor = small_sensor();
+  const auto distortion = [&] { return camera_json(sensor)["distortion"].get<std::vector<double>>(); };
+  CHECK(distortion() == std::vector<double>(5, 0.0));
+  sensor.distortion = BrownConrady{0.1, 0.2, 0.3, 0.4, 0.5};
+  CHECK(distortion() == std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5});
+  sensor.chip.rotation_rad = {0.01, -0.02, 0.0};
+  CHECK(distortion() == std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0, 0, 0, 0, 0, 0.01, -0.02});
+  CHECK_FALSE(camera_json(sensor).contains("tilt_rad"));
+  sensor.distortion = Fisheye{0.1, 0.2, 0.3, 0.4};
+  CHECK(distortion() == std::vector<double>{0.1, 0.2, 0.3, 0.4});
+  CHECK(camera_json(sensor)["tilt_rad"] == nlohmann::json{0.01, -0.02});
+}
+
+TEST_CASE("a chip turned about the axis has no focal lengths but a whole matrix") {
+  Sensor sensor = small_sensor();
+  sensor.chip.rotation_rad.z = 0.5;
+  const auto camera = camera_json(sensor);
+  CHECK(camera["fx"].is_null());
+  CHECK(camera["fy"].is_null());
+  // A place on the chip's own x axis lies towards +x and +y of the camera: its pixel's column grows with
+  // both.
+  CHECK(camera["camera_matrix"][0][0].get<double>() == Approx(1.0 / 9.0 / 1e-3 * std::cos(0.5)));
+  CHECK(camera["camera_matrix"][0][1].get<double>() == Approx(1.0 / 9.0 / 1e-3 * std::sin(0.5)));
+  CHECK(camera["camera_matrix"][1][0].get<double>() == Approx(-1.0 / 9.0 / 2e-3 * std::sin(0.5)));
+  CHECK(camera["cx"] == 1.5);
+}
+
 TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact mode") {
   const RunRecord run{"render",
                       "some device",
@@ -72,7 +187,24 @@ TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact 
   CHECK(frame["passes_ms"]["accumulate"] == 1.25);
   CHECK(frame["error_claimed_m"].is_null());
   CHECK(frame["outputs"] == nlohmann::json{"pmd_0007.exr"});
+  CHECK(frame["modulation_hz"] == nlohmann::json{20e6});
+  CHECK(frame["ambiguity_m"].at(0).get<double>() == Approx(299792458.0 / 40e6));
+  CHECK(frame["waveform"] == "sine");
+  CHECK(frame["taps"] == 4);
   CHECK(frame["camera"]["distortion"] == nlohmann::json{0.0, 0.0, 0.0, 0.0, 0.0});
+}
+
+TEST_CASE(
+    "a frame of several frequencies has an ambiguity range each, and its waveform as a setup writes it") {
+  Sensor sensor = small_sensor();
+  sensor.modulation_hz = {20e6, 30e6};
+  sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.1}};
+  const auto frame =
+      manifest_json({"render", "device", "driver", "exact", {}, {{sensor, 0, 1.0, {}, {}}}})["frames"][0];
+  CHECK(frame["modulation_hz"] == nlohmann::json{20e6, 30e6});
+  CHECK(frame["ambiguity_m"].at(1).get<double>() == Approx(299792458.0 / 60e6));
+  CHECK(frame["waveform"]["harmonics"] == nlohmann::json{1.0, 0.1});
+  CHECK(waveform_json({Waveform::Kind::square, {}}) == "square");
 }
 
 TEST_CASE("NaN is null in JSON") {

@@ -56,6 +56,19 @@ TEST_CASE("the profile's table holds the middle row") {
         std::vector<std::string>{"column,x_m,angle_deg,z_m,object_id", "0,-1,-45,3,7", "1,1,45,nan,8"});
 }
 
+TEST_CASE("the profile's angles are those of the lens's rays, and its channels carry their frequency") {
+  Sensor sensor;
+  sensor.resolution = {2, 1};
+  sensor.pixel_pitch_m = {2.0, 1.0};
+  sensor.focal_length_m = 1.0;
+  sensor.distortion = Fisheye{}; // the angle itself is the place: 1 m from the axis is 1 rad
+  const std::vector<float> distance{1.f, 2.f};
+  const ChannelSet channels{{2, 1}, {{"distance_m", "m", std::span(distance), 1}}};
+  const std::vector<std::string> lines = profile_lines(channels, sensor);
+  CHECK(lines.at(0) == "column,x_m,angle_deg,f1.distance_m");
+  CHECK(std::stod(lines.at(2).substr(4)) == Approx(180.0 / 3.14159265358979));
+}
+
 TEST_CASE("a profile is a line with gaps") {
   constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> values(100);

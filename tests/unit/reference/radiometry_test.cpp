@@ -109,6 +109,24 @@ TEST_CASE("the light's own pose turns positions and axes") {
         Approx(std::cos(std::numbers::pi / 4) / 2).epsilon(1e-6));
 }
 
+TEST_CASE("vignetting takes the fourth power of the cosine from what is off the axis") {
+  Sensor sensor;
+  sensor.resolution = {5, 5};
+  sensor.pixel_pitch_m = glm::dvec2(0.05);
+  sensor.focal_length_m = 0.1;
+  const Illuminator light = monostatic_illuminator(sensor.world_from_camera);
+  const auto plain = reference::simulate(wall_at(2), sensor, light, Backscatter::lambert);
+  sensor.vignetting = Vignetting::cos4;
+  const auto vignetted = reference::simulate(wall_at(2), sensor, light, Backscatter::lambert);
+  for (std::size_t pixel = 0; pixel < 25; ++pixel) {
+    const double cosine = 2 / plain.range_m[pixel];
+    CHECK(vignetted.returns[0].amplitude[pixel] ==
+          Approx(plain.returns[0].amplitude[pixel] * std::pow(cosine, 4)).epsilon(1e-13));
+    CHECK(vignetted.returns[0].phase_rad[pixel] == Approx(plain.returns[0].phase_rad[pixel]).epsilon(1e-14));
+    CHECK(vignetted.range_m[pixel] == plain.range_m[pixel]);
+  }
+}
+
 TEST_CASE("the frame of many diodes is the sum of their frames") {
   Random random(11);
   const Pose world_from_camera = random.pose(3);

@@ -25,9 +25,10 @@ TEST_CASE("a compensated sum keeps what a plain one loses") {
 }
 
 TEST_CASE("phase and distance stay below their range's end when rounded to float") {
-  reference::Frame frame = reference::dark_frame(axial_sensor());
-  reference::PixelSums sums;
-  sums.z.add(std::polar(1.0, -GENERATE(1e-8, 1e-15, 1e-17, 1e-300)));
+  const Sensor sensor = axial_sensor();
+  reference::Frame frame = reference::dark_frame(sensor);
+  reference::PixelSums sums(sensor);
+  sums.returns[0].add({{-2 * sensor.ambiguity_m() * GENERATE(1e-9, 1e-16, 1e-18, 1e-300), 1.0}});
   reference::set_channels(frame, 0, sums, 1);
   CHECK(frame.returns[0].phase_rad[0] < 2 * std::numbers::pi);
   CHECK(frame.returns[0].distance_m[0] < frame.returns[0].ambiguity_m);
@@ -42,15 +43,25 @@ TEST_CASE("phase and distance stay below their range's end when rounded to float
 TEST_CASE("a frame is rounded channel by channel") {
   Sensor sensor = axial_sensor({2, 1});
   sensor.pixel_pitch_m = glm::dvec2(0.5);
+  sensor.modulation_hz = {20e6, 70e6};
+  sensor.taps = 3;
   SceneBuilder builder;
   builder.add_wall({2, {0.3}, {-9, -9}, {0, 9}});
   const auto frame = reference::simulate(
       builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::lambert);
   const Measurement measurement = reference::to_measurement(frame);
   CHECK(measurement.resolution == sensor.resolution);
-  CHECK(measurement.returns[0].amplitude[0] == static_cast<float>(frame.returns[0].amplitude[0]));
-  CHECK(measurement.returns[0].phase_rad[0] == static_cast<float>(frame.returns[0].phase_rad[0]));
-  CHECK(measurement.returns[0].distance_m[0] == static_cast<float>(frame.returns[0].distance_m[0]));
+  REQUIRE(measurement.returns.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Return &rounded = measurement.returns[i];
+    const reference::FrameReturn &exact = frame.returns[i];
+    CHECK(rounded.amplitude[0] == static_cast<float>(exact.amplitude[0]));
+    CHECK(rounded.phase_rad[0] == static_cast<float>(exact.phase_rad[0]));
+    CHECK(rounded.distance_m[0] == static_cast<float>(exact.distance_m[0]));
+    REQUIRE(rounded.taps.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(rounded.taps[k] == std::vector<float>{static_cast<float>(exact.taps[k][0]), 0});
+  }
   CHECK(measurement.range_m[0] == static_cast<float>(frame.range_m[0]));
   CHECK(measurement.z_m[0] == static_cast<float>(frame.z_m[0]));
   CHECK(measurement.coverage == std::vector<float>{1, 0});

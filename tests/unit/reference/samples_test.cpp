@@ -27,14 +27,15 @@ reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
 
 // One small triangle around each of the points where the rays of an S x S grid of samples cross z = 1, in row
 // order.
-Scene target_per_sample(std::uint32_t samples) {
+Scene target_per_sample(std::uint32_t samples, const glm::dvec2 &fill_factor = glm::dvec2(1)) {
   SceneBuilder builder;
   for (std::uint32_t row = 0; row < samples; ++row)
     for (std::uint32_t column = 0; column < samples; ++column) {
-      const glm::dvec3 centre((column + 0.5) / samples - 0.5, (row + 0.5) / samples - 0.5, 1.0);
-      const double size = 0.2 / samples;
-      builder.add_triangle(centre + glm::dvec3(-size, -size, 0), centre + glm::dvec3(-size, size, 0),
-                           centre + glm::dvec3(2 * size, 0, 0));
+      const glm::dvec3 centre(fill_factor.x * ((column + 0.5) / samples - 0.5),
+                              fill_factor.y * ((row + 0.5) / samples - 0.5), 1.0);
+      const glm::dvec2 size = 0.2 / samples * fill_factor;
+      builder.add_triangle(centre + glm::dvec3(-size.x, -size.y, 0), centre + glm::dvec3(-size.x, size.y, 0),
+                           centre + glm::dvec3(2 * size.x, 0, 0));
     }
   return builder.scene();
 }
@@ -48,6 +49,28 @@ TEST_CASE("samples lie at ((k + 1/2) / S - 1/2) pixels from the centre, columns 
   for (std::uint32_t k = 0; k < samples * samples; ++k)
     CHECK(frame.sample_triangle_id[k] == k);
   CHECK(frame.coverage[0] == 1);
+}
+
+TEST_CASE("a fill factor draws the samples together about the pixel's centre") {
+  const std::uint32_t samples = GENERATE(1u, 2u, 5u);
+  const glm::dvec2 fill_factor = GENERATE(glm::dvec2(0.5, 0.5), glm::dvec2(0.9, 0.3));
+  Sensor sensor = one_wide_pixel(samples);
+  sensor.fill_factor = fill_factor;
+  const auto frame = monostatic_frame(target_per_sample(samples, fill_factor), sensor);
+  for (std::uint32_t k = 0; k < samples * samples; ++k)
+    CHECK(frame.sample_triangle_id[k] == k);
+}
+
+TEST_CASE("a pixel's dead area sees nothing and takes nothing from the mean") {
+  Sensor sensor = one_wide_pixel(4);
+  sensor.pixel_pitch_m = glm::dvec2(1e-6);
+  sensor.fill_factor = {0.5, 1};
+  SceneBuilder active_half, dead_half;
+  active_half.add_wall({1, {}, {-0.25e-5, -1}, {0.25e-5, 1}});
+  dead_half.add_wall({1, {}, {-1, -1}, {-0.25e-5, 1}});
+  dead_half.add_wall({1, {}, {0.25e-5, -1}, {1, 1}});
+  CHECK(monostatic_frame(active_half.scene(), sensor).returns[0].amplitude[0] == Approx(1).epsilon(1e-9));
+  CHECK(monostatic_frame(dead_half.scene(), sensor).returns[0].amplitude[0] == 0);
 }
 
 TEST_CASE("ids are those of the sample nearest the centre, up and left where several are") {

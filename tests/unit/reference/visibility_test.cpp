@@ -6,6 +6,7 @@
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -86,6 +87,35 @@ Scene bumpy_sheet(Random &random, std::uint32_t n) {
   return builder.scene();
 }
 
+// A closed, bumpy ball about the lens, of 4 n (n - 1) triangles that share their vertices, with a random
+// radius at each; its poles on the optical axis.
+Scene bumpy_ball(Random &random, std::uint32_t n) {
+  const std::uint32_t columns = 2 * n, south = (n - 1) * columns, north = south + 1;
+  std::vector<glm::dvec3> corners_m;
+  for (std::uint32_t ring = 1; ring < n; ++ring)
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const double polar_rad = std::numbers::pi * ring / n, turn_rad = std::numbers::pi * column / n;
+      corners_m.push_back(random.uniform(1.9, 2.1) * glm::dvec3(std::sin(polar_rad) * std::cos(turn_rad),
+                                                                std::sin(polar_rad) * std::sin(turn_rad),
+                                                                std::cos(polar_rad)));
+    }
+  corners_m.insert(corners_m.end(), {{0, 0, -2}, {0, 0, 2}});
+
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (std::uint32_t column = 0; column < columns; ++column) {
+    const std::uint32_t next = (column + 1) % columns, last_ring = south - columns;
+    faces.push_back({north, column, next});
+    faces.push_back({south, last_ring + column, last_ring + next});
+    for (std::uint32_t ring = 0; ring < last_ring; ring += columns) {
+      faces.push_back({ring + column, ring + next, ring + columns + next});
+      faces.push_back({ring + column, ring + columns + next, ring + columns + column});
+    }
+  }
+  SceneBuilder builder;
+  builder.add_mesh(corners_m, faces, {1.0, true});
+  return builder.scene();
+}
+
 // Counter-clockwise seen from outside, about the origin.
 const std::vector<glm::dvec3> tetrahedron_corners{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 const std::vector<std::array<std::uint32_t, 3>> tetrahedron_faces{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
@@ -111,6 +141,27 @@ TEST_CASE("the nearest triangle is the one that a search over all of them finds"
   const std::uint32_t seed = GENERATE(1u, 2u, 3u, 4u);
   Random random(seed);
   check_against_all(triangles_of(random_triangles(random, 300, node_from_camera())), random, 20000);
+}
+
+TEST_CASE("rays to all sides find the triangle that a search over all of them finds") {
+  Random random(12);
+  SceneBuilder builder;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 centre_m = random.uniform(1, 3) * random.unit_vector();
+    builder.add_triangle(centre_m + 0.5 * random.unit_vector(), centre_m + 0.5 * random.unit_vector(),
+                         centre_m + 0.5 * random.unit_vector(), {1.0, random.flip()});
+  }
+  const auto triangles = triangles_of(builder.scene());
+  const RayCaster caster(triangles);
+  int hits = 0, disagreements = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 direction = random.unit_vector();
+    const auto hit = caster.nearest(direction);
+    hits += hit.has_value();
+    disagreements += (hit ? hit->triangle : no_id) != nearest_of_all(direction, triangles);
+  }
+  CHECK(hits > 5000);
+  CHECK(disagreements == 0);
 }
 
 TEST_CASE("close stacks of triangles are told apart in double precision") {
@@ -149,6 +200,27 @@ TEST_CASE("rays through shared edges and vertices always hit") {
       misses += !on_border && !caster.nearest(glm::normalize(on_edge));
       misses += std::max(std::abs(from.x), std::abs(from.y)) < 0.4999 * from.z &&
                 !caster.nearest(glm::normalize(from));
+    }
+  CHECK(misses == 0);
+}
+
+TEST_CASE("no ray to any side leaves a closed body through an edge or a vertex") {
+  Random random(13);
+  const auto triangles = triangles_of(bumpy_ball(random, 24));
+  const RayCaster caster(triangles);
+  int misses = 0;
+  for (const CameraTriangle &triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3 &from = triangle.corners_m[i], &to = triangle.corners_m[(i + 1) % 3];
+      misses += !caster.nearest(glm::normalize(from));
+      for (int along_edge = 0; along_edge < 5; ++along_edge)
+        misses += !caster.nearest(glm::normalize(glm::mix(from, to, random.uniform(0, 1))));
+    }
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      glm::dvec3 direction(0);
+      direction[axis] = sign;
+      misses += !caster.nearest(direction);
     }
   CHECK(misses == 0);
 }

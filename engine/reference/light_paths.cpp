@@ -1,7 +1,6 @@
-#include "engine/reference/path_sum.h"
+#include "engine/reference/light_paths.h"
 
-#include "engine/sensor.h"
-
+#include <cmath>
 #include <numbers>
 
 namespace pmdsim::reference {
@@ -21,29 +20,25 @@ double pattern_gain(const Pattern &pattern, double cos_theta) {
   return cos_theta > 0 ? std::pow(cos_theta, pattern.order) : 0.0;
 }
 
-// Whole turns are taken off before 2 pi multiplies, so a long path costs no more than its own rounding.
-double phase_of_path_rad(double path_m, double modulation_hz) {
-  const double turns = path_m * (modulation_hz / speed_of_light_m_s);
-  return 2.0 * std::numbers::pi * (turns - std::floor(turns));
-}
-
 } // namespace
 
-void add_paths(ComplexSum &z, const SurfacePoint &point, const std::vector<Diode> &diodes,
-               Backscatter backscatter, double modulation_hz) {
+std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Diode> &diodes,
+                                   Backscatter backscatter) {
+  std::vector<LightPath> paths;
+  paths.reserve(diodes.size());
   const double lens_range_m = glm::length(point.position_m);
   for (const Diode &diode : diodes) {
     const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
     const double diode_range_m = glm::length(to_diode_m);
     const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
     const double cos_theta = -glm::dot(diode.axis, to_diode_m) / diode_range_m;
-    const double returned_w_sr2 = backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
+    const double returned_w_sr2 = point.lens_gain *
+                                  backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
                                   diode.intensity_w_sr * pattern_gain(diode.pattern, cos_theta);
-    if (returned_w_sr2 == 0)
-      continue;
-    z.add(std::polar(returned_w_sr2 / (diode_range_m * diode_range_m),
-                     phase_of_path_rad(diode_range_m + lens_range_m, modulation_hz)));
+    if (returned_w_sr2 != 0)
+      paths.push_back({diode_range_m + lens_range_m, returned_w_sr2 / (diode_range_m * diode_range_m)});
   }
+  return paths;
 }
 
 } // namespace pmdsim::reference

@@ -1,0 +1,32 @@
+#pragma once
+// The search pass, which stands for the points pass where the lens distorts: for every sample its exact ray,
+// by the inverse lens model, and the nearest triangle that the fragments around it see.
+
+#include "engine/passes/camera_scene.h"
+#include "engine/passes/strip_buffers.h"
+#include "engine/scene.h"
+#include "engine/sensor.h"
+#include "engine/simulator_options.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+namespace pmdsim {
+
+class SearchPass {
+public:
+  // `surfaces`: whether the sum asks for normals and heights.
+  SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
+             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
+             SamplePrecision precision);
+
+  // `planes` holds the TrianglePlane of each of the scene's triangles, with ranges along the ray.
+  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+              const StripBuffers &buffers, const vulkan::Buffer &planes) const;
+
+private:
+  vulkan::Buffer lens_;
+  vulkan::Buffer views_; // RasterView of each block
+  vulkan::Buffer corners_;
+  vulkan::ComputePipeline pipeline_;
+};
+
+} // namespace pmdsim

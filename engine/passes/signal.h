@@ -1,0 +1,40 @@
+#pragma once
+// How a sensor's modulation is summed: the planes of the sum (shaders/interface.h) and the channels that come
+// of them.
+
+#include "engine/sensor.h"
+#include "engine/simulator_options.h"
+#include "engine/vulkan/buffer.h"
+#include "shaders/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+struct Signal {
+  std::uint32_t waveform;      // shader::waveform_*
+  std::uint32_t taps;          // N
+  std::uint32_t distinct_taps; // that are summed where the waveform is square, else 1
+  std::uint32_t planes;        // of the sum, of each frequency
+  std::uint32_t tones;         // of each frequency, all multiples of it: the harmonics, else 1
+  bool keep_taps;              // the taps are channels, too
+  bool by_moments;             // one dispatch sums all tones of all frequencies by moments; else one each
+  std::vector<double> modulation_hz; // the frequencies
+  std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
+
+  std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
+  std::uint32_t sum_planes() const { return planes * frequencies(); }
+  std::uint32_t channels_of_frequency() const { return shader::channel_first_tap + (keep_taps ? taps : 0); }
+  std::uint32_t first_channel(std::uint32_t frequency) const {
+    return shader::truth_channels + frequency * channels_of_frequency();
+  }
+  std::uint32_t channels() const { return first_channel(frequencies()); }
+  // 2 pi f / c of the highest tone, rad/m.
+  double largest_wavenumber_rad_m() const;
+  // Frequency by frequency, the harmonics of each in order.
+  std::vector<shader::Tone> all_tones() const;
+};
+
+Signal signal_of(const Sensor &sensor, const SimulatorOptions &options);
+
+} // namespace pmdsim

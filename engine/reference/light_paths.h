@@ -1,0 +1,29 @@
+#pragma once
+// The terms of the paper's eq. 5 to 7: the ways that light takes from the diodes through one point of the
+// scene to the lens.
+
+#include "engine/illuminator.h"
+#include "engine/scene.h"
+
+#include <vector>
+
+namespace pmdsim::reference {
+
+// A point that the lens sees, camera frame.
+struct SurfacePoint {
+  glm::dvec3 position_m;
+  glm::dvec3 normal; // unit length, turned to the lens
+  double reflectivity;
+  double lens_gain; // what vignetting leaves of its light
+};
+
+struct LightPath {
+  double length_m;       // r_nm + r_n
+  double weight_w_m2_sr; // lens_gain * B * I * J / r_nm^2
+};
+
+// Of every diode (camera frame) whose light returns through `point`.
+std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Diode> &diodes,
+                                   Backscatter backscatter);
+
+} // namespace pmdsim::reference

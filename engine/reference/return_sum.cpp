@@ -1,0 +1,76 @@
+#include "engine/reference/return_sum.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace pmdsim::reference {
+
+namespace {
+
+constexpr double full_turn_rad = 2.0 * std::numbers::pi;
+
+// Whole turns are taken off before anything multiplies, so a long path costs no more than its own rounding.
+double fraction(double turns) { return turns - std::floor(turns); }
+
+double triangle_wave(double turns) { return std::abs(4.0 * fraction(turns) - 2.0) - 1.0; }
+
+double harmonic_sum(const std::vector<double> &amplitudes, double turns) {
+  const double phase_rad = full_turn_rad * fraction(turns);
+  double sum = 0.0, harmonic = 1.0;
+  for (const double amplitude : amplitudes) {
+    sum += amplitude * std::cos(harmonic * phase_rad);
+    harmonic += 1.0;
+  }
+  return sum;
+}
+
+double reference_turns(std::uint32_t tap, std::uint32_t taps) { return static_cast<double>(tap) / taps; }
+
+} // namespace
+
+double correlation(const Waveform &waveform, double turns) {
+  switch (waveform.kind) {
+  case Waveform::Kind::square:
+    return triangle_wave(turns);
+  case Waveform::Kind::harmonics:
+    return harmonic_sum(waveform.harmonics, turns);
+  case Waveform::Kind::sine:
+    break;
+  }
+  return std::cos(full_turn_rad * fraction(turns));
+}
+
+ReturnSum::ReturnSum(const Sensor &sensor, double modulation_hz)
+    : sensor_(&sensor), turns_per_m_(modulation_hz / speed_of_light_m_s), taps_(is_sine() ? 0 : sensor.taps) {
+}
+
+void ReturnSum::add(const std::vector<LightPath> &paths) {
+  if (is_sine())
+    for (const auto &[length_m, weight_w_m2_sr] : paths)
+      phasors_.add(std::polar(weight_w_m2_sr, full_turn_rad * fraction(length_m * turns_per_m_)));
+  for (std::uint32_t k = 0; k < taps_.size(); ++k)
+    for (const auto &[length_m, weight_w_m2_sr] : paths) {
+      const double turns = fraction(length_m * turns_per_m_) - reference_turns(k, sensor_->taps);
+      taps_[k].add(weight_w_m2_sr * correlation(sensor_->waveform, turns));
+    }
+}
+
+std::complex<double> ReturnSum::z() const {
+  if (is_sine())
+    return phasors_.value();
+  ComplexSum sum;
+  for (std::uint32_t k = 0; k < taps_.size(); ++k)
+    sum.add(taps_[k].value() * std::polar(1.0, full_turn_rad * reference_turns(k, sensor_->taps)));
+  return 2.0 / sensor_->taps * sum.value();
+}
+
+double ReturnSum::tap(std::uint32_t k) const {
+  if (!is_sine())
+    return taps_[k].value();
+  const std::complex<double> sum = phasors_.value();
+  if (sum == 0.0)
+    return 0.0; // which the product could make -0
+  return std::real(sum * std::polar(1.0, -full_turn_rad * reference_turns(k, sensor_->taps)));
+}
+
+} // namespace pmdsim::reference

@@ -1,0 +1,56 @@
+#pragma once
+// What follows from a setup before anything is measured.
+
+#include "host/commands/field_of_view.h"
+#include "host/input/setup.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// Of one modulation frequency.
+struct AmbiguityFinding {
+  double modulation_hz, ambiguity_m;
+  double share_beyond; // of the rays that see something, those that see it beyond the ambiguity range, 0 to 1
+};
+
+// Distances from the lens; NaN where nothing is visible.
+struct VisibleRange {
+  double min_m = std::numeric_limits<double>::quiet_NaN();
+  double max_m = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_empty() const { return std::isnan(min_m); }
+};
+
+struct SensorFindings {
+  Sensor sensor;
+  FieldOfView view;
+  VisibleRange visible;
+  std::vector<AmbiguityFinding> frequencies;
+  std::optional<double> common_ambiguity_m; // of all frequencies together
+};
+
+struct Findings {
+  std::size_t triangles, diodes;
+  double intensity_w_sr; // of all diodes together, each on its axis, modulated part
+  double power_w;        // of all diodes together over all directions, modulated part
+  std::vector<SensorFindings> sensors;
+};
+
+Findings findings_of(const Setup &setup);
+
+// Beyond what loading the setup has warned of already, one line each.
+std::vector<std::string> warnings_of(const Findings &findings);
+
+// Its intensity over all directions: 4 pi I of an isotropic diode, 2 pi I / (n + 1) of a cosine's order n.
+double diode_power_w(const Diode &diode);
+
+// c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers
+// of hertz.
+std::optional<double> common_ambiguity_m(const std::vector<double> &modulation_hz);
+
+} // namespace pmdsim

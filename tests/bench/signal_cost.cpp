@@ -1,0 +1,93 @@
+// What frequencies and waveforms cost: the accumulate pass on scenes/paper_ring, in alternation, warm. Not a
+// test: times are reported, never asserted. Each variant is compared with the reference before it is timed.
+
+#include "engine/reference/reference.h"
+#include "engine/simulator.h"
+#include "host/input/setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+using namespace pmdsim;
+
+namespace {
+
+constexpr int rounds = 9;
+
+struct Variant {
+  std::string name;
+  std::vector<double> modulation_hz;
+  Waveform waveform;
+  DiodeSum sum;
+  std::size_t base; // the variant that this one's cost is stated in
+};
+
+const std::vector<Variant> variants{
+    {"sine, 20 MHz", {20e6}, {}, DiodeSum::automatic, 0},
+    {"sine, 100 MHz", {100e6}, {}, DiodeSum::automatic, 0},
+    {"sine, 20, 60 and 100 MHz", {20e6, 60e6, 100e6}, {}, DiodeSum::automatic, 0},
+    {"three harmonics of 20 MHz", {20e6}, {Waveform::Kind::harmonics, {1, 0, 0.1}}, DiodeSum::automatic, 0},
+    {"sine, 20 MHz, without moments", {20e6}, {}, DiodeSum::direct, 4},
+    {"square, 20 MHz, 4 taps, without moments", {20e6}, {Waveform::Kind::square, {}}, DiodeSum::automatic, 4},
+};
+
+double largest_error_m(const Variant &variant, const Setup &setup, Sensor sensor) {
+  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / 64.0;
+  sensor.resolution = {64, 64};
+  const reference::Frame truth =
+      reference::simulate(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  Simulator simulator({.device = {}, .sum = variant.sum});
+  simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  const Measurement found = simulator.measure();
+  double error_m = 0.0;
+  for (std::size_t f = 0; f < truth.returns.size(); ++f)
+    for (std::size_t pixel = 0; pixel < sensor.pixel_count(); ++pixel)
+      error_m = std::max(error_m, std::abs(std::remainder(found.returns[f].distance_m[pixel] -
+                                                              truth.returns[f].distance_m[pixel],
+                                                          sensor.ambiguity_m(f))));
+  return error_m;
+}
+
+double accumulate_ms(const Measurement &measurement) {
+  for (const PassTime &pass : measurement.passes)
+    if (pass.name == "accumulate")
+      return pass.ms;
+  return std::nan("");
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + rounds / 2, values.end());
+  return values[rounds / 2];
+}
+
+} // namespace
+
+int main() {
+  const Setup setup = load_setup(PMDSIM_SCENES "/paper_ring.json");
+  std::vector<Simulator> simulators;
+  std::vector<std::vector<double>> times_ms(variants.size());
+  std::vector<double> errors_m;
+  for (const Variant &variant : variants) {
+    Sensor sensor = setup.sensors[0];
+    sensor.modulation_hz = variant.modulation_hz;
+    sensor.waveform = variant.waveform;
+    errors_m.push_back(largest_error_m(variant, setup, sensor));
+    simulators.emplace_back(SimulatorOptions{.device = {}, .sum = variant.sum})
+        .prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  }
+  for (int round = -1; round < rounds; ++round) // the first is for warming up
+    for (std::size_t i = 0; i < variants.size(); ++i)
+      if (const double ms = accumulate_ms(simulators[i].measure()); round >= 0)
+        times_ms[i].push_back(ms);
+  fmt::print("{}, {} x {} pixels, {} diodes, {} rounds\n", simulators[0].device().name,
+             setup.sensors[0].resolution.x, setup.sensors[0].resolution.y,
+             setup.illuminators[0].diodes.size(), rounds);
+  fmt::print("{:<42}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "accumulate pass, ms", "median", "min", "max", "times",
+             "error um");
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    fmt::print("{:<42}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>12.3f}\n", variants[i].name, median(times_ms[i]),
+               *std::ranges::min_element(times_ms[i]), *std::ranges::max_element(times_ms[i]),
+               median(times_ms[i]) / median(times_ms[variants[i].base]), 1e6 * errors_m[i]);
+}
