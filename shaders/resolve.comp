@@ -114,8 +114,8 @@ vec2 demodulate(float tap[taps]) {
   return z * (2.0 / float(taps));
 }
 
+// `turns` in [-1, 1].
 void store_phase(uint pixel, Real turns) {
-  turns = add(turns, negate(round_to_whole(turns)));
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
   Real two_pi = real(6.2831855, -1.7484555e-7);
