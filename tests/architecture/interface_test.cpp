@@ -1,127 +1,178 @@
-// shaders/interface.h is read by GLSL and by C++: both must lay its structs out alike. The offsets that the
-// compiled shaders carry are compared with the compiler's.
+// shaders/interface.h is read by GLSL and by C++: both must lay its structs out alike. Every member of every
+// struct that a compiled shader carries is compared with the compiler's.
 
 #include "shaders/interface.h"
+#include "spirv/accumulate_direct_looped_double_float.h"
+#include "spirv/accumulate_direct_looped_fp64.h"
+#include "spirv/accumulate_direct_straight_double_float.h"
+#include "spirv/accumulate_direct_straight_fp64.h"
+#include "spirv/accumulate_looped_double_float.h"
+#include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
+#include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
+#include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
+#include "spirv/search_double_float.h"
+#include "spirv/search_fp64.h"
 #include "spirv/visibility_frag.h"
+#include "spirv/visibility_vert.h"
+#include "tests/architecture/spirv_layout.h"
 
 #include <catch2/catch.hpp>
-#include <cstddef>
 #include <map>
-#include <span>
-#include <string>
+#include <set>
+
+using namespace pmdsim::shader;
+using namespace pmdsim::test;
 
 namespace {
 
-using namespace pmdsim::shader;
+struct HostLayout {
+  std::size_t bytes;
+  std::vector<Member> members; // all of them: a shader's must be the same
+};
 
-constexpr std::uint32_t op_name = 5, op_member_name = 6, op_member_decorate = 72, decoration_offset = 35;
+#define MEMBER(Struct, member)                                                                               \
+  { #member, offsetof(Struct, member), sizeof(Struct::member) }
 
-// "Struct.member" to its byte offset, of every struct in a SPIR-V module (Khronos' SPIR-V specification,
-// section 3).
-std::map<std::string, std::uint32_t> offsets_in(std::span<const std::uint32_t> module) {
-  std::map<std::uint32_t, std::string> structs;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
-  std::map<std::string, std::uint32_t> offsets;
-  const auto text = [](const std::uint32_t *words) {
-    return std::string(reinterpret_cast<const char *>(words));
-  };
-  for (std::size_t at = 5; at < module.size(); at += module[at] >> 16) {
-    const std::uint32_t *word = &module[at];
-    switch (*word & 0xffffu) {
-    case op_name:
-      structs[word[1]] = text(word + 2);
-      break;
-    case op_member_name:
-      members[{word[1], word[2]}] = text(word + 3);
-      break;
-    case op_member_decorate:
-      if (word[3] == decoration_offset)
-        offsets[structs[word[1]] + "." + members[{word[1], word[2]}]] = word[4];
-      break;
-    default:
-      break;
-    }
-  }
-  return offsets;
+const std::map<std::string, HostLayout> chip_and_lens{
+    {"ChipPlace",
+     {sizeof(ChipPlace),
+      {MEMBER(ChipPlace, origin_hi), MEMBER(ChipPlace, origin_lo), MEMBER(ChipPlace, half_column_hi),
+       MEMBER(ChipPlace, half_column_lo), MEMBER(ChipPlace, half_row_hi), MEMBER(ChipPlace, half_row_lo),
+       MEMBER(ChipPlace, half_step_x_hi), MEMBER(ChipPlace, half_step_x_lo),
+       MEMBER(ChipPlace, half_step_y_hi), MEMBER(ChipPlace, half_step_y_lo)}}},
+    {"LensModel",
+     {sizeof(LensModel),
+      {MEMBER(LensModel, chip), MEMBER(LensModel, radial_hi), MEMBER(LensModel, radial_lo),
+       MEMBER(LensModel, tangential), MEMBER(LensModel, guesses_per_radius), MEMBER(LensModel, padding_1),
+       MEMBER(LensModel, padding_2), MEMBER(LensModel, padding_3)}}},
+    {"RasterView",
+     {sizeof(RasterView),
+      {MEMBER(RasterView, x), MEMBER(RasterView, y), MEMBER(RasterView, z), MEMBER(RasterView, columns),
+       MEMBER(RasterView, rows), MEMBER(RasterView, padding_1), MEMBER(RasterView, padding_2)}}},
+};
+
+const std::map<std::string, HostLayout> scene_and_light{
+    {"TrianglePlane",
+     {sizeof(TrianglePlane),
+      {MEMBER(TrianglePlane, plane_hi), MEMBER(TrianglePlane, plane_lo), MEMBER(TrianglePlane, backscatter),
+       MEMBER(TrianglePlane, object), MEMBER(TrianglePlane, along_min), MEMBER(TrianglePlane, along_max)}}},
+    {"TriangleCorners",
+     {sizeof(TriangleCorners),
+      {MEMBER(TriangleCorners, hi), MEMBER(TriangleCorners, lo), MEMBER(TriangleCorners, beyond),
+       MEMBER(TriangleCorners, padding)}}},
+    {"GroupDiode",
+     {sizeof(GroupDiode),
+      {MEMBER(GroupDiode, position), MEMBER(GroupDiode, axis), MEMBER(GroupDiode, intensity),
+       MEMBER(GroupDiode, order), MEMBER(GroupDiode, padding)}}},
+    {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, padding)}}},
+};
+
+const std::map<std::string, HostLayout> constants_until_points{
+    {"Strip",
+     {sizeof(Strip),
+      {MEMBER(Strip, column), MEMBER(Strip, row), MEMBER(Strip, columns), MEMBER(Strip, rows),
+       MEMBER(Strip, resolution_x), MEMBER(Strip, resolution_y), MEMBER(Strip, samples),
+       MEMBER(Strip, padded_pixels), MEMBER(Strip, tiles)}}},
+    {"VisibilityConstants",
+     {sizeof(VisibilityConstants),
+      {MEMBER(VisibilityConstants, shift), MEMBER(VisibilityConstants, tile_x),
+       MEMBER(VisibilityConstants, tile_y), MEMBER(VisibilityConstants, column),
+       MEMBER(VisibilityConstants, row), MEMBER(VisibilityConstants, resolution_x),
+       MEMBER(VisibilityConstants, fragments_per_pixel_side)}}},
+    {"PointsConstants",
+     {sizeof(PointsConstants),
+      {MEMBER(PointsConstants, strip), MEMBER(PointsConstants, padding_1), MEMBER(PointsConstants, padding_2),
+       MEMBER(PointsConstants, padding_3), MEMBER(PointsConstants, slope), MEMBER(PointsConstants, chip),
+       MEMBER(PointsConstants, tags), MEMBER(PointsConstants, planes), MEMBER(PointsConstants, position_hi),
+       MEMBER(PointsConstants, position_lo), MEMBER(PointsConstants, surface),
+       MEMBER(PointsConstants, backscatter)}}},
+    {"SearchConstants",
+     {sizeof(SearchConstants),
+      {MEMBER(SearchConstants, strip), MEMBER(SearchConstants, padding), MEMBER(SearchConstants, lens),
+       MEMBER(SearchConstants, view), MEMBER(SearchConstants, fragments), MEMBER(SearchConstants, planes),
+       MEMBER(SearchConstants, corners), MEMBER(SearchConstants, tags), MEMBER(SearchConstants, position_hi),
+       MEMBER(SearchConstants, position_lo), MEMBER(SearchConstants, surface),
+       MEMBER(SearchConstants, backscatter)}}},
+};
+
+const std::map<std::string, HostLayout> constants_of_the_sum{
+    {"AccumulateConstants",
+     {sizeof(AccumulateConstants),
+      {MEMBER(AccumulateConstants, position_hi), MEMBER(AccumulateConstants, position_lo),
+       MEMBER(AccumulateConstants, surface), MEMBER(AccumulateConstants, backscatter),
+       MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, diodes),
+       MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
+       MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
+       MEMBER(AccumulateConstants, reference_lo)}}},
+    {"ResolveConstants",
+     {sizeof(ResolveConstants),
+      {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),
+       MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags), MEMBER(ResolveConstants, planes),
+       MEMBER(ResolveConstants, channels), MEMBER(ResolveConstants, harmonics),
+       MEMBER(ResolveConstants, turns_per_m), MEMBER(ResolveConstants, ambiguity_m),
+       MEMBER(ResolveConstants, limits), MEMBER(ResolveConstants, amplitude_scale),
+       MEMBER(ResolveConstants, columns), MEMBER(ResolveConstants, samples),
+       MEMBER(ResolveConstants, padded_pixels), MEMBER(ResolveConstants, pixels),
+       MEMBER(ResolveConstants, tiles), MEMBER(ResolveConstants, plane),
+       MEMBER(ResolveConstants, first_channel)}}},
+};
+
+std::map<std::string, HostLayout> host_layouts() {
+  std::map<std::string, HostLayout> all;
+  for (const auto &some : {chip_and_lens, scene_and_light, constants_until_points, constants_of_the_sum})
+    all.insert(some.begin(), some.end());
+  return all;
 }
 
-#define CHECK_OFFSET(offsets, Struct, member)                                                                \
-  do {                                                                                                       \
-    INFO(#Struct "." #member);                                                                               \
-    REQUIRE((offsets).contains(#Struct "." #member));                                                        \
-    CHECK((offsets).at(#Struct "." #member) == offsetof(Struct, member));                                    \
-  } while (false)
+struct Shader {
+  std::string name;
+  std::span<const std::uint32_t> spirv;
+};
+
+const std::vector<Shader> shaders{
+    {"visibility.vert", visibility_vert_spirv},
+    {"visibility.frag", visibility_frag_spirv},
+    {"points, fp64", points_fp64_spirv},
+    {"points, float pairs", points_double_float_spirv},
+    {"search, fp64", search_fp64_spirv},
+    {"search, float pairs", search_double_float_spirv},
+    {"accumulate, straight, fp64", accumulate_straight_fp64_spirv},
+    {"accumulate, straight, float pairs", accumulate_straight_double_float_spirv},
+    {"accumulate, looped, fp64", accumulate_looped_fp64_spirv},
+    {"accumulate, looped, float pairs", accumulate_looped_double_float_spirv},
+    {"accumulate direct, straight, fp64", accumulate_direct_straight_fp64_spirv},
+    {"accumulate direct, straight, float pairs", accumulate_direct_straight_double_float_spirv},
+    {"accumulate direct, looped, fp64", accumulate_direct_looped_fp64_spirv},
+    {"accumulate direct, looped, float pairs", accumulate_direct_looped_double_float_spirv},
+    {"resolve, fp64", resolve_fp64_spirv},
+    {"resolve, float pairs", resolve_double_float_spirv},
+};
 
 } // namespace
 
-TEST_CASE("structs of the points and visibility passes") {
-  const auto offsets = offsets_in(points_fp64_spirv);
-  for (const auto &from : {offsets, offsets_in(visibility_frag_spirv)}) {
-    CHECK_OFFSET(from, Strip, column);
-    CHECK_OFFSET(from, Strip, row);
-    CHECK_OFFSET(from, Strip, columns);
-    CHECK_OFFSET(from, Strip, rows);
-    CHECK_OFFSET(from, Strip, resolution_y);
-    CHECK_OFFSET(from, Strip, resolution_x);
-    CHECK_OFFSET(from, Strip, samples);
-    CHECK_OFFSET(from, Strip, padded_pixels);
-  }
-  CHECK_OFFSET(offsets, PointsConstants, slope);
-  CHECK_OFFSET(offsets, PointsConstants, tags);
-  CHECK_OFFSET(offsets, PointsConstants, planes);
-  CHECK_OFFSET(offsets, PointsConstants, position_hi);
-  CHECK_OFFSET(offsets, PointsConstants, position_lo);
-  CHECK_OFFSET(offsets, PointsConstants, surface);
-  CHECK_OFFSET(offsets, PointsConstants, backscatter);
-  CHECK_OFFSET(offsets, TrianglePlane, plane_hi);
-  CHECK_OFFSET(offsets, TrianglePlane, plane_lo);
-  CHECK_OFFSET(offsets, TrianglePlane, backscatter);
-  CHECK_OFFSET(offsets, TrianglePlane, object);
-  CHECK_OFFSET(offsets, TrianglePlane, along_min);
-  CHECK_OFFSET(offsets, TrianglePlane, along_max);
+TEST_CASE("shaders and host lay every shared struct out alike") {
+  const auto host = host_layouts();
+  std::set<std::string> seen;
+  for (const Shader &shader : shaders)
+    for (const StructLayout &layout : struct_layouts(shader.spirv)) {
+      INFO(shader.name << ": " << layout.name);
+      REQUIRE(host.contains(layout.name));
+      const HostLayout &expected = host.at(layout.name);
+      CHECK(layout.members == expected.members);
+      if (layout.array_stride != 0)
+        CHECK(layout.array_stride == expected.bytes);
+      seen.insert(layout.name);
+    }
+  CHECK(seen.size() == host.size());
 }
 
-TEST_CASE("structs of the accumulate pass") {
-  const auto offsets = offsets_in(accumulate_straight_fp64_spirv);
-  CHECK_OFFSET(offsets, AccumulateConstants, position_hi);
-  CHECK_OFFSET(offsets, AccumulateConstants, position_lo);
-  CHECK_OFFSET(offsets, AccumulateConstants, surface);
-  CHECK_OFFSET(offsets, AccumulateConstants, backscatter);
-  CHECK_OFFSET(offsets, AccumulateConstants, sum);
-  CHECK_OFFSET(offsets, AccumulateConstants, diodes);
-  CHECK_OFFSET(offsets, AccumulateConstants, reference_hi);
-  CHECK_OFFSET(offsets, AccumulateConstants, reference_lo);
-  CHECK_OFFSET(offsets, AccumulateConstants, tones);
-  CHECK_OFFSET(offsets, AccumulateConstants, blocks);
-  CHECK_OFFSET(offsets, AccumulateConstants, plane);
-  CHECK_OFFSET(offsets, Tone, turns_per_m);
-  CHECK_OFFSET(offsets, Tone, wavenumber);
-  CHECK_OFFSET(offsets, GroupDiode, position);
-  CHECK_OFFSET(offsets, GroupDiode, axis);
-  CHECK_OFFSET(offsets, GroupDiode, intensity);
-  CHECK_OFFSET(offsets, GroupDiode, order);
-}
-
-TEST_CASE("structs of the resolve pass") {
-  const auto offsets = offsets_in(resolve_fp64_spirv);
-  CHECK_OFFSET(offsets, ResolveConstants, position_hi);
-  CHECK_OFFSET(offsets, ResolveConstants, position_lo);
-  CHECK_OFFSET(offsets, ResolveConstants, sum);
-  CHECK_OFFSET(offsets, ResolveConstants, tags);
-  CHECK_OFFSET(offsets, ResolveConstants, planes);
-  CHECK_OFFSET(offsets, ResolveConstants, channels);
-  CHECK_OFFSET(offsets, ResolveConstants, harmonics);
-  CHECK_OFFSET(offsets, ResolveConstants, turns_per_m);
-  CHECK_OFFSET(offsets, ResolveConstants, ambiguity_m);
-  CHECK_OFFSET(offsets, ResolveConstants, limits);
-  CHECK_OFFSET(offsets, ResolveConstants, plane);
-  CHECK_OFFSET(offsets, ResolveConstants, first_channel);
-  CHECK_OFFSET(offsets, ResolveConstants, amplitude_scale);
-  CHECK_OFFSET(offsets, ResolveConstants, columns);
-  CHECK_OFFSET(offsets, ResolveConstants, samples);
-  CHECK_OFFSET(offsets, ResolveConstants, padded_pixels);
-  CHECK_OFFSET(offsets, ResolveConstants, pixels);
+TEST_CASE("a raster's vertex is the vec3 and the uint that the vertex shader takes") {
+  CHECK(offsetof(RasterVertex, x_fragments) == 0);
+  CHECK(offsetof(RasterVertex, y_fragments) == 4);
+  CHECK(offsetof(RasterVertex, inverse_depth) == 8);
+  CHECK(offsetof(RasterVertex, triangle) == 12);
 }

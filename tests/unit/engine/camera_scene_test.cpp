@@ -1,0 +1,109 @@
+// What the points passes are told of a triangle: its plane and where rays can meet it.
+
+#include "engine/passes/camera_scene.h"
+
+#include "tests/support/random_scenes.h"
+#include "tests/support/scenes.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+struct Triangles {
+  Scene scene;
+  CameraScene camera;
+};
+
+// Around the lens, to all sides, and some of them large: the lens stands over or beside them.
+Triangles triangles_around(Random &random) {
+  SceneBuilder builder;
+  for (int i = 0; i < 200; ++i) {
+    const double size_m = random.flip() ? 0.3 : 4.0;
+    const glm::dvec3 centre_m = random.uniform(0.5, 3) * random.unit_vector();
+    const auto corner_m = [&] { return centre_m + size_m * random.unit_vector(); };
+    const glm::dvec3 a = corner_m(), b = corner_m(), c = corner_m();
+    builder.add_triangle(a, b, c, {random.uniform(0, 1), true});
+  }
+  return {builder.scene(), to_camera(builder.scene(), Sensor())};
+}
+
+glm::dvec3 point_of(const CameraTriangle &triangle, Random &random) {
+  double u = random.uniform(0, 1), v = random.uniform(0, 1);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const auto &[a, b, c] = triangle.corners_m;
+  return a + u * (b - a) + v * (c - a);
+}
+
+} // namespace
+
+TEST_CASE("ranges and depths of a triangle's points are within its bounds") {
+  Random random(31);
+  const auto [scene, camera] = triangles_around(random);
+  REQUIRE(camera.triangles.size() == 200);
+  const auto by_range = triangle_planes(camera, scene, Backscatter::constant, AlongRay::range);
+  const auto by_depth = triangle_planes(camera, scene, Backscatter::constant, AlongRay::depth);
+  for (const CameraTriangle &triangle : camera.triangles)
+    for (int i = 0; i < 500; ++i) {
+      const glm::dvec3 point_m = point_of(triangle, random);
+      const double range_m = glm::length(point_m), depth_m = std::max(0.0, point_m.z);
+      REQUIRE(by_range[triangle.id].along_min <= range_m);
+      REQUIRE(by_range[triangle.id].along_max >= range_m);
+      REQUIRE(by_depth[triangle.id].along_min <= depth_m);
+      REQUIRE(by_depth[triangle.id].along_max >= depth_m);
+    }
+}
+
+TEST_CASE("bounds along the ray are no wider than the triangle") {
+  const auto bounds_of = [](const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
+    SceneBuilder builder;
+    builder.add_triangle(a, b, c, {1.0, true});
+    const CameraScene camera = to_camera(builder.scene(), Sensor());
+    const auto planes = triangle_planes(camera, builder.scene(), Backscatter::constant, AlongRay::range);
+    return std::pair<double, double>(planes[0].along_min, planes[0].along_max);
+  };
+  const auto is = [](const std::pair<double, double> &bounds, double nearest_m, double farthest_m) {
+    return bounds.first == Approx(nearest_m).epsilon(2e-6) &&
+           bounds.second == Approx(farthest_m).epsilon(2e-6);
+  };
+  // The lens over the triangle, before an edge, and before a corner.
+  CHECK(is(bounds_of({-1, -1, 2}, {3, -1, 2}, {-1, 3, 2}), 2.0, std::sqrt(14.0)));
+  CHECK(is(bounds_of({1, -1, 2}, {1, 1, 2}, {4, 0, 2}), std::sqrt(5.0), std::sqrt(20.0)));
+  CHECK(is(bounds_of({1, 1, 2}, {2, 1, 2}, {1, 2, 2}), std::sqrt(6.0), 3.0));
+}
+
+TEST_CASE("planes turn to the lens, and hold their triangles") {
+  Random random(32);
+  const auto [scene, camera] = triangles_around(random);
+  const auto planes = triangle_planes(camera, scene, Backscatter::lambert, AlongRay::range);
+  for (const CameraTriangle &triangle : camera.triangles) {
+    const shader::TrianglePlane &plane = planes[triangle.id];
+    const glm::dvec4 sum = glm::dvec4(plane.plane_hi) + glm::dvec4(plane.plane_lo);
+    REQUIRE(sum.w < 0.0);
+    REQUIRE(glm::length(glm::dvec3(sum)) == Approx(1.0).epsilon(1e-13));
+    for (const glm::dvec3 &corner_m : triangle.corners_m)
+      REQUIRE(std::abs(glm::dot(glm::dvec3(sum), corner_m) - sum.w) < 1e-12);
+    const double reflectivity = scene.surfaces[scene.triangles[triangle.id].surface].reflectivity;
+    REQUIRE(plane.backscatter == Approx(reflectivity / std::numbers::pi));
+    REQUIRE(plane.object == scene.triangles[triangle.id].object);
+  }
+}
+
+TEST_CASE("what the lens cannot see is left out") {
+  SceneBuilder builder;
+  builder.add_triangle({0, 0, 2}, {0, 1, 2}, {1, 0, 2});              // front
+  builder.add_triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2});              // back, one-sided
+  builder.add_triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2}, {1.0, true}); // back, two-sided
+  builder.add_triangle({0, 0, 1}, {0, 0, 2}, {1, 0, 2}, {1.0, true}); // edge-on
+  builder.add_triangle({0, 0, 2}, {1, 1, 2}, {2, 2, 2}, {1.0, true}); // no area
+  const CameraScene camera = to_camera(builder.scene(), Sensor());
+  REQUIRE(camera.triangles.size() == 2);
+  CHECK(camera.triangles[0].id == 0);
+  CHECK(camera.triangles[1].id == 2);
+}
