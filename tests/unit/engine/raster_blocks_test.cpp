@@ -50,7 +50,7 @@ void check_every_pixel_once(const Sensor &sensor, const std::vector<RasterBlock>
 // The largest distance of a sample from where it should be on its fragment, over some of the samples.
 double largest_error_fragments(const Sensor &sensor, const RasterBlock &block) {
   const Lens lens(sensor);
-  const std::uint32_t side = sensor.samples / raster_tiles(sensor);
+  const std::uint32_t side = is_tiled(sensor) ? 1 : sensor.samples;
   double largest = 0.0;
   for (glm::uvec2 pixel(0); pixel.y < block.pixels.y; pixel.y += 3)
     for (pixel.x = 0; pixel.x < block.pixels.x; pixel.x += 3)
@@ -91,7 +91,7 @@ Sensor flat_sensor(std::uint32_t samples) {
 TEST_CASE("without distortion samples are the centres of fragments, however the chip stands") {
   for (const std::uint32_t samples : {1u, 2u, 3u, 16u}) {
     Sensor sensor = flat_sensor(samples);
-    CHECK(raster_tiles(sensor) == 1);
+    CHECK_FALSE(is_tiled(sensor));
     CHECK(largest_error_fragments(sensor) < 1e-9);
     sensor.focus_distance_m = 0.5;
     sensor.chip.rotation_rad = {10 * degree, -6 * degree, 33 * degree};
@@ -106,7 +106,7 @@ TEST_CASE("of pixels filled in part samples are fragments moved to the raster's 
     Sensor sensor = flat_sensor(samples);
     sensor.fill_factor = {0.6, 0.37};
     sensor.chip.rotation_rad = {10 * degree, -6 * degree, 33 * degree};
-    CHECK(raster_tiles(sensor) == samples);
+    CHECK(is_tiled(sensor));
     CHECK(largest_error_fragments(sensor) < 1.0 / 512 + 1e-9);
     for (std::uint32_t k = 0; k < samples; ++k)
       CHECK(std::fmod(raster_shift(sensor, {k, 0}).x * 256.0f, 1.0f) == 0.0f);
