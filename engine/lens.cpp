@@ -95,17 +95,18 @@ Distorted brown_conrady(const BrownConrady &d, const glm::dvec2 &s) {
            radial + 2.0 * s.y * s.y * by_r2 + 6.0 * d.p1 * s.y + 2.0 * d.p2 * s.x}};
 }
 
+// Judged by its residual: near the fold the root itself is ill-conditioned.
 std::optional<glm::dvec2> brown_conrady_inverse(const BrownConrady &d, const glm::dvec2 &slope,
                                                 const glm::dvec2 &start) {
+  const double rounding = 1e-15 * (1.0 + glm::length(slope));
   glm::dvec2 s = start;
   for (int i = 0; i < 60; ++i) {
     const auto [distorted, jacobian] = brown_conrady(d, s);
     if (!(glm::determinant(jacobian) > 0.0))
       return std::nullopt;
-    const glm::dvec2 step = glm::inverse(jacobian) * (slope - distorted);
-    s += step;
-    if (glm::length(step) <= 1e-15 * (1.0 + glm::length(s)))
+    if (glm::distance(slope, distorted) <= rounding)
       return s;
+    s += glm::inverse(jacobian) * (slope - distorted);
   }
   return std::nullopt;
 }
@@ -210,9 +211,10 @@ std::optional<glm::dvec3> Lens::undistorted(const glm::dvec2 &slope) const {
                ? std::optional(glm::normalize(glm::dvec3(*found, 1.0)))
                : std::nullopt;
   }
-  // At the fold itself the image has an end, and the inverse none.
-  return inverse < largest_radius_ ? std::optional(glm::dvec3(std::sin(inverse) * outward, std::cos(inverse)))
-                                   : std::nullopt;
+  // The image ends at the fold.
+  const bool inside =
+      radius < largest_radius_ * stretch(radial_coefficients(distortion_), largest_radius_ * largest_radius_);
+  return inside ? std::optional(glm::dvec3(std::sin(inverse) * outward, std::cos(inverse))) : std::nullopt;
 }
 
 std::optional<LensFault> lens_fault(const Sensor &sensor) {
