@@ -57,6 +57,12 @@ const std::vector<Case> sensor_cases{
      [](Sensor &s) {
        s.distortion = BrownConrady{-0.3, 0, 0, 0, 0};
      }},
+    // It folds where slopes are 2/3 / sqrt(0.9) = 0.7027 on the chip.
+    {"barrel -0.3, corners 0.1 % before the fold",
+     [](Sensor &s) {
+       s.distortion = BrownConrady{-0.3, 0, 0, 0, 0};
+       s.focal_length_m = 0.5 * glm::length(glm::dvec2(s.resolution) * s.pixel_pitch_m) / (0.999 * 0.70273);
+     }},
     {"pincushion 0.2",
      [](Sensor &s) {
        s.distortion = BrownConrady{0.2, 0, 0, 0, 0};
