@@ -10,9 +10,11 @@
 
 namespace pmdsim::test {
 
-namespace {
-
 std::string name_of(Engine engine) { return engine == Engine::reference ? "reference" : "vulkan"; }
+
+Engine both_engines() { return GENERATE(Engine::reference, Engine::vulkan); }
+
+namespace {
 
 void print_row(Engine engine, const std::string &name, double expected, double got, double error) {
   static const bool heading_printed = [] {
@@ -27,18 +29,28 @@ void print_row(Engine engine, const std::string &name, double expected, double g
 } // namespace
 
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
-                    Backscatter backscatter) {
-  if (engine == Engine::reference)
-    return reference::to_measurement(reference::simulate(scene, sensor, illuminator, backscatter));
-  Simulator simulator = make_simulator();
+                    Backscatter backscatter, const SimulatorOptions &options) {
+  if (engine == Engine::reference) {
+    const auto frame = reference::simulate(scene, sensor, illuminator, backscatter);
+    Measurement measured = reference::to_measurement(frame);
+    measured.sample_triangle_id = frame.sample_triangle_id;
+    return measured;
+  }
+  Simulator simulator = make_simulator(options);
   simulator.prepare(scene, sensor, illuminator, backscatter);
   return simulator.measure();
 }
 
-void check_distance(Engine engine, const std::string &name, double true_m, const Sensor &sensor,
-                    float got_m) {
-  const double wrapped_m = std::fmod(true_m, sensor.ambiguity_m());
-  const double error_m = std::remainder(got_m - wrapped_m, sensor.ambiguity_m());
+Measurement measure_monostatic(Engine engine, const Scene &scene, const Sensor &sensor,
+                               Backscatter backscatter, const SimulatorOptions &options) {
+  return measure(engine, scene, sensor, monostatic_illuminator(sensor.world_from_camera), backscatter,
+                 options);
+}
+
+void check_distance(Engine engine, const std::string &name, double true_m, const Sensor &sensor, float got_m,
+                    std::size_t frequency) {
+  const double wrapped_m = std::fmod(true_m, sensor.ambiguity_m(frequency));
+  const double error_m = std::remainder(got_m - wrapped_m, sensor.ambiguity_m(frequency));
   print_row(engine, name, wrapped_m, got_m, error_m);
   INFO(name << " on " << name_of(engine));
   CHECK(std::abs(error_m) <= std::max(2e-6, 1e-7 * true_m));
@@ -48,6 +60,12 @@ void check_amplitude(Engine engine, const std::string &name, double expected, do
   print_row(engine, name, expected, got, got - expected);
   INFO(name << " on " << name_of(engine));
   CHECK(std::abs(got - expected) <= 1e-5 * expected);
+}
+
+void check_within(Engine engine, const std::string &name, double expected, double got, double tolerance) {
+  print_row(engine, name, expected, got, got - expected);
+  INFO(name << " on " << name_of(engine));
+  CHECK(std::abs(got - expected) <= tolerance);
 }
 
 } // namespace pmdsim::test

@@ -22,8 +22,6 @@ Measurement measure(Engine engine, const Setup &setup) {
   return measure(engine, setup.scene, setup.sensors[0], setup.illuminators[0], setup.backscatter);
 }
 
-Engine both_engines() { return GENERATE(Engine::reference, Engine::vulkan); }
-
 // The phasor of a return of the given strength from the given distance under monostatic light.
 std::complex<double> monostatic_return(double strength, double distance_m, const Sensor &sensor) {
   return std::polar(strength, 2 * std::numbers::pi * distance_m / sensor.ambiguity_m());

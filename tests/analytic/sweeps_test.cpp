@@ -14,8 +14,6 @@ using namespace pmdsim::test;
 
 namespace {
 
-Engine both_engines() { return GENERATE(Engine::reference, Engine::vulkan); }
-
 // A pixel in the middle of each image quarter sees the direction (+-0.25, +-0.25, 1).
 Sensor two_by_two_sensor() {
   Sensor sensor;

@@ -2,23 +2,90 @@
 
 #include "tests/support/random_scenes.h"
 
+#include <functional>
+#include <stdexcept>
+
 namespace pmdsim::test {
+
+namespace {
+
+template <typename Channel>
+void append(std::string &bytes, const Channel &channel) {
+  bytes.append(reinterpret_cast<const char *>(channel.data()), channel.size() * sizeof(channel[0]));
+}
+
+void fill_in_part(Sensor &sensor) {
+  sensor.fill_factor = {0.6, 0.4};
+  sensor.samples = 3;
+}
+
+void make_square(Sensor &sensor) {
+  sensor.waveform.kind = Waveform::Kind::square;
+  sensor.taps = 5;
+  sensor.modulation_hz = {20e6, 60e6};
+}
+
+struct Change {
+  std::string name;
+  std::function<void(Sensor &)> of;
+};
+
+const std::vector<Change> &changes() {
+  static const std::vector<Change> all{
+      {"pinhole", [](Sensor &) {}},
+      {"brown",
+       [](Sensor &s) {
+         s.distortion = BrownConrady{-0.2, 0.05, 0.01, -0.02, 0.01};
+       }},
+      {"fisheye",
+       [](Sensor &s) {
+         s.distortion = Fisheye{-0.03, 0.01, -0.004, 0.0005};
+       }},
+      {"tilted_filled",
+       [](Sensor &s) {
+         s.chip.rotation_rad = {0.1, -0.05, 0.2};
+         fill_in_part(s);
+       }},
+      {"square", make_square},
+      {"fisheye_filled_square",
+       [](Sensor &s) {
+         s.distortion = Fisheye{};
+         fill_in_part(s);
+         make_square(s);
+       }},
+  };
+  return all;
+}
+
+} // namespace
 
 std::string bytes_of(const Measurement &measurement) {
   std::string bytes;
-  const auto append = [&bytes](const auto &channel) {
-    bytes.append(reinterpret_cast<const char *>(channel.data()), channel.size() * sizeof(channel[0]));
-  };
-  for (const auto *channel :
-       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
-        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
-    append(*channel);
-  for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id})
-    append(*ids);
+  for (const Return &of_frequency : measurement.returns) {
+    for (const auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
+      append(bytes, *channel);
+    for (const auto &tap : of_frequency.taps)
+      append(bytes, tap);
+  }
+  for (const auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
+    append(bytes, *channel);
+  for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id,
+                          &measurement.sample_pixel_id})
+    append(bytes, *ids);
   return bytes;
 }
 
-void prepare_repeatability_frame(Simulator &simulator) {
+const std::vector<std::string> &repeatability_frames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Change &change : changes())
+      result.push_back(change.name);
+    return result;
+  }();
+  return names;
+}
+
+RepeatabilityFrame repeatability_frame(const std::string &name) {
   Random random(2007);
   Sensor sensor;
   sensor.resolution = {256, 192};
@@ -27,8 +94,21 @@ void prepare_repeatability_frame(Simulator &simulator) {
   sensor.samples = 2;
   sensor.world_from_camera = random.pose(10.0);
   const Scene scene = random_triangles(random, 200, sensor.world_from_camera);
-  simulator.prepare(scene, sensor, random_illuminator(random, 30, sensor.world_from_camera),
-                    Backscatter::lambert);
+  for (const Change &change : changes())
+    if (change.name == name) {
+      change.of(sensor);
+      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera)};
+    }
+  throw std::out_of_range("no repeatability frame " + name);
+}
+
+SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
+  return {.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_tags = true, .keep_taps = true};
+}
+
+Measurement measure(Simulator &simulator, const RepeatabilityFrame &frame) {
+  simulator.prepare(frame.scene, frame.sensor, frame.illuminator, Backscatter::lambert);
+  return simulator.measure();
 }
 
 } // namespace pmdsim::test

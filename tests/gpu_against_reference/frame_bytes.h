@@ -5,12 +5,28 @@
 #include "engine/simulator.h"
 
 #include <string>
+#include <vector>
 
 namespace pmdsim::test {
 
 std::string bytes_of(const Measurement &measurement);
 
-// A random scene of 256 x 192 pixels with 2 x 2 samples each and 30 diodes.
-void prepare_repeatability_frame(Simulator &simulator);
+// What the repeatability frames' sensors have beyond a pinhole and a sine.
+const std::vector<std::string> &repeatability_frames();
+
+struct RepeatabilityFrame {
+  Scene scene;
+  Sensor sensor;
+  Illuminator illuminator;
+};
+
+// A random scene of 256 x 192 pixels with 2 x 2 samples or more each and 30 diodes. Throws std::out_of_range
+// where there is no such frame.
+RepeatabilityFrame repeatability_frame(const std::string &name);
+
+// All that a simulator gives.
+SimulatorOptions keep_everything(std::uint32_t max_strip_samples = 0);
+
+Measurement measure(Simulator &simulator, const RepeatabilityFrame &frame);
 
 } // namespace pmdsim::test

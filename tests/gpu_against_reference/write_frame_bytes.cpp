@@ -1,4 +1,5 @@
-// Writes the bytes of the repeatability frame to the file that its one argument names.
+// Writes the bytes of the repeatability frame that its first argument names to the file that its second
+// names.
 
 #include "tests/gpu_against_reference/frame_bytes.h"
 #include "tests/support/simulator.h"
@@ -9,13 +10,12 @@
 
 int main(int argc, char **argv) {
   using namespace pmdsim;
-  if (argc != 2)
+  if (argc != 3)
     return 2;
   try {
-    Simulator simulator = test::make_simulator({.device = {}, .keep_sample_tags = true});
-    test::prepare_repeatability_frame(simulator);
-    std::ofstream file(argv[1], std::ios::binary);
-    file << test::bytes_of(simulator.measure()) << std::flush;
+    Simulator simulator = test::make_simulator(test::keep_everything());
+    std::ofstream file(argv[2], std::ios::binary);
+    file << test::bytes_of(test::measure(simulator, test::repeatability_frame(argv[1]))) << std::flush;
     return file ? 0 : 1;
   } catch (const std::exception &error) {
     std::cerr << error.what() << '\n';
