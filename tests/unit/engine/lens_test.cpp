@@ -120,18 +120,22 @@ TEST_CASE("a fisheye that folds over inside the image is a fault, beyond it none
 }
 
 TEST_CASE("tangential distortion that folds over inside the image is a fault, beyond it none") {
-  // Along the column in the middle y' = y + 3 p1 y^2, which falls until y = -1 / (6 p1), y' = -1 / (12 p1).
-  const double p1 = 0.25;
+  // Along the column in the middle y' = y + 3 p1 y^2 + k1 y^3. It falls back at y = -0.792, y' = -0.371 where
+  // p1 = 0.25 and k1 = 0.1, and rises again to where it was, far beyond.
+  const double p1 = 0.25, k1 = GENERATE(0.0, 0.1);
+  const double y = k1 > 0 ? (-p1 + std::sqrt(p1 * p1 - k1 / 3)) / k1 : -1 / (6 * p1);
+  const double fold = std::abs(y + 3 * p1 * y * y + k1 * y * y * y);
   Sensor sensor;
   sensor.resolution = {1, 100};
   sensor.focal_length_m = 10e-3;
-  sensor.distortion = BrownConrady{0, 0, p1, 0, 0};
+  sensor.distortion = BrownConrady{k1, 0, p1, 0, 0};
   const auto fault_with_half_height = [&](double slope) {
     sensor.pixel_pitch_m = {1e-9, 2.0 * slope * sensor.focal_length_m / 100};
     return fault_of(sensor);
   };
-  CHECK(fault_with_half_height(1 / (12 * p1) * (1 - 1e-6)) == "none");
-  CHECK(fault_with_half_height(1 / (12 * p1) * (1 + 1e-6)) == "folds");
+  CHECK(fault_with_half_height(fold * (1 - 1e-6)) == "none");
+  for (const double beyond : {1e-6, 1e-4, 1e-2, 0.5, 5.0})
+    CHECK(fault_with_half_height(fold * (1 + beyond)) == "folds");
 }
 
 TEST_CASE("a chip that reaches behind the lens is a fault") {
