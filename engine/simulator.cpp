@@ -66,7 +66,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
                                           : samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t block_fragments = raster_block_fragments(device);
   const Projection projection =
-      project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments, strip_samples)
+      project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments)
                                               : chip_blocks(sensor, block_fragments));
   const DiodeGroups groups = group_diodes(diodes, projection.visible, signal.largest_wavenumber_rad_m());
   const SumModel model = sum_model(diodes, backscatter, all_face_the_light(camera, diodes));

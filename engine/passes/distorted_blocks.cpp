@@ -14,6 +14,7 @@ namespace {
 constexpr double smallest_cosine = 0.5;      // of a ray to its plane's axis: 60 degrees
 constexpr double fragments_per_sample = 3.0; // at most, or the block is cut
 constexpr std::uint32_t margin = 3; // fragments: a neighbour, rounding, and the border's bend between pixels
+constexpr std::uint32_t largest_samples = 1u << 20; // of a block: as many as a strip has at most
 constexpr std::uint32_t smallest_side = 16; // pixels: what is smaller is not cut for its many fragments
 constexpr std::uint32_t net = 8;            // steps in which a block is searched for its narrowest samples
 
@@ -89,9 +90,9 @@ private:
 
 class Planner {
 public:
-  Planner(const Sensor &sensor, std::uint32_t block_fragments, std::uint32_t max_samples)
+  Planner(const Sensor &sensor, std::uint32_t block_fragments)
       : lens_(sensor), samples_(sensor.samples), block_fragments_(block_fragments),
-        max_pixels_(std::max(1u, max_samples / (samples_ * samples_))) {}
+        max_pixels_(largest_samples / (samples_ * samples_)) {}
 
   void plan(const glm::uvec2 &first, const glm::uvec2 &pixels) {
     const bool small = std::max(pixels.x, pixels.y) <= smallest_side;
@@ -145,9 +146,8 @@ private:
 
 } // namespace
 
-std::vector<RasterBlock> distorted_blocks(const Sensor &sensor, std::uint32_t block_fragments,
-                                          std::uint32_t max_samples) {
-  Planner planner(sensor, block_fragments, max_samples);
+std::vector<RasterBlock> distorted_blocks(const Sensor &sensor, std::uint32_t block_fragments) {
+  Planner planner(sensor, block_fragments);
   planner.plan(glm::uvec2(0), sensor.resolution);
   return planner.take();
 }
