@@ -78,7 +78,7 @@ void check_against_reference(const std::string &name, const Scene &scene, const 
 
 } // namespace
 
-TEST_CASE("200,000 triangles smaller than pixels through a barrel") {
+TEST_CASE("a mesh finer than the pixels, through a barrel") {
   SceneBuilder builder;
   add_bumpy_sphere(builder, {0, 0, 2}, 0.5, 130);
   builder.add_wall({4.0});
