@@ -61,10 +61,12 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<Diode> diodes = to_camera(illuminator, sensor);
   const Signal signal = signal_of(sensor, options);
-  const std::uint32_t strip_samples = options.max_strip_samples > 0
-                                          ? options.max_strip_samples
-                                          : samples_of_a_strip(signal, sensor.samples * sensor.samples);
-  const std::uint32_t block_fragments = raster_block_fragments(device);
+  const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
+  const std::uint32_t strip_samples =
+      options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
+  // A strip is a row of a block's pixels at least, so a block is no wider than that.
+  const std::uint32_t block_fragments =
+      std::min(raster_block_fragments(device), largest_strip / sensor.samples);
   const Projection projection =
       project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments)
                                               : chip_blocks(sensor, block_fragments));
