@@ -55,16 +55,18 @@ TEST_CASE("an edge outside the active area is not seen, within it it is") {
 
 TEST_CASE("the coverage of an active area, counted by hand") {
   const Engine engine = both_engines();
-  // Samples at -20, 0, 20 mm across and -13.3, 0, 13.3 mm down: two columns and two rows of them see the wall
-  // from -10 mm rightwards and from 7 mm upwards.
+  // Samples at -20, 0 and 20 mm across, -13.3, 0 and 13.3 mm down: the wall fills the first two columns and
+  // the last two rows of them. Of a whole pixel, at -33, 0 and 33 mm, it would be the middle one only.
   const Sensor sensor = three_by_three_sensor({0.6, 0.4}, 3);
-  const Measurement measured = measure_wall(engine, sensor, {-0.01, -1}, {1, 0.007});
-  // Of the pixels around, all samples of the right column and of the upper row lie on the wall's side, none
-  // of the left column and of the lower row.
-  const std::vector<double> ninths{0, 6, 9, 0, 4, 6, 0, 0, 0};
-  for (std::size_t pixel = 0; pixel < ninths.size(); ++pixel)
-    check_within(engine, fmt::format("3 x 3 samples, pixel {}, coverage", pixel), ninths[pixel] / 9,
-                 measured.coverage[pixel], 1e-7);
+  const Measurement measured = measure_wall(engine, sensor, {-0.025, -0.01}, {0.015, 0.02});
+  for (std::size_t pixel = 0; pixel < 9; ++pixel)
+    check_within(engine, fmt::format("3 x 3 samples, pixel {}, coverage", pixel),
+                 pixel == middle ? 4.0 / 9 : 0, measured.coverage[pixel], 1e-7);
+  // 100 mm further left and down, where the lower left pixel looks.
+  const Measurement beside = measure_wall(engine, sensor, {-0.125, 0.09}, {-0.085, 0.12});
+  for (std::size_t pixel = 0; pixel < 9; ++pixel)
+    check_within(engine, fmt::format("3 x 3 samples, wall at the lower left, pixel {}, coverage", pixel),
+                 pixel == 6 ? 4.0 / 9 : 0, beside.coverage[pixel], 1e-7);
 }
 
 TEST_CASE("the places of 2 x 2 samples in an active area of 0.6 x 0.4") {

@@ -5,6 +5,7 @@
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 

@@ -5,7 +5,9 @@
 #include "engine/reference/lens_model.h"
 #include "tests/analytic/opencv_formula.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 

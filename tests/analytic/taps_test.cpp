@@ -87,6 +87,23 @@ TEST_CASE("each frequency has its distance, wrapped to its own ambiguity") {
   }
 }
 
+TEST_CASE("square light has a distance at each frequency, too") {
+  const Engine engine = both_engines();
+  Sensor sensor = sensor_of(Waveform::Kind::square, 4);
+  sensor.modulation_hz = {20e6, 40e6, 60e6};
+  // 1/8, 2/8 and 3/8 of a turn, where four taps see the phase as it is.
+  const double z_m = wall_m(0.125, sensor);
+  const std::vector<double> amplitudes{std::sqrt(0.5), 1, std::sqrt(0.5)};
+  const Measurement measured =
+      measure_monostatic(engine, wall_at(z_m), sensor, Backscatter::constant, with_taps);
+  for (std::size_t f = 0; f < 3; ++f) {
+    const std::string name = fmt::format("square, {:g} MHz", sensor.modulation_hz[f] / 1e6);
+    check_distance(engine, name, z_m, sensor, measured.returns[f].distance_m[0], f);
+    check_amplitude(engine, name + ", amplitude", amplitudes[f],
+                    z_m * z_m * measured.returns[f].amplitude[0]);
+  }
+}
+
 TEST_CASE("frequencies mix two returns each by its own phase") {
   const Engine engine = both_engines();
   Sensor sensor = axial_sensor();
@@ -219,5 +236,24 @@ TEST_CASE("the taps of a pixel's samples add up") {
   const Measurement measured =
       measure_monostatic(engine, builder.scene(), sensor, Backscatter::constant, with_taps);
   check_reading(engine, "square, two samples of four near", mixture, sensor, measured,
+                0.25 / (far_m * far_m));
+}
+
+TEST_CASE("the taps of a pixel's samples add up harmonic by harmonic") {
+  const Engine engine = both_engines();
+  Sensor sensor = sensor_of(Waveform::Kind::harmonics, 4, {1.0, -0.3, 0.2});
+  sensor.samples = 2;
+  const double near_m = wall_m(0.125, sensor), far_m = wall_m(1.0 / 6, sensor);
+  SceneBuilder builder;
+  builder.add_wall({near_m, {0.5 * near_m * near_m / (far_m * far_m)}, {-9, -9}, {0, 9}});
+  builder.add_wall({far_m, {0.5}});
+  const Measurement measured =
+      measure_monostatic(engine, builder.scene(), sensor, Backscatter::constant, with_taps);
+  // The taps of an eighth of a turn and of a sixth, as above; 0.8 exp(j 45 degrees) and 0.3 + j sqrt(0.75).
+  const double c = 0.8 * std::sqrt(0.5), d = std::sqrt(0.75);
+  const Reading expected{{c + 0.45, c + d - 0.15, -c - 0.15, -c - d - 0.15},
+                         std::hypot(c + 0.3, c + d),
+                         turns_of(c + d, c + 0.3)};
+  check_reading(engine, "harmonics, two samples of four near", expected, sensor, measured,
                 0.25 / (far_m * far_m));
 }
