@@ -161,7 +161,11 @@ TEST_CASE("random scenes agree with the reference") {
   }
 }
 
+// With distortion a sliver narrower than a fragment, which is no part of a mesh, may be seen by none of the
+// fragments that a sample asks. Here are many, and few pixels, so that the share of such samples is counted
+// over all cameras.
 TEST_CASE("random cameras and signals agree with the reference") {
+  Comparison distorted;
   fmt::print("{}", comparison_heading());
   for (std::uint32_t seed = 100; seed < 124; ++seed) {
     Random random(seed);
@@ -176,6 +180,14 @@ TEST_CASE("random cameras and signals agree with the reference") {
                                           pixels_in_grazing_light(expected, scene, sensor, illuminator));
     fmt::print("{}", comparison_row(fmt::format("{}: {}", seed, described(sensor)), comparison));
     INFO("seed " << seed);
-    check_comparison(comparison, sensor.pixel_count() / 10);
+    if (sensor.has_distortion()) {
+      check_values(comparison, sensor.pixel_count() / 10);
+      distorted.samples += comparison.samples;
+      distorted.differing_samples += comparison.differing_samples;
+    } else
+      check_comparison(comparison, sensor.pixel_count() / 10);
   }
+  fmt::print("of all cameras with distortion, {:.5f} % of the samples see another triangle\n",
+             100 * distorted.differing_fraction());
+  CHECK(distorted.differing_fraction() <= 1e-3);
 }
