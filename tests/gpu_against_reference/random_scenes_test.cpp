@@ -106,7 +106,8 @@ Waveform random_waveform(Random &random) {
   if (kind < 2)
     return {Waveform::Kind::square, {}};
   Waveform waveform{Waveform::Kind::harmonics, {1.0}};
-  for (double count = std::floor(random.uniform(0, 5)); count > 0; --count)
+  const auto more = static_cast<int>(random.uniform(0, 5));
+  for (int h = 0; h < more; ++h)
     waveform.harmonics.push_back(random.uniform(-0.3, 0.3));
   return waveform;
 }
@@ -121,7 +122,8 @@ Sensor random_sensor(Random &random, std::uint32_t seed) {
   sensor.waveform = random_waveform(random);
   sensor.taps = static_cast<std::uint32_t>(random.uniform(3, 17));
   sensor.modulation_hz.clear();
-  for (double count = std::floor(random.uniform(1, 4)); count > 0; --count)
+  const auto frequencies = static_cast<int>(random.uniform(1, 4));
+  for (int f = 0; f < frequencies; ++f)
     sensor.modulation_hz.push_back(random.uniform(5e6, 50e6));
   return sensor;
 }
