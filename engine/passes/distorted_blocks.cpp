@@ -12,7 +12,8 @@ namespace pmdsim {
 namespace {
 
 constexpr double smallest_cosine = 0.5;      // of a ray to its plane's axis: 60 degrees
-constexpr double fragments_per_sample = 3.0; // at most, or the block is cut
+constexpr double fragments_per_sample = 3.0; // at most, or the block is cut;
+constexpr double spare_fragments = 1 << 16;  // but for so many, which cost less than one more block
 constexpr std::uint32_t margin = 3; // fragments: a neighbour, rounding, and the border's bend between pixels
 constexpr std::uint32_t largest_samples = 1u << 20; // of a block: as many as a strip has at most
 constexpr std::uint32_t smallest_side = 16; // pixels: what is smaller is not cut for its many fragments
@@ -128,7 +129,7 @@ private:
     const double samples = static_cast<double>(pixels.x) * pixels.y * samples_ * samples_;
     const glm::dvec2 extent = high - low;
     double scale = samples_ / rays.narrowest_pixel(plane); // fragments per unit of slope
-    double largest = std::sqrt(fragments_per_sample * samples / (extent.x * extent.y));
+    double largest = std::sqrt((fragments_per_sample * samples + spare_fragments) / (extent.x * extent.y));
     largest = std::min(largest, (block_fragments_ - 2.0 * margin - 1.0) / std::max(extent.x, extent.y));
     if (scale > largest && !small)
       return std::nullopt;

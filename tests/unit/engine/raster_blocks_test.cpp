@@ -170,9 +170,9 @@ void check_size(const Sensor &sensor, const RasterBlock &block) {
   CHECK(glm::all(glm::lessThanEqual(block.fragments, glm::uvec2(largest_block))));
   const double samples = double(block.pixels.x) * block.pixels.y * sensor.samples * sensor.samples;
   CHECK((samples <= (1u << 20) || !is_large(block)));
-  // Three fragments a sample, and a margin of three and what rounding up adds.
+  // Three fragments a sample and 65,536 to spare, and a margin of three and what rounding up adds.
   const glm::dvec2 inside = glm::dvec2(block.fragments) - 7.0;
-  CHECK((glm::any(glm::lessThanEqual(inside, glm::dvec2(0.0))) || inside.x * inside.y <= 3.0 * samples));
+  CHECK((glm::any(glm::lessThanEqual(inside, glm::dvec2(0.0))) || inside.x * inside.y <= 3.0 * samples + 65536.0));
 }
 
 DistortedFigures check_distorted_blocks(const Sensor &sensor) {
