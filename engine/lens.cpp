@@ -98,7 +98,7 @@ Distorted brown_conrady(const BrownConrady &d, const glm::dvec2 &s) {
 // Judged by its residual: near the fold the root itself is ill-conditioned.
 std::optional<glm::dvec2> brown_conrady_inverse(const BrownConrady &d, const glm::dvec2 &slope,
                                                 const glm::dvec2 &start) {
-  const double rounding = 1e-15 * (1.0 + glm::length(slope));
+  const double rounding = 8e-15 * (1.0 + glm::length(slope));
   glm::dvec2 s = start;
   for (int i = 0; i < 60; ++i) {
     const auto [distorted, jacobian] = brown_conrady(d, s);
@@ -125,8 +125,12 @@ glm::dmat3 lens_from_chip_of(const Sensor &sensor) {
           glm::dvec3(0.0, 0.0, sensor.image_distance_m()) + sensor.chip.translation_m};
 }
 
+double model_limit(const Distortion &distortion) {
+  return std::holds_alternative<Fisheye>(distortion) ? largest_angle_rad : largest_slope;
+}
+
 double largest_radius_of(const Distortion &distortion) {
-  const double limit = std::holds_alternative<Fisheye>(distortion) ? largest_angle_rad : largest_slope;
+  const double limit = model_limit(distortion);
   const auto folds = sign_changes(radial_slope(radial_coefficients(distortion)), limit * limit);
   return folds.empty() ? limit : std::sqrt(folds.front());
 }
@@ -181,17 +185,24 @@ double Lens::radial_inverse(double distorted_radius) const {
   const auto c = radial_coefficients(distortion_);
   const Polynomial slope = radial_slope(c);
   double low = 0.0, high = largest_radius_, r = std::min(distorted_radius, largest_radius_);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const double excess = r * stretch(c, r * r) - distorted_radius;
     (excess > 0.0 ? high : low) = r;
     double next = r - excess / value_at(slope, r * r);
-    if (!(next >= low && next <= high))
+    // Newton's steps may go round in circles where the polynomial is S-shaped; every third halves the
+    // bracket.
+    if (i % 3 == 2 || !(next >= low && next <= high))
       next = 0.5 * (low + high);
     if (next == r)
       break;
     r = next;
   }
   return r;
+}
+
+bool Lens::folds() const {
+  const auto *brown = std::get_if<BrownConrady>(&distortion_);
+  return largest_radius_ < model_limit(distortion_) || (brown && (brown->p1 != 0.0 || brown->p2 != 0.0));
 }
 
 Lens::Coefficients Lens::coefficients() const {
@@ -217,30 +228,70 @@ std::optional<glm::dvec3> Lens::undistorted(const glm::dvec2 &slope) const {
   return inside ? std::optional(glm::dvec3(std::sin(inverse) * outward, std::cos(inverse))) : std::nullopt;
 }
 
+namespace {
+
+// What is wrong with the ray through a place of the image.
+std::optional<LensFault> fault_at(const Lens &lens, const glm::dvec2 &pixel) {
+  if (lens.ray(lens.on_chip_m(pixel)))
+    return std::nullopt;
+  return lens.folds() ? LensFault::distortion_folds : LensFault::beyond_model;
+}
+
+// Along the image's borders, and in a net over it: tangential terms may fold inside, too.
+std::optional<LensFault> distortion_fault(const Lens &lens, const glm::uvec2 &last) {
+  std::optional<LensFault> fault;
+  const auto look = [&](double column, double row) {
+    if (!fault)
+      fault = fault_at(lens, {column, row});
+  };
+  for (std::uint32_t column = 0; column <= last.x; ++column) {
+    look(column, 0);
+    look(column, last.y);
+  }
+  for (std::uint32_t row = 0; row <= last.y; ++row) {
+    look(0, row);
+    look(last.x, row);
+  }
+  constexpr int net = 64;
+  for (int i = 1; i < net; ++i)
+    for (int j = 1; j < net; ++j)
+      look(last.x * (i / double{net}), last.y * (j / double{net}));
+  return fault;
+}
+
+// Whether a pixel sees a ray 60 degrees or more from the mean of its rays. The largest are few, or on a
+// regular net.
+bool has_too_wide_pixel(const Lens &lens, const glm::uvec2 &resolution) {
+  const glm::uvec2 steps = glm::min(resolution, glm::uvec2(64));
+  for (glm::uvec2 step(0); step.y < steps.y; ++step.y)
+    for (step.x = 0; step.x < steps.x; ++step.x) {
+      const glm::dvec2 pixel(step * (resolution - 1u) / glm::max(steps - 1u, glm::uvec2(1)));
+      // Corners, middles of the sides, and the centre, without which a view of nearly everything looks narrow
+      // from behind.
+      std::array<glm::dvec3, 9> rays;
+      glm::dvec3 mean(0.0);
+      for (std::size_t k = 0; k < rays.size(); ++k)
+        mean += rays[k] = *lens.ray(lens.on_chip_m(pixel + 0.5 * glm::dvec2(k % 3, k / 3)));
+      mean = glm::normalize(mean);
+      if (!std::ranges::all_of(rays, [&](const glm::dvec3 &ray) { return glm::dot(ray, mean) > 0.5; }))
+        return true;
+    }
+  return false;
+}
+
+} // namespace
+
 std::optional<LensFault> lens_fault(const Sensor &sensor) {
   const Lens lens(sensor);
   const glm::uvec2 &last = sensor.resolution;
   for (const glm::uvec2 corner : {glm::uvec2(0), glm::uvec2(last.x, 0), glm::uvec2(0, last.y), last})
     if (!((lens.lens_from_chip() * glm::dvec3(lens.on_chip_m(corner), 1.0)).z > 0.0))
       return LensFault::chip_behind_lens;
-  if (std::holds_alternative<std::monostate>(sensor.distortion))
+  if (!sensor.has_distortion())
     return std::nullopt;
-  // Along the borders of the image, and in a net over it: tangential terms may fold inside, too.
-  const auto folds_at = [&](double column, double row) {
-    return !lens.ray(lens.on_chip_m({column, row})).has_value();
-  };
-  for (std::uint32_t column = 0; column <= last.x; ++column)
-    if (folds_at(column, 0) || folds_at(column, last.y))
-      return LensFault::distortion_folds;
-  for (std::uint32_t row = 0; row <= last.y; ++row)
-    if (folds_at(0, row) || folds_at(last.x, row))
-      return LensFault::distortion_folds;
-  constexpr int net = 64;
-  for (int i = 1; i < net; ++i)
-    for (int j = 1; j < net; ++j)
-      if (folds_at(last.x * (i / double{net}), last.y * (j / double{net})))
-        return LensFault::distortion_folds;
-  return std::nullopt;
+  if (const auto fault = distortion_fault(lens, last))
+    return fault;
+  return has_too_wide_pixel(lens, last) ? std::optional(LensFault::pixel_too_wide) : std::nullopt;
 }
 
 } // namespace pmdsim

@@ -44,6 +44,9 @@ public:
     std::array<double, 2> tangential; // p1, p2
   };
   Coefficients coefficients() const;
+  // Whether the model folds over anywhere within its limit (LensFault::beyond_model); by tangential terms it
+  // may.
+  bool folds() const;
 
 private:
   Distortion distortion_;
@@ -54,7 +57,12 @@ private:
 };
 
 // What makes a sensor's image impossible; nothing where every place of it has a ray.
-enum class LensFault { chip_behind_lens, distortion_folds };
+enum class LensFault {
+  chip_behind_lens,
+  distortion_folds,
+  beyond_model,   // Brown-Conrady 89 degrees off the axis, a fisheye 179.4: no fold, but the model ends
+  pixel_too_wide, // distortion: a pixel sees a ray 60 degrees or more off the mean of its rays
+};
 std::optional<LensFault> lens_fault(const Sensor &sensor);
 
 } // namespace pmdsim

@@ -41,6 +41,17 @@ vec2 return_of(float total[moments], float kappa) {
   return z;
 }
 
+// Samples are summed relative to twice their own range, which the resolve pass turns back. `detour` is how much longer the way
+// over the reference point is than that.
+void add_tone(uint t, uint i, float total[moments], Real detour, float backscatter) {
+  Tone tone = Tones(constants.tones).at[t];
+  float turns = turn_fraction(multiply(detour, real(tone.turns_per_m.x, tone.turns_per_m.y)));
+  add_to_plane(t, i, backscatter, complex_multiply(return_of(total, tone.wavenumber), unit_phasor(turns)));
+}
+
+// More of them would take long to compile, and are seldom.
+const uint unrolled_tones = 16;
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   Point point;
@@ -57,12 +68,13 @@ void main() {
     add_block(total, point, diodes, block * diodes_per_block);
 #endif
 
-  // Samples are summed relative to twice their own range, which the resolve pass turns back.
   Real detour = add(path.rho, negate(path.range));
   float backscatter = Floats(constants.backscatter).at[i];
-  [[unroll]] for (uint t = 0; t < tones; ++t) {
-    Tone tone = Tones(constants.tones).at[t];
-    float turns = turn_fraction(multiply(detour, real(tone.turns_per_m.x, tone.turns_per_m.y)));
-    add_to_plane(t, i, backscatter, complex_multiply(return_of(total, tone.wavenumber), unit_phasor(turns)));
+  if (tones <= unrolled_tones) {
+    [[unroll]] for (uint t = 0; t < tones; ++t)
+      add_tone(t, i, total, detour, backscatter);
+  } else {
+    for (uint t = 0; t < tones; ++t)
+      add_tone(t, i, total, detour, backscatter);
   }
 }

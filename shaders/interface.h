@@ -42,13 +42,14 @@ PMDSIM_CONSTANT constant_resolve_waveform = 1; // one of waveform_*
 PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
 PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
+PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
 PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
-PMDSIM_CONSTANT constant_chip = 2;       // 1: the chip stands anyhow or is filled in part; 0: nominal
-PMDSIM_CONSTANT constant_distortion = 3; // one of distortion_*
-PMDSIM_CONSTANT constant_tiled = 5;      // of the resolve pass, too: 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or is filled in part; 0: nominal
+PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -172,10 +173,6 @@ struct PointsConstants {
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
 };
 
-// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
-// sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
-// each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
-// triangle wave half a turn on is its negative.
 struct SearchConstants {
   Strip strip;
   uvec2 lens;        // in: LensModel and its table
@@ -190,6 +187,10 @@ struct SearchConstants {
   uvec2 backscatter;
 };
 
+// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
+// sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
+// each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
+// triangle wave half a turn on is its negative.
 struct AccumulateConstants {
   uvec2 position_hi; // in, as the points pass left them
   uvec2 position_lo;

@@ -28,33 +28,30 @@ Real3 sample_ray(Sample at) {
   return Real3(x, y, real(1.0));
 }
 
-void store_hit(uint i, Real3 ray, TrianglePlane plane) {
+void store_hit(PointBuffers to, uint i, Real3 ray, TrianglePlane plane) {
   Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
   // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
   Real depth = real_clamp(divide(offset, dot3(normal, ray)), plane.along_min, plane.along_max);
-  Real3 point = Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth);
-  store_vec3(constants.position_hi, i, high3(point));
-  store_vec3(constants.position_lo, i, rest3(point));
-  Floats(constants.backscatter).at[i] = vignetting != 0 ? plane.backscatter * cos4(high3(ray)) : plane.backscatter;
-  if (surfaces != 0)
-    Vec4s(constants.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  store_point(to, i, high3(ray), Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth), plane);
 }
 
 void main() {
   Strip strip = constants.strip;
   uint i = gl_GlobalInvocationID.x;
+  PointBuffers to =
+      PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter);
   Sample at = sample_of(i, strip);
   Real3 ray = sample_ray(at); // before anything branches, so that lavapipe reads the chip once for all lanes
   if (at.pixel >= strip.columns * strip.rows) {
-    store_miss(constants.position_hi, constants.backscatter, i);
+    store_miss(to, i);
     return;
   }
   uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
   uvec2 tag = Tags(constants.tags).at[tag_at];
   if (tag.x == 0u) {
-    store_miss(constants.position_hi, constants.backscatter, i);
+    store_miss(to, i);
     return;
   }
-  store_hit(i, ray, Planes(constants.planes).at[tag.y]);
+  store_hit(to, i, ray, Planes(constants.planes).at[tag.y]);
 }

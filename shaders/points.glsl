@@ -25,10 +25,15 @@ Sample sample_of(uint i, Strip strip) {
                 uvec2(subsample % strip.samples, subsample / strip.samples));
 }
 
+// Buffers of what is left, as in PointsConstants.
+struct PointBuffers {
+  uvec2 position_hi, position_lo, surface, backscatter;
+};
+
 // A sample that sees nothing: no backscatter, the point in the lens itself.
-void store_miss(uvec2 position_hi, uvec2 backscatter, uint i) {
-  store_vec3(position_hi, i, vec3(0.0));
-  Floats(backscatter).at[i] = 0.0;
+void store_miss(PointBuffers to, uint i) {
+  store_vec3(to.position_hi, i, vec3(0.0));
+  Floats(to.backscatter).at[i] = 0.0;
 }
 
 // cos^4 of the angle to the optical axis, for vignetting.
@@ -36,6 +41,15 @@ float cos4(vec3 ray) {
   float cosine = max(0.0, ray.z);
   float cos2 = cosine * cosine / dot(ray, ray);
   return cos2 * cos2;
+}
+
+// A sample whose ray, of any length, meets the plane at `point`.
+void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, TrianglePlane plane) {
+  store_vec3(to.position_hi, i, high3(point));
+  store_vec3(to.position_lo, i, rest3(point));
+  Floats(to.backscatter).at[i] = vignetting != 0 ? plane.backscatter * cos4(ray) : plane.backscatter;
+  if (surfaces != 0)
+    Vec4s(to.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
 }
 
 #endif

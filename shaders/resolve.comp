@@ -17,7 +17,7 @@ layout(constant_id = constant_resolve_waveform) const uint waveform = waveform_s
 layout(constant_id = constant_resolve_taps) const uint taps = 4;
 layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
 layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
-layout(constant_id = constant_tiled) const uint tiled = 0;
+layout(constant_id = constant_resolve_tiled) const uint tiled = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -84,6 +84,13 @@ vec2 tap_phasor(uint k) {
   return unit_phasor(turns > 0.5 ? turns - 1.0 : turns);
 }
 
+// The return of a tone, all of its phase.
+vec2 tone_return(PixelSum sum, uint plane) {
+  float turns = turn_fraction(multiply(sum.reference_m, turns_per_m(plane)));
+  vec2 z = complex_multiply(compensated_value(sum.z[plane]), unit_phasor(turns));
+  return waveform == waveform_sine ? z : Floats(constants.harmonics).at[plane] * z;
+}
+
 // The N correlation samples, up to the amplitude's scale.
 void find_taps(PixelSum sum, out float tap[taps]) {
   if (waveform == waveform_square) {
@@ -98,11 +105,9 @@ void find_taps(PixelSum sum, out float tap[taps]) {
   [[unroll]] for (uint k = 0; k < taps; ++k)
     tap[k] = 0.0;
   [[unroll]] for (uint p = 0; p < planes; ++p) {
-    float turns = turn_fraction(multiply(sum.reference_m, turns_per_m(p)));
-    vec2 z = complex_multiply(compensated_value(sum.z[p]), unit_phasor(turns));
-    float harmonic = waveform == waveform_sine ? 1.0 : Floats(constants.harmonics).at[p];
+    vec2 z = tone_return(sum, p);
     [[unroll]] for (uint k = 0; k < taps; ++k)
-      tap[k] += harmonic * dot(z, tap_phasor(k * (p + 1)));
+      tap[k] += dot(z, tap_phasor(k * (p + 1)));
   }
 }
 
@@ -112,6 +117,19 @@ vec2 demodulate(float tap[taps]) {
   [[unroll]] for (uint k = 0; k < taps; ++k)
     z += tap[k] * tap_phasor(k);
   return z * (2.0 / float(taps));
+}
+
+// The same without the taps: of harmonic h, only h = 1 and N - 1 modulo N show. If there is none of these, z is exactly 0.
+vec2 demodulate_harmonics(PixelSum sum) {
+  vec2 z = vec2(0.0);
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    uint alias = (p + 1) % taps;
+    if (alias == 1)
+      z += tone_return(sum, p);
+    else if (alias == taps - 1)
+      z += tone_return(sum, p) * vec2(1.0, -1.0);
+  }
+  return z;
 }
 
 // `turns` in [-1, 1].
@@ -129,13 +147,15 @@ void store_phase(uint pixel, Real turns) {
 void store_return(uint pixel, PixelSum sum) {
   float scale = constants.amplitude_scale / float(constants.samples * constants.samples);
   float tap[taps];
-  if (waveform != waveform_sine || keep_taps != 0)
+  if (waveform == waveform_square || keep_taps != 0)
     find_taps(sum, tap);
   if (keep_taps != 0)
     [[unroll]] for (uint k = 0; k < taps; ++k)
       store(constants.first_channel + channel_first_tap + k, pixel, scale * tap[k]);
-  // Of a sine the taps would give z itself; this way its phase is exact to the last bit of the output.
-  vec2 z = waveform == waveform_sine ? compensated_value(sum.z[0]) : demodulate(tap);
+  // A sine's phase stays relative to the range, which makes it exact to the last bit of the output.
+  vec2 z = waveform == waveform_sine     ? compensated_value(sum.z[0])
+           : waveform == waveform_square ? demodulate(tap)
+                                         : demodulate_harmonics(sum);
   float amplitude = scale * magnitude(z);
   store(constants.first_channel + channel_amplitude, pixel, amplitude);
   if (amplitude == 0.0) {

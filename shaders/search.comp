@@ -109,25 +109,17 @@ Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
   return Hit(seen[covering], real_clamp(range_along(ray, plane), plane.along_min, plane.along_max));
 }
 
-void store_hit(uint i, Real3 ray, Hit hit) {
-  TrianglePlane plane = Planes(constants.planes).at[hit.triangle];
-  Real3 point = scale3(ray, hit.range);
-  store_vec3(constants.position_hi, i, high3(point));
-  store_vec3(constants.position_lo, i, rest3(point));
-  Floats(constants.backscatter).at[i] = vignetting != 0 ? plane.backscatter * cos4(high3(ray)) : plane.backscatter;
-  if (surfaces != 0)
-    Vec4s(constants.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
-}
-
 void main() {
   Strip strip = constants.strip;
   uint i = gl_GlobalInvocationID.x;
+  PointBuffers to =
+      PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter);
   Sample at = sample_of(i, strip);
   // Before anything branches, so that lavapipe reads the lens once for all lanes.
   Lenses lens = Lenses(constants.lens);
   Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, at.subsample));
   if (at.pixel >= strip.columns * strip.rows) {
-    store_miss(constants.position_hi, constants.backscatter, i);
+    store_miss(to, i);
     return;
   }
   uint seen[neighbours];
@@ -136,9 +128,9 @@ void main() {
   uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
   if (hit.triangle == no_triangle) {
     Tags(constants.tags).at[tag_at] = uvec2(0u);
-    store_miss(constants.position_hi, constants.backscatter, i);
+    store_miss(to, i);
     return;
   }
   Tags(constants.tags).at[tag_at] = uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle);
-  store_hit(i, ray, hit);
+  store_point(to, i, high3(ray), scale3(ray, hit.range), Planes(constants.planes).at[hit.triangle]);
 }

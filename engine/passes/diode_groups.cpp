@@ -8,7 +8,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 8 moments at most, no phase wraps
+constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 constexpr std::uint32_t largest_run_blocks = 16;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.

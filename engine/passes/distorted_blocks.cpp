@@ -1,4 +1,3 @@
-#include "engine/error.h"
 #include "engine/lens.h"
 #include "engine/passes/raster_blocks.h"
 
@@ -41,16 +40,20 @@ public:
   BlockRays(const Lens &lens, const glm::uvec2 &first, const glm::uvec2 &pixels)
       : lens_(lens), first_(first), pixels_(pixels) {
     for (std::uint32_t column = 0; column <= pixels.x; ++column)
-      border_.insert(border_.end(), {ray({column, 0}), ray({column, pixels.y})});
+      rays_.insert(rays_.end(), {ray({column, 0}), ray({column, pixels.y})});
     for (std::uint32_t row = 0; row <= pixels.y; ++row)
-      border_.insert(border_.end(), {ray({0, row}), ray({pixels.x, row})});
+      rays_.insert(rays_.end(), {ray({0, row}), ray({pixels.x, row})});
+    // The border of a very wide view may lie within 60 degrees of the point behind.
+    for (std::uint32_t i = 1; i < net; ++i)
+      for (std::uint32_t j = 1; j < net; ++j)
+        rays_.push_back(ray(glm::dvec2(pixels * glm::uvec2(i, j)) / static_cast<double>(net)));
   }
 
-  const std::vector<glm::dvec3> &border() const { return border_; }
+  const std::vector<glm::dvec3> &all() const { return rays_; }
 
   glm::dvec3 mean() const {
     glm::dvec3 sum(0.0);
-    for (const glm::dvec3 &ray : border_)
+    for (const glm::dvec3 &ray : rays_)
       sum += ray;
     return glm::normalize(sum);
   }
@@ -86,7 +89,7 @@ private:
   const Lens &lens_;
   glm::dvec2 first_;
   glm::uvec2 pixels_;
-  std::vector<glm::dvec3> border_;
+  std::vector<glm::dvec3> rays_;
 };
 
 class Planner {
@@ -103,7 +106,7 @@ public:
         return;
       }
     if (pixels == glm::uvec2(1))
-      throw Error(ExitCode::input, "expected pixels that see less than 120 degrees each");
+      throw std::logic_error("a sensor with a pixel that sees too wide a view");
     const bool wide = pixels.x >= pixels.y;
     const glm::uvec2 half = wide ? glm::uvec2(pixels.x / 2, pixels.y) : glm::uvec2(pixels.x, pixels.y / 2);
     const glm::uvec2 step = wide ? glm::uvec2(half.x, 0) : glm::uvec2(0, half.y);
@@ -120,7 +123,7 @@ private:
     const BlockRays rays(lens_, first, pixels);
     const ViewPlane plane(rays.mean());
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const glm::dvec3 &ray : rays.border()) {
+    for (const glm::dvec3 &ray : rays.all()) {
       if (glm::dot(ray, plane.axis) < smallest_cosine)
         return std::nullopt;
       low = glm::min(low, plane.slope(ray));

@@ -31,7 +31,7 @@ PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool 
                 choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
                 sizeof(shader::PointsConstants),
                 {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
-                 is_plain(sensor) ? 0u : 1u, 0u, 0u, is_tiled(sensor) ? 1u : 0u}) {}
+                 is_plain(sensor) ? 0u : 1u, is_tiled(sensor) ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                         const StripBuffers &buffers, const vulkan::Buffer &planes) const {

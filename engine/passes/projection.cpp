@@ -1,9 +1,10 @@
 #include "engine/passes/projection.h"
 
+#include "engine/passes/vertex_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <limits>
 
 namespace pmdsim {
@@ -35,10 +36,6 @@ Frustum frustum_of(const RasterBlock &block) {
            {high.x * rows[2] - rows[0], 0},
            {rows[1] + margin * rows[2], 0},
            {high.y * rows[2] - rows[1], 0}}};
-}
-
-bool comes_before(const glm::dvec3 &a, const glm::dvec3 &b) {
-  return std::lexicographical_compare(&a.x, &a.x + 3, &b.x, &b.x + 3);
 }
 
 // Where the edge crosses the half-space's border; the same bits whichever way round the edge is walked, so

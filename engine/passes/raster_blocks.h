@@ -35,8 +35,8 @@ std::vector<RasterBlock> chip_blocks(const Sensor &sensor, std::uint32_t block_f
 
 // Blocks of a sensor with distortion: rectangles of pixels with a plane of their own across the mean of their
 // rays, so that neither wide views nor strong distortion waste many fragments. Their fragments are no wider
-// than samples, and there is at least one more around every sample's. They do not depend on strips, so that
-// no bit does.
+// than samples, and there is at least one more around every sample's. lens_fault() of the sensor is empty.
+// They do not depend on strips, so that no bit does.
 std::vector<RasterBlock> distorted_blocks(const Sensor &sensor, std::uint32_t block_fragments);
 
 } // namespace pmdsim

@@ -93,7 +93,7 @@ SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const
       pipeline_(device,
                 choose(device, precision, shader::search_fp64_spirv, shader::search_double_float_spirv),
                 sizeof(shader::SearchConstants),
-                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, 1u,
+                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
                  std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
                                                                     : shader::distortion_brown}) {}
 

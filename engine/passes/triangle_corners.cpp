@@ -1,6 +1,7 @@
 #include "engine/passes/triangle_corners.h"
 
 #include "engine/passes/double_pair.h"
+#include "engine/passes/vertex_order.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,10 +9,6 @@
 
 namespace pmdsim {
 namespace {
-
-bool comes_before(const glm::dvec3 &a, const glm::dvec3 &b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 // For each of the scene's vertices the first one at the same place: files repeat them along seams.
 std::vector<std::uint32_t> first_at_same_place(const std::vector<glm::dvec3> &positions_m) {

@@ -24,6 +24,17 @@ double harmonic_sum(const std::vector<double> &amplitudes, double turns) {
   return sum;
 }
 
+// Of a harmonic h, N taps show their difference from the multiples of N next to it: the fundamental, where
+// that is 1. Where nothing does, rounding must not leave a phase.
+bool shows_a_fundamental(const Waveform &waveform, std::uint32_t taps) {
+  if (waveform.kind != Waveform::Kind::harmonics)
+    return true;
+  for (std::size_t h = 1; h <= waveform.harmonics.size(); ++h)
+    if (waveform.harmonics[h - 1] != 0.0 && (h % taps == 1 || h % taps == taps - 1))
+      return true;
+  return false;
+}
+
 double reference_turns(std::uint32_t tap, std::uint32_t taps) { return static_cast<double>(tap) / taps; }
 
 } // namespace
@@ -58,6 +69,8 @@ void ReturnSum::add(const std::vector<LightPath> &paths) {
 std::complex<double> ReturnSum::z() const {
   if (is_sine())
     return phasors_.value();
+  if (!shows_a_fundamental(sensor_->waveform, sensor_->taps))
+    return 0.0;
   ComplexSum sum;
   for (std::uint32_t k = 0; k < taps_.size(); ++k)
     sum.add(taps_[k].value() * std::polar(1.0, full_turn_rad * reference_turns(k, sensor_->taps)));

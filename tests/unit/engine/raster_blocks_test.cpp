@@ -172,7 +172,8 @@ void check_size(const Sensor &sensor, const RasterBlock &block) {
   CHECK((samples <= (1u << 20) || !is_large(block)));
   // Three fragments a sample and 65,536 to spare, and a margin of three and what rounding up adds.
   const glm::dvec2 inside = glm::dvec2(block.fragments) - 7.0;
-  CHECK((glm::any(glm::lessThanEqual(inside, glm::dvec2(0.0))) || inside.x * inside.y <= 3.0 * samples + 65536.0));
+  CHECK((glm::any(glm::lessThanEqual(inside, glm::dvec2(0.0))) ||
+         inside.x * inside.y <= 3.0 * samples + 65536.0));
 }
 
 DistortedFigures check_distorted_blocks(const Sensor &sensor) {
@@ -273,15 +274,16 @@ TEST_CASE("sensors of few pixels") {
   }
 }
 
-TEST_CASE("a pixel that sees more than 120 degrees is refused, by name") {
-  CHECK_NOTHROW(distorted_blocks(sensor_to(59 * degree, Fisheye{}, {1, 1}), largest_block));
-  try {
-    distorted_blocks(sensor_to(61 * degree, Fisheye{}, {1, 1}), largest_block);
-    FAIL("no error");
-  } catch (const Error &error) {
-    CHECK(error.code() == ExitCode::input);
-    CHECK(std::string(error.what()).find("120 degrees") != std::string::npos);
-  }
-  // Four pixels share it.
-  CHECK_NOTHROW(distorted_blocks(sensor_to(85 * degree, Fisheye{}, {2, 2}), largest_block));
+TEST_CASE("a pixel that sees more than 120 degrees is a fault; without it every block has its plane") {
+  for (const glm::uvec2 resolution :
+       {glm::uvec2(1, 1), glm::uvec2(2, 2), glm::uvec2(1, 30), glm::uvec2(100, 1)})
+    for (double corner_deg = 20; corner_deg < 179; corner_deg += 3) {
+      INFO(resolution.x << " x " << resolution.y << ", corners at " << corner_deg << " degrees");
+      const Sensor sensor = sensor_to(corner_deg * degree, Fisheye{}, resolution);
+      const bool too_wide = lens_fault(sensor) == LensFault::pixel_too_wide;
+      if (resolution == glm::uvec2(1, 1))
+        CHECK(too_wide == (corner_deg >= 60));
+      if (!too_wide)
+        CHECK_NOTHROW(distorted_blocks(sensor, largest_block));
+    }
 }
