@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <tuple>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -213,6 +214,29 @@ TEST_CASE("where nothing returns all taps are 0 and the phase is none") {
 
 // Light of 1/16 turn, and half as much of 3/16: taps (0.75, 0.25, ...) + 0.5 (0.25, 0.75, ...).
 const Reading mixture{{0.875, 0.625, -0.875, -0.625}, std::hypot(0.875, 0.625), turns_of(0.625, 0.875)};
+
+TEST_CASE("harmonics that the camera's taps cannot tell from none leave amplitude 0 and no phase") {
+  const Engine engine = both_engines();
+  SceneBuilder builder;
+  builder.add_wall({1.7, {0.4}});
+  // N taps show the harmonics 1 and N - 1, modulo N.
+  for (const auto &[harmonics, taps, shows] :
+       std::vector<std::tuple<std::vector<double>, std::uint32_t, bool>>{{{0, 1}, 5, false},
+                                                                         {{0, 0, 1}, 3, false},
+                                                                         {{0, 0, 1}, 8, false},
+                                                                         {{0, 1}, 4, false},
+                                                                         {{0, 1}, 3, true},
+                                                                         {{0, 0, 1}, 4, true},
+                                                                         {{0, 0, 0, 0, 0, 1}, 5, true}}) {
+    const Sensor sensor = sensor_of(Waveform::Kind::harmonics, taps, harmonics);
+    const Measurement measured =
+        measure_monostatic(engine, builder.scene(), sensor, Backscatter::constant, with_taps);
+    INFO(harmonics.size() << " harmonics, " << taps << " taps");
+    CHECK((measured.returns[0].amplitude[0] > 0) == shows);
+    CHECK(std::isfinite(measured.returns[0].distance_m[0]) == shows);
+    CHECK(std::isfinite(measured.returns[0].phase_rad[0]) == shows);
+  }
+}
 
 TEST_CASE("the taps of two diodes' paths add up") {
   const Engine engine = both_engines();
