@@ -54,7 +54,7 @@ private:
 };
 
 // What makes a sensor's image impossible; nothing where every place of it has a ray.
-enum class LensFault { chip_behind_lens, distortion_folds };
+enum class LensFault { chip_behind_lens, distortion_folds, beyond_model, pixel_too_wide };
 std::optional<LensFault> lens_fault(const Sensor &sensor);
 
 } // namespace pmdsim
