@@ -25,11 +25,9 @@ double terms_per_path(const Sensor &sensor) {
   return terms * static_cast<double>(sensor.modulation_hz.size());
 }
 
-// With few enough pixels for what the reference can afford, one of `sensors` that share it.
-Sensor affordable(const Sensor &sensor, std::size_t diode_count, std::size_t sensors) {
-  const double interactions = static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
-                              static_cast<double>(diode_count) * terms_per_path(sensor);
-  return coarser(sensor, std::sqrt(interactions * static_cast<double>(sensors) / affordable_interactions));
+double interactions(const Sensor &sensor, std::size_t diode_count) {
+  return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples *
+         static_cast<double>(diode_count) * terms_per_path(sensor);
 }
 
 // Whether every sample of the pixel hits the same triangle in both.
@@ -103,6 +101,14 @@ void require_plausible(const AccuracyCheck &check, const std::string &device) {
   if (check.distance_max_m > limit_m)
     fail(fmt::format("distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
                      1e3 * check.distance_max_m, 1e3 * limit_m));
+}
+
+Sensor affordable(Sensor sensor, std::size_t diode_count, std::size_t sensors) {
+  const double share = affordable_interactions / static_cast<double>(sensors);
+  const auto coarse = [&] { return coarser(sensor, std::sqrt(interactions(sensor, diode_count) / share)); };
+  if (interactions(coarse(), diode_count) > share)
+    sensor.samples = 1;
+  return coarse();
 }
 
 std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device) {

@@ -34,6 +34,10 @@ AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, c
 // that was compared: a distance is not finite or too far off, or hardly any pixel saw the same triangles.
 void require_plausible(const AccuracyCheck &check, const std::string &device);
 
+// With few enough pixels for what the reference can afford with so many diodes, one of `sensors` that share
+// it. Where the fewest that coarser() leaves are too many still, with one sample a pixel.
+Sensor affordable(Sensor sensor, std::size_t diode_count, std::size_t sensors);
+
 // Measures every sensor's frame on both, or a coarser frame with the same view where the reference would take
 // too long; a check each frequency. Throws Error.
 std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device);

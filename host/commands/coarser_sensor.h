@@ -5,8 +5,9 @@
 
 namespace pmdsim {
 
-// Columns and rows divided by `factor` (one of each at least), pixels larger in return; a factor up to 1
-// changes nothing.
+// Columns and rows divided by `factor`, pixels larger in return; a factor up to 1 changes nothing. At least 8
+// of each stay, or all where there are fewer: behind a wide lens the device takes no pixel that sees too
+// much.
 Sensor coarser(Sensor sensor, double factor);
 
 } // namespace pmdsim

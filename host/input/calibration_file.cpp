@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t max_calibration_bytes = std::size_t{1} << 22;
 
-// The names that OpenCV's programs, its tutorials and ROS give to one thing.
-const std::vector<std::string> camera_matrix_names{"camera_matrix", "cameraMatrix", "Camera_Matrix", "K",
-                                                   "M"};
-const std::vector<std::string> distortion_names{"distortion_coefficients", "Distortion_Coefficients",
-                                                "dist_coeffs", "distCoeffs", "D"};
+// The names that OpenCV's programs, its tutorials, ROS and ROS 2 give to one thing.
+const std::vector<std::string> camera_matrix_names{
+    "camera_matrix", "cameraMatrix", "Camera_Matrix", "K", "k", "M"};
+const std::vector<std::string> distortion_names{
+    "distortion_coefficients", "Distortion_Coefficients", "dist_coeffs", "distCoeffs", "D", "d"};
 const std::vector<std::string> size_or_width_names{"image_size", "imageSize", "image_width", "image_Width",
                                                    "width"};
 const std::vector<std::string> height_names{"image_height", "image_Height", "height"};
@@ -73,26 +73,30 @@ void read_camera_matrix(const CalibrationEntry &entry, Calibration &calibration)
   calibration.fy = m[4], calibration.cy = m[5];
 }
 
-bool says_fisheye(const CalibrationMap &map) {
+enum class Model { brown, fisheye, nameless };
+
+Model model_of(const CalibrationMap &map) {
   if (const auto flag = map.find({"fisheye_model"})) {
     const double number = number_of(*flag);
     if (number != 0.0 && number != 1.0)
       throw input_error(flag->key, fmt::format("expected 0 or 1, found {}", number));
     if (number == 1.0)
-      return true;
+      return Model::fisheye;
   }
   const auto model = map.find({"distortion_model"});
   if (!model)
-    return false;
+    return Model::brown;
   const std::string name = text_of(*model);
+  if (name.empty()) // ROS's camera_info of a camera that nobody calibrated, or of a rectified image
+    return Model::nameless;
   if (name == "fisheye" || name == "equidistant" || name == "kannala_brandt")
-    return true;
+    return Model::fisheye;
   if (name != "plumb_bob" && name != "rational_polynomial")
     throw input_error(model->key,
                       fmt::format("expected plumb_bob, rational_polynomial, equidistant, fisheye or "
                                   "kannala_brandt, found {}",
                                   in_quotes(name)));
-  return false;
+  return Model::brown;
 }
 
 // Terms of OpenCV's model that pmdsim has not.
@@ -123,15 +127,19 @@ void read_brown(const CalibrationKey &key, std::vector<double> d, Calibration &c
   calibration.tau_y_rad = d[tau_y];
 }
 
-void read_distortion(const CalibrationEntry &entry, bool is_fisheye, Calibration &calibration) {
+void read_distortion(const CalibrationEntry &entry, Model model, Calibration &calibration) {
   const std::vector<double> d = numbers_of(entry, std::size(opencv_order));
   for (const double coefficient : d)
     if (std::abs(coefficient) > max_distortion)
       throw input_error(entry.key, fmt::format("expected coefficients from {} to {}, found {}",
                                                -max_distortion, max_distortion, coefficient));
-  if (!is_fisheye)
+  if (model == Model::nameless && !std::ranges::all_of(d, [](double c) { return c == 0.0; }))
+    throw input_error(entry.key, "expected no coefficients but 0 beside an empty distortion_model");
+  if (model == Model::nameless || (model == Model::brown && d.empty()))
+    return;
+  if (model == Model::brown)
     return read_brown(entry.key, d, calibration);
-  if (d.size() != 4)
+  if (d.size() != 4) // an empty list, too: a fisheye without coefficients is no pinhole
     throw input_error(entry.key, fmt::format("expected the fisheye's k1 to k4, found {} numbers", d.size()));
   calibration.distortion = Fisheye{d[0], d[1], d[2], d[3]};
 }
@@ -151,7 +159,7 @@ Calibration read_calibration(const std::filesystem::path &file) {
   const CalibrationEntry matrix = map.at(camera_matrix_names);
   read_camera_matrix(matrix, calibration);
   const CalibrationEntry distortion = map.at(distortion_names);
-  read_distortion(distortion, says_fisheye(map), calibration);
+  read_distortion(distortion, model_of(map), calibration);
   calibration.camera_matrix_at = matrix.key;
   calibration.distortion_at = distortion.key;
   return calibration;

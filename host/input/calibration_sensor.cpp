@@ -83,7 +83,8 @@ Sensor sensor_of(const Calibration &calibration, double pixel_pitch_m) {
   sensor.chip.translation_m = shift_m.x * along_columns + shift_m.y * along_rows;
   check_ranges(sensor, calibration.camera_matrix_at);
   if (const auto problem = lens_problem(sensor))
-    throw input_error(calibration.distortion_at, problem->expectation);
+    throw input_error(problem->key == "resolution" ? calibration.camera_matrix_at : calibration.distortion_at,
+                      problem->expectation);
   return sensor;
 }
 

@@ -43,18 +43,34 @@ std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
                      pixels_to_fold(lens, lens.pixel(*axis_m), *place), place->x, place->y);
 }
 
+std::string limit_expectation(const Sensor &sensor) {
+  return std::holds_alternative<Fisheye>(sensor.distortion)
+             ? "expected an image within 179 degrees of the optical axis (fisheye)"
+             : "expected an image within 89 degrees of the optical axis (brown)";
+}
+
+LensProblem problem_of(LensFault fault, const Sensor &sensor, const Lens &lens) {
+  switch (fault) {
+  case LensFault::chip_behind_lens:
+    return {"chip", "expected the whole chip in front of the lens"};
+  case LensFault::distortion_folds:
+    return {"distortion", fold_expectation(sensor, lens)};
+  case LensFault::beyond_model:
+    return {"distortion", limit_expectation(sensor)};
+  case LensFault::pixel_too_wide:
+    break;
+  }
+  return {"resolution", "expected pixels that see less than 120 degrees each"};
+}
+
 } // namespace
 
 std::optional<LensProblem> lens_problem(const Sensor &sensor) {
   const Lens lens(sensor);
   const std::optional<LensFault> fault = lens_fault(sensor);
-  if (fault == LensFault::chip_behind_lens)
-    return LensProblem{"chip", "expected the whole chip in front of the lens"};
-  if (!(glm::determinant(lens.lens_from_chip()) > 0.0))
+  if (fault != LensFault::chip_behind_lens && !(glm::determinant(lens.lens_from_chip()) > 0.0))
     return LensProblem{"chip", "expected the front of the chip towards the lens"};
-  if (fault == LensFault::distortion_folds)
-    return LensProblem{"distortion", fold_expectation(sensor, lens)};
-  return std::nullopt;
+  return fault ? std::optional(problem_of(*fault, sensor, lens)) : std::nullopt;
 }
 
 } // namespace pmdsim

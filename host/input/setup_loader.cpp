@@ -86,6 +86,25 @@ void warn_of_distant_monostatic_light(Setup &setup) {
   }
 }
 
+// What N taps make of harmonic h is 0 unless h is next to a multiple of N (DESIGN, section 1).
+bool shows(std::size_t harmonic, std::size_t taps) {
+  return harmonic % taps == 1 || harmonic % taps == taps - 1;
+}
+
+void warn_of_unseen_harmonics(Setup &setup) {
+  for (const Sensor &sensor : setup.sensors) {
+    const std::vector<double> &harmonics = sensor.waveform.harmonics;
+    bool any = sensor.waveform.kind != Waveform::Kind::harmonics;
+    for (std::size_t i = 0; i < harmonics.size(); ++i)
+      any = any || (harmonics[i] != 0.0 && shows(i + 1, sensor.taps));
+    if (!any)
+      setup.warnings.push_back(
+          fmt::format("sensor {}: none of its harmonics shows in {} taps (only number 1, {}, "
+                      "{}, {} ... do): amplitudes will be 0",
+                      sensor.name, sensor.taps, sensor.taps - 1, sensor.taps + 1, 2 * sensor.taps - 1));
+  }
+}
+
 } // namespace
 
 Setup load_setup(const std::filesystem::path &file) {
@@ -108,6 +127,7 @@ Setup load_setup(const std::filesystem::path &file) {
         illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.sensors));
 
   warn_of_distant_monostatic_light(setup);
+  warn_of_unseen_harmonics(setup);
   if (scene.scene.triangles.empty())
     setup.warnings.push_back(
         fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));

@@ -73,6 +73,33 @@ TEST_CASE("the printed sensor is one of a setup") {
   }
 }
 
+TEST_CASE("a message of ROS 2 is a calibration") {
+  const Workspace work;
+  const Run run = run_pmdsim({"import-calibration", work.write("camera_info.yaml", R"(header:
+  stamp:
+    sec: 0
+    nanosec: 0
+  frame_id: camera
+height: 8
+width: 12
+distortion_model: ''
+d: []
+k: [40.0, 0.0, 5.5, 0.0, 40.0, 3.5, 0.0, 0.0, 1.0]
+r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+p: [40.0, 0.0, 5.5, 0.0, 0.0, 40.0, 3.5, 0.0, 0.0, 0.0, 1.0, 0.0]
+binning_x: 0
+binning_y: 0
+roi: {x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: false}
+---
+)")});
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  const json sensor = json::parse(run.output);
+  CHECK(sensor["resolution"] == json({12, 8}));
+  CHECK_FALSE(sensor.contains("distortion"));
+  CHECK_FALSE(sensor.contains("chip"));
+}
+
 TEST_CASE("pitch and name are the user's where given") {
   const Workspace work;
   const Run run = run_pmdsim({"import-calibration", work.write("camera.yml", opencv_yaml), "--pixel-pitch-m",
@@ -101,15 +128,16 @@ TEST_CASE("calibrations that cannot be read end in one line") {
 }
 
 TEST_CASE("an alias bomb is not unrolled") {
-  std::string bomb = "a: &a [1,1,1,1,1,1,1,1,1]\n";
+  std::string bomb = "of_a: &a [1,1,1,1,1,1,1,1,1]\n";
   for (char name = 'b'; name <= 'z'; ++name) {
     const char inner = static_cast<char>(name - 1);
-    bomb += std::string(1, name) + ": &" + name + " [";
+    bomb += std::string("of_") + name + ": &" + name + " [";
     for (int i = 0; i < 9; ++i)
       bomb += std::string(i == 0 ? "*" : ",*") + inner;
     bomb += "]\n";
   }
-  check_text_refused(bomb + "image_size: [4, 4]\ncamera_matrix: *z\n", {"camera.yml", "camera_matrix"});
+  check_text_refused(bomb + "image_size: [4, 4]\ncamera_matrix: *z\n",
+                     {"camera.yml", "camera_matrix: expected a number"});
 }
 
 TEST_CASE("wrong command lines of import-calibration") {

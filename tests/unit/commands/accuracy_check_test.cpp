@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "host/commands/accuracy_check.h"
+#include "host/commands/camera.h"
 #include "tests/support/scenes.h"
 
 #include <algorithm>
@@ -40,6 +41,25 @@ struct Frames {
     return "none";
   }
 };
+
+// Looks 85 degrees to either side of its axis.
+Sensor fisheye_sensor(const glm::uvec2 &resolution) {
+  Sensor sensor;
+  sensor.resolution = resolution;
+  sensor.focal_length_m = 1e-3;
+  sensor.pixel_pitch_m = 2.0 * glm::radians(85.0) * sensor.focal_length_m / glm::dvec2(resolution);
+  sensor.distortion = Fisheye{};
+  return sensor;
+}
+
+// What the reference cannot afford at all.
+Sensor demanding(Sensor sensor) {
+  sensor.samples = 16;
+  sensor.taps = 16;
+  sensor.waveform.kind = Waveform::Kind::square;
+  sensor.modulation_hz.assign(16, 20e6);
+  return sensor;
+}
 
 } // namespace
 
@@ -107,4 +127,42 @@ TEST_CASE("where the taps cancel there is nothing to compare") {
   Frames frames;
   frames.truth.returns[0].taps = {std::vector<double>(16, 1e4 * frames.truth.returns[0].amplitude[0])};
   CHECK(frames.check().comparable == 0);
+}
+
+TEST_CASE("a wide sensor stays fine enough for the device, however dear the reference is") {
+  const glm::uvec2 resolution = GENERATE(glm::uvec2(640, 480), glm::uvec2(8192, 64), glm::uvec2(9, 640));
+  const Sensor fine = demanding(fisheye_sensor(resolution));
+  for (const std::size_t diodes : {1u, 1000u, 100'000u})
+    for (const std::size_t sensors : {1u, 64u}) {
+      const Sensor sensor = affordable(fine, diodes, sensors);
+      INFO(diodes << " diodes, " << sensors << " sensors: " << sensor.resolution.x << " x "
+                  << sensor.resolution.y);
+      CHECK(sensor.resolution.x >= 8);
+      CHECK(sensor.resolution.y >= 8);
+      const glm::dvec2 chip_m = glm::dvec2(fine.resolution) * fine.pixel_pitch_m;
+      const glm::dvec2 coarse_chip_m = glm::dvec2(sensor.resolution) * sensor.pixel_pitch_m;
+      CHECK(glm::distance(chip_m, coarse_chip_m) < 1e-12 * glm::length(chip_m));
+    }
+  const Sensor coarsest = affordable(fine, 100'000, 64);
+  CHECK(coarsest.samples == 1);
+  const Scene scene = wall_at(2.0);
+  Camera camera("");
+  camera.prepare(scene, coarsest, monostatic_illuminator(coarsest.world_from_camera), Backscatter::lambert);
+  CHECK_NOTHROW(camera.measure("measuring"));
+}
+
+TEST_CASE("a sensor with fewer pixels than are left of others keeps them all") {
+  const Sensor sensor = affordable(demanding(fisheye_sensor({5, 640})), 100'000, 64);
+  CHECK(sensor.resolution == glm::uvec2(5, 8));
+  CHECK(sensor.samples == 1);
+}
+
+TEST_CASE("samples are given up only where fewer pixels do not help") {
+  Sensor sensor = fisheye_sensor({640, 480});
+  sensor.samples = 4;
+  CHECK(affordable(sensor, 1, 1).resolution == sensor.resolution);
+  const Sensor coarse = affordable(sensor, 1000, 1);
+  CHECK(coarse.samples == 4);
+  CHECK(coarse.resolution.x < 640);
+  CHECK(coarse.pixel_count() * 16 * 1000 <= 200'000'000);
 }

@@ -67,6 +67,65 @@ projection_matrix:
   data: [300, 0, 160, 0, 0, 300, 120, 0, 0, 0, 1, 0]
 )";
 
+// As ROS 2's `ros2 topic echo --once /camera_info` prints it.
+constexpr const char *ros2_message = R"(header:
+  stamp:
+    sec: 1700000000
+    nanosec: 123456789
+  frame_id: camera_optical_frame
+height: 240
+width: 320
+distortion_model: plumb_bob
+d:
+- -0.3
+- 0.1
+- 0.001
+- 0.002
+- 0.0
+k:
+- 300.0
+- 0.0
+- 160.5
+- 0.0
+- 301.0
+- 120.5
+- 0.0
+- 0.0
+- 1.0
+r:
+- 1.0
+- 0.0
+- 0.0
+- 0.0
+- 1.0
+- 0.0
+- 0.0
+- 0.0
+- 1.0
+p:
+- 300.0
+- 0.0
+- 160.0
+- 0.0
+- 0.0
+- 300.0
+- 120.0
+- 0.0
+- 0.0
+- 0.0
+- 1.0
+- 0.0
+binning_x: 0
+binning_y: 0
+roi:
+  x_offset: 0
+  y_offset: 0
+  height: 0
+  width: 0
+  do_rectify: false
+---
+)";
+
 Calibration read(const std::string &text) {
   const TemporaryFolder folder;
   return read_calibration(folder.write("camera.yml", text));
@@ -139,6 +198,38 @@ TEST_CASE("What ROS writes") {
   CHECK(std::get<BrownConrady>(c.distortion).k1 == -0.3);
 }
 
+TEST_CASE("What ROS 2 prints of a message") {
+  for (const std::string &text : {std::string(ros2_message), with(ros2_message, "---\n", "")}) {
+    const Calibration c = read(text);
+    CHECK(c.name.empty());
+    CHECK(c.resolution == glm::uvec2(320, 240));
+    CHECK(c.fx == 300.0);
+    CHECK(c.fy == 301.0);
+    CHECK(c.cx == 160.5);
+    CHECK(c.cy == 120.5);
+    const auto &d = std::get<BrownConrady>(c.distortion);
+    CHECK(d.k1 == -0.3);
+    CHECK(d.k2 == 0.1);
+    CHECK(d.p1 == 0.001);
+    CHECK(d.p2 == 0.002);
+    CHECK(d.k3 == 0.0);
+  }
+}
+
+TEST_CASE("What ROS 2 prints of a camera without distortion") {
+  const std::string numbers = "d:\n- -0.3\n- 0.1\n- 0.001\n- 0.002\n- 0.0\n";
+  const std::string none = with(ros2_message, numbers, "d: []\n");
+  const std::string zeros = with(ros2_message, numbers, "d:\n- 0.0\n- 0.0\n- 0.0\n- 0.0\n- 0.0\n");
+  for (const std::string &text : {none, zeros}) {
+    CHECK(std::holds_alternative<std::monostate>(read(text).distortion));
+    const Calibration c = read(with(text, "distortion_model: plumb_bob", "distortion_model: ''"));
+    CHECK(std::holds_alternative<std::monostate>(c.distortion));
+    CHECK(c.fy == 301.0);
+  }
+  CHECK_THAT(error_of(with(ros2_message, "plumb_bob", "''")),
+             EndsWith("camera.yml:9:1: d: expected no coefficients but 0 beside an empty distortion_model"));
+}
+
 TEST_CASE("Matrices may be lists of rows, and keys short") {
   const Calibration c = read(brief("[[0.1, 0, 0, 0, 0]]", "[[300, 0, 160], [0, 310, 120], [0, 0, 1]]"));
   CHECK(c.resolution == glm::uvec2(320, 240));
@@ -151,6 +242,16 @@ TEST_CASE("Zeros are no distortion") {
   CHECK(std::holds_alternative<std::monostate>(read(brief("[0, 0, 0, 0]")).distortion));
   CHECK(std::holds_alternative<std::monostate>(
       read(brief("[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]")).distortion));
+}
+
+TEST_CASE("An empty list is no distortion") {
+  for (const char *list : {"[]", "{rows: 0, cols: 0, data: []}", "{data: []}"}) {
+    const std::string text = brief(list);
+    CHECK(std::holds_alternative<std::monostate>(read(text).distortion));
+    CHECK(std::holds_alternative<std::monostate>(read(text + "distortion_model: \"\"").distortion));
+    CHECK_THAT(error_of(text + "distortion_model: equidistant"),
+               EndsWith("D: expected the fisheye's k1 to k4, found 0 numbers"));
+  }
 }
 
 TEST_CASE("A fisheye is one by OpenCV's flag or by the model's name") {
@@ -207,7 +308,7 @@ TEST_CASE("Camera matrices that are none") {
 }
 
 TEST_CASE("Distortions that are none") {
-  for (const char *list : {"[]", "[0, 0, 0]", "[0, 0, 0, 0, 0, 0]"})
+  for (const char *list : {"[0, 0, 0]", "[0, 0, 0, 0, 0, 0]"})
     CHECK_THAT(error_of(brief(list)), Contains("D: expected 4, 5, 8, 12 or 14 numbers, found"));
   CHECK_THAT(error_of(brief("[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]")),
              EndsWith("D: expected at most 14 numbers"));
@@ -233,12 +334,13 @@ TEST_CASE("Missing and doubled keys") {
   CHECK_THAT(error_of(ros_with("image_height", "other")),
              EndsWith("camera.yml: missing key image_height (or image_Height, height)"));
   CHECK_THAT(error_of(ros_with("camera_matrix", "other")),
-             EndsWith("missing key camera_matrix (or cameraMatrix, Camera_Matrix, K, M)"));
+             EndsWith("missing key camera_matrix (or cameraMatrix, Camera_Matrix, K, k, M)"));
   CHECK_THAT(error_of(ros_with("distortion_coefficients", "other")),
              Contains("missing key distortion_coefficients (or "));
   CHECK_THAT(error_of(brief("[0, 0, 0, 0]") + "camera_matrix: [1]"),
              EndsWith("camera.yml:4:1: camera_matrix: expected once, found K in line 2 too"));
   CHECK_THAT(error_of(brief("[0, 0, 0, 0]") + "D: [0]"), EndsWith("D: expected once, found D in line 3 too"));
+  CHECK_THAT(error_of(brief("[0, 0, 0, 0]") + "d: [0]"), EndsWith("d: expected once, found D in line 3 too"));
 }
 
 TEST_CASE("What is no calibration at all") {
@@ -282,10 +384,10 @@ TEST_CASE("Nests, alias bombs and endless lists come to an end") {
   CHECK_THAT(error_of(list + "]"), Contains("not valid YAML or JSON: more than 250000 values"));
 
   // Nine to the power of 16 numbers.
-  std::string bomb = "a: &a [1,1,1,1,1,1,1,1,1]\n";
+  std::string bomb = "of_a: &a [1,1,1,1,1,1,1,1,1]\n";
   for (char name = 'b'; name <= 'p'; ++name) {
     const std::string inner = std::string("*") + static_cast<char>(name - 1);
-    bomb += fmt::format("{0}: &{0} [{1},{1},{1},{1},{1},{1},{1},{1},{1}]\n", name, inner);
+    bomb += fmt::format("of_{0}: &{0} [{1},{1},{1},{1},{1},{1},{1},{1},{1}]\n", name, inner);
   }
   CHECK_THAT(error_of(bomb + "image_size: [1, 1]\nK: *p\n"), EndsWith("K: expected a number"));
   CHECK_THAT(error_of(bomb + "image_size: [1, 1]\nK: *b\n"), EndsWith("K: expected at most 9 numbers"));

@@ -176,6 +176,34 @@ TEST_CASE("Waveforms") {
           "/waveform: expected \"sine\", \"square\" or {\"harmonics\": [a1, a2, ...]}, found \"sawtooth\""));
 }
 
+TEST_CASE("Harmonics of which the taps show none are a warning") {
+  const auto warnings = [](const json &harmonics, int taps) {
+    return setup_with({{"waveform", {{"harmonics", harmonics}}}, {"taps", taps}}).warnings;
+  };
+  CHECK(warnings({0, 1}, 5) ==
+        std::vector<std::string>{"sensor pmd: none of its harmonics shows in 5 taps (only number 1, 4, 6, 9 "
+                                 "... do): amplitudes will be 0"});
+  CHECK(warnings({0, 1, -2, 0, 3, 0, 4}, 5).size() == 1);
+  CHECK(warnings({0, 0, 1}, 3).size() == 1);
+  for (const json &seen :
+       {json::array({1}), json{0, 0, 0, 0.1}, json{0, 1, 0, 0, 0, 0.1}, json{0, 0, 0, 0, 0, 0, 0, 0, 1}})
+    CHECK(warnings(seen, 5).empty());
+  CHECK(warnings({0, 1}, 3).empty()); // 3 taps show harmonic 2, as harmonic -1
+  for (int taps = 3; taps <= 16; ++taps)
+    for (const char *waveform : {"sine", "square"})
+      CHECK(setup_with({{"waveform", waveform}, {"taps", taps}}).warnings.empty());
+}
+
+TEST_CASE("A warning of harmonics names its sensor") {
+  SetupFixture fixture;
+  json left = second_sensor(fixture, "left");
+  left["waveform"] = {{"harmonics", {0, 1}}};
+  fixture.setup["sensors"].push_back(left);
+  const Setup setup = fixture.load();
+  REQUIRE(setup.warnings.size() == 1);
+  CHECK_THAT(setup.warnings[0], Catch::StartsWith("sensor left: none of its harmonics shows in 4 taps "));
+}
+
 TEST_CASE("Several frequencies, each within the waveform's reach") {
   CHECK(sensor_with({{"modulation_hz", {20e6, 30e6, 20e6}}}).modulation_hz == std::vector{20e6, 30e6, 20e6});
   CHECK(sensor_with({{"modulation_hz", std::vector(16, 1.0)}}).modulation_hz.size() == 16);
