@@ -1,6 +1,7 @@
 #include "host/input/lens_check.h"
 
 #include "engine/lens.h"
+#include "engine/lens_fault.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // What a lens with distortion makes hard: triangles smaller than pixels, and images one pixel wide.
 
-#include "engine/lens.h"
+#include "engine/lens_fault.h"
 #include "tests/gpu_against_reference/comparison.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"

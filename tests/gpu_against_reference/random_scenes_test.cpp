@@ -1,6 +1,7 @@
 // Scenes, lights, poses and cameras that nobody thought of: random, with seeds that never change.
 
 #include "engine/lens.h"
+#include "engine/lens_fault.h"
 #include "tests/gpu_against_reference/comparison.h"
 #include "tests/gpu_against_reference/grazing_light.h"
 #include "tests/support/random_cameras.h"

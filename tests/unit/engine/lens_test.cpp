@@ -1,6 +1,7 @@
 // The lens that raster and search are planned with: rays and places on the chip, and where it folds over.
 
 #include "engine/lens.h"
+#include "engine/lens_fault.h"
 #include "tests/support/random_cameras.h"
 
 #include <catch2/catch.hpp>

@@ -4,6 +4,7 @@
 
 #include "engine/error.h"
 #include "engine/lens.h"
+#include "engine/lens_fault.h"
 #include "tests/support/random_cameras.h"
 
 #include <algorithm>
