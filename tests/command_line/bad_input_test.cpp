@@ -2,6 +2,7 @@
 // left in the output directory.
 
 #include "tests/command_line/program.h"
+#include "tests/command_line/refusal.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -15,15 +16,7 @@ namespace {
 void check_refused(const Workspace &work, const std::string &setup, int exit_code,
                    const std::vector<std::string> &fragments) {
   const Run run = run_pmdsim({"render", setup, "-o", work / "out"});
-  INFO(run.errors);
-  CHECK(run.exit_code == exit_code);
-  CHECK(std::ranges::count(run.errors, '\n') == 1);
-  CHECK(run.errors.starts_with("pmdsim: error: "));
-  for (const std::string &fragment : fragments) {
-    INFO("expected in the message: " << fragment);
-    CHECK(run.errors.find(fragment) != std::string::npos);
-  }
-  CHECK(run.output.empty());
+  check_refusal(run, exit_code, fragments);
   CHECK(work.files("out").empty());
 }
 

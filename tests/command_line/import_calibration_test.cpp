@@ -1,6 +1,7 @@
 // pmdsim import-calibration on the real binary: from a calibration to a frame, and what it refuses.
 
 #include "tests/command_line/program.h"
+#include "tests/command_line/refusal.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -32,15 +33,7 @@ void check_refused(const std::vector<std::string> &arguments, int exit_code,
   std::vector<std::string> all{"import-calibration"};
   all.insert(all.end(), arguments.begin(), arguments.end());
   const Run run = run_pmdsim(all);
-  INFO(run.errors);
-  CHECK(run.exit_code == exit_code);
-  CHECK(std::ranges::count(run.errors, '\n') == 1);
-  CHECK(run.errors.starts_with("pmdsim: error: "));
-  for (const std::string &fragment : fragments) {
-    INFO("expected in the message: " << fragment);
-    CHECK(run.errors.find(fragment) != std::string::npos);
-  }
-  CHECK(run.output.empty());
+  check_refusal(run, exit_code, fragments);
 }
 
 void check_text_refused(const std::string &text, const std::vector<std::string> &fragments) {
