@@ -11,7 +11,8 @@ packages=(
   libvulkan-dev libvulkan1 mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
   libglm-dev libembree-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev libfccp-dev libyaml-cpp-dev
   libcli11-dev libfmt-dev
-  libopenexr-dev libpng-dev libcairo2-dev fonts-dejavu-core
+  libmeshoptimizer-dev libpng-dev libturbojpeg0-dev
+  libopenexr-dev libcairo2-dev fonts-dejavu-core
   catch2
   clang-format clang-tidy
 )

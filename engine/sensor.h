@@ -64,7 +64,10 @@ struct Sensor {
   Pose world_from_camera = node_from_camera(); // camera frame: x right, y down, z forward, origin at the lens
   std::vector<double> modulation_hz{20e6};     // at least one
   Waveform waveform;
-  std::uint32_t taps = 4;    // N, correlation samples, 3 to 16; the k-th at the reference phase 2 pi k / N
+  std::uint32_t taps = 4; // N, correlation samples, 3 to 16; the k-th at the reference phase 2 pi k / N
+  // From the exposure of one tap to the next's: frequency i's tap k is taken (i * N + k) of these after the
+  // frame begins. The simulator and the reference measure one instant and leave it to their caller.
+  double tap_interval_s = 0.0;
   std::uint32_t samples = 1; // S: S x S samples a pixel, 1 to 16
 
   // S2 of the thin lens, 1/S1 + 1/S2 = 1/f (paper, section 2.1).

@@ -34,7 +34,7 @@ DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
   return devices[vulkan::choose_device(devices, wanted)];
 }
 
-// What one sensor, illuminator and scene need on the device.
+// What one sensor, its light and scene need on the device.
 struct Prepared {
   Sensor sensor;
   Signal signal;
@@ -57,9 +57,10 @@ std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, c
 }
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
-                        const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter) {
+                        const Sensor &sensor, const std::vector<Illuminator> &illuminators,
+                        Backscatter backscatter) {
   const CameraScene camera = to_camera(scene, sensor);
-  const std::vector<Diode> diodes = to_camera(illuminator, sensor);
+  const std::vector<Diode> diodes = to_camera(illuminators.front(), sensor);
   const Signal signal = signal_of(sensor, options);
   const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t strip_samples =
@@ -172,13 +173,14 @@ Simulator &Simulator::operator=(Simulator &&) noexcept = default;
 
 const DeviceInfo &Simulator::device() const { return state_->info; }
 
-void Simulator::prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
-                        Backscatter backscatter) {
-  if (illuminator.diodes.empty())
-    throw std::logic_error("an illuminator without diodes");
+void Simulator::prepare(const Scene &scene, const Sensor &sensor,
+                        const std::vector<Illuminator> &illuminators, Backscatter backscatter) {
+  if (illuminators.empty() ||
+      std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
+    throw std::logic_error("no illuminator, or one without diodes");
   state_->prepared.reset(); // its memory first
   state_->prepared.emplace(
-      prepare_passes(state_->device, state_->options, scene, sensor, illuminator, backscatter));
+      prepare_passes(state_->device, state_->options, scene, sensor, illuminators, backscatter));
   state_->warm_up();
 }
 

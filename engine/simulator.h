@@ -27,7 +27,7 @@ public:
   const DeviceInfo &device() const;
 
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost.
-  void prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+  void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter);
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost.
   Measurement measure(const Progress &progress = {});

@@ -19,9 +19,10 @@ using Clock = std::chrono::steady_clock;
 // One frame being computed: everything that the threads read, and the frame that each fills a row at a time.
 class FrameJob {
 public:
-  FrameJob(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator, Backscatter backscatter)
+  FrameJob(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
+           Backscatter backscatter)
       : scene_(scene), sensor_(sensor), backscatter_(backscatter), lens_(sensor),
-        diodes_(diodes_in_camera(illuminator, sensor)), caster_(triangles_in_camera(scene, sensor)),
+        diodes_(diodes_in_camera(illuminators.front(), sensor)), caster_(triangles_in_camera(scene, sensor)),
         frame_(dark_frame(sensor)) {}
 
   std::uint32_t rows() const { return sensor_.resolution.y; }
@@ -88,10 +89,10 @@ private:
 
 } // namespace
 
-Frame simulate(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, const std::function<void(double)> &progress) {
   const auto start = Clock::now();
-  FrameJob job(scene, sensor, illuminator, backscatter);
+  FrameJob job(scene, sensor, illuminators, backscatter);
   for_each_row(
       job.rows(), [&](std::uint32_t row) { job.compute_row(row); }, progress);
   Frame frame = job.take();

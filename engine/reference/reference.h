@@ -33,7 +33,7 @@ struct Frame {
 
 // Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,
 // from one thread only; may throw to stop.
-Frame simulate(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, const std::function<void(double)> &progress = {});
 
 // Rounded to the float channels that the simulator gives.

@@ -112,16 +112,16 @@ Sensor affordable(Sensor sensor, std::size_t diode_count, std::size_t sensors) {
 }
 
 std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device) {
-  const Illuminator &illuminator = setup.illuminators.front();
+  const std::size_t diodes = diode_count(setup.start.illuminators);
   Camera camera(device, {.sample_triangles = true});
   std::vector<AccuracyCheck> checks;
-  for (const Sensor &fine : setup.sensors) {
-    const Sensor sensor = affordable(fine, illuminator.diodes.size(), setup.sensors.size());
-    camera.prepare(setup.scene, sensor, illuminator, setup.backscatter);
+  for (const Sensor &fine : setup.start.sensors) {
+    const Sensor sensor = affordable(fine, diodes, setup.start.sensors.size());
+    camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
     const Measurement found = camera.measure("measuring what is checked");
     ProgressBar bar("checking against the reference");
-    const reference::Frame truth =
-        reference::simulate(setup.scene, sensor, illuminator, setup.backscatter, interruptible_progress(bar));
+    const reference::Frame truth = reference::simulate(setup.start.scene, sensor, setup.start.illuminators,
+                                                       setup.backscatter, interruptible_progress(bar));
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
       checks.push_back(compare(found, truth, sensor, i));
   }

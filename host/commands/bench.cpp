@@ -47,9 +47,9 @@ std::vector<AccuracyCheck> check_before_timing(const Setup &setup, const Camera 
 // Of all sensors.
 double interaction_count(const Setup &setup) {
   double samples = 0.0;
-  for (const Sensor &sensor : setup.sensors)
+  for (const Sensor &sensor : setup.start.sensors)
     samples += static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
-  return samples * static_cast<double>(setup.illuminators.front().diodes.size());
+  return samples * static_cast<double>(diode_count(setup.start.illuminators));
 }
 
 // Only times are kept: frames of the largest sensors would not fit side by side.
@@ -88,8 +88,8 @@ void add(Timing &sum, const Timing &timing) {
 
 Timing time_all_sensors(const Setup &setup, Camera &camera) {
   Timing sum;
-  for (const Sensor &sensor : setup.sensors) {
-    camera.prepare(setup.scene, sensor, setup.illuminators.front(), setup.backscatter);
+  for (const Sensor &sensor : setup.start.sensors) {
+    camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
     add(sum, time_frames(camera));
   }
   return sum;
@@ -145,7 +145,7 @@ std::string report_text(const Setup &setup, const Camera &camera, const Timing &
   for (const AccuracyCheck &check : checks)
     text += fmt::format("error      {}\n", error_text(check));
   const std::string sensors =
-      setup.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.sensors.size()) : "";
+      setup.start.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.start.sensors.size()) : "";
   text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames{}), {:.4g} frames/s\n",
                       timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max, measured_frames,
                       sensors, frames_per_s(timing));

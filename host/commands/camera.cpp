@@ -42,12 +42,12 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   driver_ = simulator_->device().driver;
 }
 
-void Camera::prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                      Backscatter backscatter) {
   throw_if_interrupted();
-  prepared_ = {&scene, sensor, illuminator, backscatter};
+  prepared_ = {&scene, sensor, illuminators, backscatter};
   if (simulator_)
-    simulator_->prepare(scene, sensor, illuminator, backscatter);
+    simulator_->prepare(scene, sensor, illuminators, backscatter);
 }
 
 Measurement Camera::measure(const std::string &label) {
@@ -57,7 +57,7 @@ Measurement Camera::measure(const std::string &label) {
   if (simulator_)
     return simulator_->measure(progress);
   Measurement measurement = reference::to_measurement(reference::simulate(
-      *prepared_.scene, prepared_.sensor, prepared_.illuminator, prepared_.backscatter, progress));
+      *prepared_.scene, prepared_.sensor, prepared_.illuminators, prepared_.backscatter, progress));
   if (!extras_.taps)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();

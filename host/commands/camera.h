@@ -29,7 +29,7 @@ public:
   bool is_reference() const { return !simulator_; }
 
   // What follows measures this. `scene` must outlive it.
-  void prepare(const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+  void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter);
   // One frame; `label` stands beside the progress bar. Throws Error, interrupted among others.
   Measurement measure(const std::string &label);
@@ -38,7 +38,7 @@ private:
   struct Prepared {
     const Scene *scene;
     Sensor sensor;
-    Illuminator illuminator;
+    std::vector<Illuminator> illuminators;
     Backscatter backscatter;
   };
 

@@ -26,7 +26,8 @@ struct DeformedFrame {
 
 // Only the distances are kept while the frame with the light beside the lens is measured.
 Maps monostatic_distances_m(Camera &camera, const Setup &setup, const Sensor &sensor) {
-  camera.prepare(setup.scene, sensor, monostatic_illuminator(sensor.world_from_camera), setup.backscatter);
+  camera.prepare(setup.start.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
+                 setup.backscatter);
   Measurement measurement = camera.measure(fmt::format("measuring {}, light in the lens", sensor.name));
   Maps distances_m;
   for (Return &of_frequency : measurement.returns)
@@ -64,7 +65,7 @@ void write_files(OutputSet &outputs, const Sensor &sensor, const Measurement &bi
 DeformedFrame deform_frame(Camera &camera, const Setup &setup, const Sensor &sensor, OutputSet &outputs,
                            const std::set<Format> &formats) {
   const Maps monostatic_m = monostatic_distances_m(camera, setup, sensor);
-  camera.prepare(setup.scene, sensor, setup.illuminators.front(), setup.backscatter);
+  camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
   const Measurement bistatic =
       camera.measure(fmt::format("measuring {}, light beside the lens", sensor.name));
   Maps deformations;
@@ -129,12 +130,12 @@ std::string table_text(const std::vector<DeformedFrame> &frames) {
 
 void run_deform(const Options &options) {
   const Setup setup = load_for_command(options);
-  require_names_for_files(setup.sensors);
+  require_names_for_files(setup.start.sensors);
   OutputSet outputs(options.output_directory);
   Camera camera(options.device);
   RunRecord run{"deform", camera.device(), camera.driver(), "exact", setup.as_used, {}};
   std::vector<DeformedFrame> frames;
-  for (const Sensor &sensor : setup.sensors) {
+  for (const Sensor &sensor : setup.start.sensors) {
     frames.push_back(deform_frame(camera, setup, sensor, outputs, options.formats));
     run.frames.push_back(frames.back().record);
   }

@@ -22,7 +22,7 @@ std::vector<double> visible_ranges_m(const Setup &setup, const Sensor &fine) {
   sensor.modulation_hz.resize(1); // geometry is all that is asked for
   sensor.waveform = {};
   std::vector<double> ranges_m =
-      reference::simulate(setup.scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+      reference::simulate(setup.start.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                           setup.backscatter)
           .range_m;
   std::erase_if(ranges_m, [](double range_m) { return std::isnan(range_m); });
@@ -66,13 +66,13 @@ void add_warnings(std::vector<std::string> &warnings, const SensorFindings &find
 } // namespace
 
 Findings findings_of(const Setup &setup) {
-  const std::vector<Diode> &diodes = setup.illuminators.front().diodes;
-  Findings findings{setup.scene.triangles.size(), diodes.size(), 0.0, 0.0, {}};
+  const std::vector<Diode> &diodes = setup.start.illuminators.front().diodes;
+  Findings findings{setup.start.scene.triangles.size(), diodes.size(), 0.0, 0.0, {}};
   for (const Diode &diode : diodes) {
     findings.intensity_w_sr += diode.intensity_w_sr;
     findings.power_w += diode_power_w(diode);
   }
-  for (const Sensor &sensor : setup.sensors)
+  for (const Sensor &sensor : setup.start.sensors)
     findings.sensors.push_back(findings_of_sensor(setup, sensor));
   return findings;
 }

@@ -9,7 +9,7 @@ Setup load_for_command(const Options &options) {
   for (const std::string &warning : setup.warnings)
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);
   if (options.samples) {
-    for (Sensor &sensor : setup.sensors)
+    for (Sensor &sensor : setup.start.sensors)
       sensor.samples = *options.samples;
     for (auto &sensor : setup.as_used["sensors"])
       sensor["samples"] = *options.samples;

@@ -52,7 +52,7 @@ struct RenderedFrame {
 // by side.
 RenderedFrame render_frame(Camera &camera, const Setup &setup, const Sensor &sensor, OutputSet &outputs,
                            const std::set<Format> &formats) {
-  camera.prepare(setup.scene, sensor, setup.illuminators.front(), setup.backscatter);
+  camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
   const Measurement measurement = camera.measure("measuring " + sensor.name);
   const std::size_t first_output = outputs.names().size();
   write_frame(outputs, {sensor, 0, channels_of(measurement), {"amplitude", "phase_rad", "distance_m"}},
@@ -87,12 +87,12 @@ ordered_json report_json(const RunRecord &run, const OutputSet &outputs) {
 
 void run_render(const Options &options) {
   const Setup setup = load_for_command(options);
-  require_names_for_files(setup.sensors);
+  require_names_for_files(setup.start.sensors);
   OutputSet outputs(options.output_directory);
   Camera camera(options.device, {.taps = true});
   RunRecord run{"render", camera.device(), camera.driver(), "exact", setup.as_used, {}};
   std::string text = fmt::format("device    {} ({})\n\n", camera.device(), camera.driver());
-  for (const Sensor &sensor : setup.sensors) {
+  for (const Sensor &sensor : setup.start.sensors) {
     const RenderedFrame frame = render_frame(camera, setup, sensor, outputs, options.formats);
     run.frames.push_back(frame.record);
     text += frame.text;

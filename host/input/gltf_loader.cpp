@@ -85,19 +85,27 @@ void append_object(const tinygltf::Model &model, const SceneNode &scene_node, co
 
 } // namespace
 
-GltfScene load_gltf(const std::filesystem::path &file, const Place &named_at) {
-  const tinygltf::Model model = read_model(file, named_at);
-  const Place root{file};
-  GltfScene result{file, {}, {}};
-  Surfaces surfaces(model, root, result.scene);
-  for (const SceneNode &scene_node : active_nodes(model, root)) {
-    const tinygltf::Node &node = model.nodes[scene_node.index];
+GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model)
+    : file_(std::move(file)), model_(std::move(model)) {}
+
+bool GltfFile::moves() const { return false; }
+
+GltfScene GltfFile::at(double) const {
+  const Place root{file_};
+  GltfScene result{file_, {}, {}};
+  Surfaces surfaces(*model_, root, result.scene);
+  for (const SceneNode &scene_node : active_nodes(*model_, root)) {
+    const tinygltf::Node &node = model_->nodes[scene_node.index];
     if (!node.name.empty())
       result.nodes.push_back({node.name, scene_node.world_from_node});
     if (node.mesh >= 0)
-      append_object(model, scene_node, root, surfaces, result.scene);
+      append_object(*model_, scene_node, root, surfaces, result.scene);
   }
   return result;
+}
+
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
+  return {file, std::make_shared<const tinygltf::Model>(read_model(file, named_at))};
 }
 
 } // namespace pmdsim

@@ -6,8 +6,13 @@
 #include "host/input/input_error.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace tinygltf {
+class Model;
+}
 
 namespace pmdsim {
 
@@ -16,15 +21,31 @@ struct NamedNode {
   AffineTransform world_from_node;
 };
 
+// A file's active scene at one time.
 struct GltfScene {
   std::filesystem::path file;
   Scene scene;                  // may be empty
   std::vector<NamedNode> nodes; // those of the active scene that have a name, parents first
 };
 
+// A file, read and checked once.
+class GltfFile {
+public:
+  GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model);
+
+  // Whether anything in the active scene is animated.
+  bool moves() const;
+  // Throws Error (input).
+  GltfScene at(double time_s) const;
+
+private:
+  std::filesystem::path file_;
+  std::shared_ptr<const tinygltf::Model> model_;
+};
+
 // Throws Error (input): what is wrong in the file is told at its place there ("scene.gltf: /accessors/3:
 // ..."), a file that cannot be read at `named_at`, the place that names it. What glTF can say and the
 // simulator cannot yet do is refused by name, never ignored.
-GltfScene load_gltf(const std::filesystem::path &file, const Place &named_at);
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at);
 
 } // namespace pmdsim

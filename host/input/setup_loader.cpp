@@ -2,6 +2,7 @@
 
 #include "host/input/gltf_loader.h"
 #include "host/input/json_file.h"
+#include "host/input/motion.h"
 #include "host/input/regular_file.h"
 #include "host/input/schema_check.h"
 #include "host/input/schema_defaults.h"
@@ -74,11 +75,11 @@ Illuminator illuminator_of(const ordered_json &illuminator, const Place &place, 
 // Monostatic light, the paper's eq. 2 and 3, is at the lens, but its pose may put it anywhere.
 void warn_of_distant_monostatic_light(Setup &setup) {
   constexpr double rounding_m = 1e-9;
-  for (std::size_t i = 0; i < setup.illuminators.size(); ++i) {
-    const Illuminator &light = setup.illuminators[i];
+  for (std::size_t i = 0; i < setup.start.illuminators.size(); ++i) {
+    const Illuminator &light = setup.start.illuminators[i];
     if (setup.as_used.at("illuminators").at(i).at("diodes") != "monostatic")
       continue;
-    for (const Sensor &sensor : setup.sensors)
+    for (const Sensor &sensor : setup.start.sensors)
       if (glm::distance(light.world_from_illuminator.translation_m, sensor.world_from_camera.translation_m) >
           rounding_m)
         setup.warnings.push_back(fmt::format(
@@ -92,7 +93,7 @@ bool shows(std::size_t harmonic, std::size_t taps) {
 }
 
 void warn_of_unseen_harmonics(Setup &setup) {
-  for (const Sensor &sensor : setup.sensors) {
+  for (const Sensor &sensor : setup.start.sensors) {
     const std::vector<double> &harmonics = sensor.waveform.harmonics;
     bool any = sensor.waveform.kind != Waveform::Kind::harmonics;
     for (std::size_t i = 0; i < harmonics.size(); ++i)
@@ -116,23 +117,28 @@ Setup load_setup(const std::filesystem::path &file) {
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
 
   const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
-  GltfScene scene = load_gltf(scene_file, root / "scene");
+  const GltfFile gltf = load_gltf(scene_file, root / "scene");
+  GltfScene scene = gltf.at(setup.frames.start_s);
   const ordered_json &sensors = setup.as_used.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
-    setup.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
-  refuse_doubled_names(setup.sensors, root / "sensors");
+    setup.start.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
+  refuse_doubled_names(setup.start.sensors, root / "sensors");
   const ordered_json &illuminators = setup.as_used.at("illuminators");
   for (std::size_t i = 0; i < illuminators.size(); ++i)
-    setup.illuminators.push_back(
-        illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.sensors));
+    setup.start.illuminators.push_back(
+        illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.start.sensors));
 
   warn_of_distant_monostatic_light(setup);
   warn_of_unseen_harmonics(setup);
   if (scene.scene.triangles.empty())
     setup.warnings.push_back(
         fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));
-  setup.scene = std::move(scene.scene);
+  setup.start.scene = std::move(scene.scene);
+  if (gltf.moves())
+    setup.motion = std::make_shared<const Motion>(gltf, setup.as_used, root);
   return setup;
 }
+
+Instant Setup::at(double time_s) const { return motion ? motion->at(time_s, start) : start; }
 
 } // namespace pmdsim

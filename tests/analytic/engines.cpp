@@ -31,13 +31,13 @@ void print_row(Engine engine, const std::string &name, double expected, double g
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
                     Backscatter backscatter, const SimulatorOptions &options) {
   if (engine == Engine::reference) {
-    const auto frame = reference::simulate(scene, sensor, illuminator, backscatter);
+    const auto frame = reference::simulate(scene, sensor, {illuminator}, backscatter);
     Measurement measured = reference::to_measurement(frame);
     measured.sample_triangle_id = frame.sample_triangle_id;
     return measured;
   }
   Simulator simulator = make_simulator(options);
-  simulator.prepare(scene, sensor, illuminator, backscatter);
+  simulator.prepare(scene, sensor, {illuminator}, backscatter);
   return simulator.measure();
 }
 

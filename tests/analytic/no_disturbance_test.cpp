@@ -93,12 +93,12 @@ TEST_CASE("next to no tilt and no distortion change nothing") {
   const Engine engine = both_engines();
   for (const auto &[scene, samples, most_at_edges, coplanar] : cases_of(engine)) {
     const Setup setup = load_setup(PMDSIM_SCENES "/" + scene + ".json");
-    Sensor sensor = setup.sensors[0];
+    Sensor sensor = setup.start.sensors[0];
     sensor.resolution = {160, 160};
     sensor.pixel_pitch_m *= 4.0;
     sensor.samples = samples;
     const auto measure_with = [&](const Sensor &changed) {
-      return measure(engine, setup.scene, changed, setup.illuminators[0], setup.backscatter,
+      return measure(engine, setup.start.scene, changed, setup.start.illuminators[0], setup.backscatter,
                      {.device = {}, .keep_sample_tags = true});
     };
     const Measurement undisturbed = measure_with(sensor);

@@ -19,7 +19,8 @@ Setup analytic_setup(const std::string &name) {
 }
 
 Measurement measure(Engine engine, const Setup &setup) {
-  return measure(engine, setup.scene, setup.sensors[0], setup.illuminators[0], setup.backscatter);
+  return measure(engine, setup.start.scene, setup.start.sensors[0], setup.start.illuminators[0],
+                 setup.backscatter);
 }
 
 // The phasor of a return of the given strength from the given distance under monostatic light.
@@ -37,7 +38,7 @@ TEST_CASE("distances wrap at 10 MHz") {
   REQUIRE(frame.returns[0].distance_m.size() == true_m.size());
   for (std::size_t pixel = 0; pixel < true_m.size(); ++pixel) {
     check_distance(engine, fmt::format("wrap at 10 MHz, {} m", true_m[pixel]), true_m[pixel],
-                   setup.sensors[0], frame.returns[0].distance_m[pixel]);
+                   setup.start.sensors[0], frame.returns[0].distance_m[pixel]);
     CHECK(frame.returns[0].distance_m[pixel] ==
           Approx(stated_m[pixel]).epsilon(0).margin(0.5e-6 + 1e-7 * true_m[pixel]));
   }
@@ -52,7 +53,7 @@ TEST_CASE("a baseline of 5 cm lengthens the path") {
   for (std::size_t pixel = 0; pixel < depths_m.size(); ++pixel) {
     const double z_m = depths_m[pixel];
     check_distance(engine, fmt::format("5 cm baseline, {} m", z_m), (z_m + std::hypot(z_m, 0.05)) / 2,
-                   setup.sensors[0], frame.returns[0].distance_m[pixel]);
+                   setup.start.sensors[0], frame.returns[0].distance_m[pixel]);
     CHECK(1e3 * (frame.returns[0].distance_m[pixel] - z_m) ==
           Approx(stated_excess_mm[pixel]).epsilon(0).margin(2e-3));
   }
@@ -63,7 +64,7 @@ TEST_CASE("a pixel half on 1.0 m and half on 1.5 m mixes their returns") {
   const auto [name, stated_m, stated_ratio] = GENERATE(table<std::string, double, double>(
       {{"mixed_equal", 1.250000, 0.978117}, {"mixed_inverse_square", 1.152630, 0.708778}}));
   const Setup setup = analytic_setup(name);
-  const Sensor &sensor = setup.sensors[0];
+  const Sensor &sensor = setup.start.sensors[0];
   const Measurement frame = measure(engine, setup);
   REQUIRE(frame.returns[0].distance_m.size() == 3);
 
@@ -91,7 +92,7 @@ TEST_CASE("amplitude falls with the square of the distance") {
     const double z_m = depths_m[pixel];
     check_amplitude(engine, fmt::format("inverse square, amplitude at {} m", z_m), 1 / (z_m * z_m),
                     frame.returns[0].amplitude[pixel]);
-    check_distance(engine, fmt::format("inverse square, {} m", z_m), z_m, setup.sensors[0],
+    check_distance(engine, fmt::format("inverse square, {} m", z_m), z_m, setup.start.sensors[0],
                    frame.returns[0].distance_m[pixel]);
   }
 }
@@ -101,9 +102,9 @@ TEST_CASE("two equal returns c / (4 f) apart cancel") {
   const Setup setup = analytic_setup("cancel");
   const Measurement frame = measure(engine, setup);
   REQUIRE(frame.returns[0].amplitude.size() == 3);
-  const double near_m = 1.0, far_m = near_m + setup.sensors[0].ambiguity_m() / 2;
-  check_distance(engine, "cancel, near only", near_m, setup.sensors[0], frame.returns[0].distance_m[0]);
-  check_distance(engine, "cancel, far only", far_m, setup.sensors[0], frame.returns[0].distance_m[2]);
+  const double near_m = 1.0, far_m = near_m + setup.start.sensors[0].ambiguity_m() / 2;
+  check_distance(engine, "cancel, near only", near_m, setup.start.sensors[0], frame.returns[0].distance_m[0]);
+  check_distance(engine, "cancel, far only", far_m, setup.start.sensors[0], frame.returns[0].distance_m[2]);
   check_amplitude(engine, "cancel, amplitude of far / near", 1.0,
                   double{frame.returns[0].amplitude[2]} / frame.returns[0].amplitude[0]);
   CHECK(frame.coverage[1] == 1);

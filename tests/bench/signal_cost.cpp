@@ -37,9 +37,9 @@ double largest_error_m(const Variant &variant, const Setup &setup, Sensor sensor
   sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / 64.0;
   sensor.resolution = {64, 64};
   const reference::Frame truth =
-      reference::simulate(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+      reference::simulate(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   Simulator simulator({.device = {}, .sum = variant.sum});
-  simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  simulator.prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   const Measurement found = simulator.measure();
   double error_m = 0.0;
   for (std::size_t f = 0; f < truth.returns.size(); ++f)
@@ -70,20 +70,20 @@ int main() {
   std::vector<std::vector<double>> times_ms(variants.size());
   std::vector<double> errors_m;
   for (const Variant &variant : variants) {
-    Sensor sensor = setup.sensors[0];
+    Sensor sensor = setup.start.sensors[0];
     sensor.modulation_hz = variant.modulation_hz;
     sensor.waveform = variant.waveform;
     errors_m.push_back(largest_error_m(variant, setup, sensor));
     simulators.emplace_back(SimulatorOptions{.device = {}, .sum = variant.sum})
-        .prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+        .prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   }
   for (int round = -1; round < rounds; ++round) // the first is for warming up
     for (std::size_t i = 0; i < variants.size(); ++i)
       if (const double ms = accumulate_ms(simulators[i].measure()); round >= 0)
         times_ms[i].push_back(ms);
   fmt::print("{}, {} x {} pixels, {} diodes, {} rounds\n", simulators[0].device().name,
-             setup.sensors[0].resolution.x, setup.sensors[0].resolution.y,
-             setup.illuminators[0].diodes.size(), rounds);
+             setup.start.sensors[0].resolution.x, setup.start.sensors[0].resolution.y,
+             setup.start.illuminators[0].diodes.size(), rounds);
   fmt::print("{:<42}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "accumulate pass, ms", "median", "min", "max", "times",
              "error um");
   for (std::size_t i = 0; i < variants.size(); ++i)

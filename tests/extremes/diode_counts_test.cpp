@@ -29,9 +29,9 @@ Illuminator disc(int count, const Sensor &sensor) {
 std::pair<double, double> largest_errors(const Scene &scene, const Sensor &sensor,
                                          const Illuminator &illuminator) {
   Simulator simulator = test::make_simulator();
-  simulator.prepare(scene, sensor, illuminator, Backscatter::lambert);
+  simulator.prepare(scene, sensor, {illuminator}, Backscatter::lambert);
   const Measurement got = simulator.measure();
-  const reference::Frame truth = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  const reference::Frame truth = reference::simulate(scene, sensor, {illuminator}, Backscatter::lambert);
   double distance_um = 0.0, amplitude = 0.0;
   for (std::size_t i = 0; i < got.returns[0].distance_m.size(); ++i) {
     REQUIRE(std::isfinite(got.returns[0].distance_m[i]));

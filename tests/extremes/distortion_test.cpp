@@ -68,9 +68,9 @@ void check_against_reference(const std::string &name, const Scene &scene, const 
   REQUIRE_FALSE(lens_fault(sensor));
   const Illuminator illuminator = few_diodes(sensor);
   Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
-  simulator.prepare(scene, sensor, illuminator, Backscatter::constant);
+  simulator.prepare(scene, sensor, {illuminator}, Backscatter::constant);
   const Comparison comparison =
-      compare(simulator.measure(), reference::simulate(scene, sensor, illuminator, Backscatter::constant),
+      compare(simulator.measure(), reference::simulate(scene, sensor, {illuminator}, Backscatter::constant),
               scene, sensor);
   fmt::print("{}", comparison_row(name, comparison));
   check_comparison(comparison, sensor.pixel_count() / 2);

@@ -45,7 +45,7 @@ TEST_CASE("16 frequencies with 16 taps each") {
     sensor.modulation_hz.push_back(7e6 * f);
   sensor.waveform.kind = GENERATE(Waveform::Kind::sine, Waveform::Kind::square);
   Simulator simulator = test::make_simulator({.device = {}, .keep_taps = true});
-  simulator.prepare(test::wall_at(2.0), sensor, monostatic_illuminator(sensor.world_from_camera),
+  simulator.prepare(test::wall_at(2.0), sensor, {monostatic_illuminator(sensor.world_from_camera)},
                     Backscatter::constant);
   const Measurement measured = simulator.measure();
   REQUIRE(measured.returns.size() == 16);

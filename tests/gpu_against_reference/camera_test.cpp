@@ -166,15 +166,16 @@ Sensor wide_sensor(const Sensor &of_room, const glm::uvec2 &resolution) {
 
 void check_case(const Case &changed, const Setup &setup, Sensor sensor) {
   changed.change(sensor);
-  const auto expected = reference::simulate(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+  const auto expected =
+      reference::simulate(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   for (const SimulatorOptions &options : variants) {
     const bool plain = options.sum == DiodeSum::automatic;
     const std::string name =
         fmt::format("{}, S = {}{}", changed.name, sensor.samples, plain ? "" : ", others'");
     INFO(name);
     Simulator simulator = make_simulator(options);
-    simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
-    const Comparison comparison = compare(simulator.measure(), expected, setup.scene, sensor);
+    simulator.prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
+    const Comparison comparison = compare(simulator.measure(), expected, setup.start.scene, sensor);
     fmt::print("{}", comparison_row(name, comparison));
     check_comparison(comparison, sensor.pixel_count() / 4);
   }
@@ -184,7 +185,7 @@ void check_case(const Case &changed, const Setup &setup, Sensor sensor) {
 
 TEST_CASE("every parameter of the sensor agrees with the reference") {
   const Setup setup = load_setup(PMDSIM_SCENES "/room.json");
-  Sensor sensor = wide_sensor(setup.sensors[0], {180, 120});
+  Sensor sensor = wide_sensor(setup.start.sensors[0], {180, 120});
   fmt::print("{}", comparison_heading());
   for (const std::uint32_t samples : {1u, 2u}) {
     sensor.samples = samples;
@@ -195,7 +196,7 @@ TEST_CASE("every parameter of the sensor agrees with the reference") {
 
 TEST_CASE("every parameter of the signal agrees with the reference") {
   const Setup setup = load_setup(PMDSIM_SCENES "/room.json");
-  Sensor sensor = wide_sensor(setup.sensors[0], {150, 100});
+  Sensor sensor = wide_sensor(setup.start.sensors[0], {150, 100});
   sensor.samples = 2;
   fmt::print("{}", comparison_heading());
   for (const Case &changed : signal_cases)
@@ -206,5 +207,5 @@ TEST_CASE("all parameters at once agree with the reference") {
   const Setup setup = load_setup(PMDSIM_SCENES "/room.json");
   fmt::print("{}", comparison_heading());
   for (const Case &changed : everything)
-    check_case(changed, setup, wide_sensor(setup.sensors[0], {240, 160}));
+    check_case(changed, setup, wide_sensor(setup.start.sensors[0], {240, 160}));
 }

@@ -107,7 +107,7 @@ SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
 }
 
 Measurement measure(Simulator &simulator, const RepeatabilityFrame &frame) {
-  simulator.prepare(frame.scene, frame.sensor, frame.illuminator, Backscatter::lambert);
+  simulator.prepare(frame.scene, frame.sensor, {frame.illuminator}, Backscatter::lambert);
   return simulator.measure();
 }
 

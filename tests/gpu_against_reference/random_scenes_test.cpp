@@ -153,9 +153,9 @@ TEST_CASE("random scenes agree with the reference") {
   fmt::print("{}", comparison_heading());
   for (std::uint32_t seed = 0; seed < 24; ++seed) {
     const auto [sensor, scene, illuminator, backscatter] = random_setup(seed);
-    const auto expected = reference::simulate(scene, sensor, illuminator, backscatter);
+    const auto expected = reference::simulate(scene, sensor, {illuminator}, backscatter);
     Simulator simulator = make_simulator(options_for(seed));
-    simulator.prepare(scene, sensor, illuminator, backscatter);
+    simulator.prepare(scene, sensor, {illuminator}, backscatter);
     const Comparison comparison = compare(simulator.measure(), expected, scene, sensor,
                                           pixels_in_grazing_light(expected, scene, sensor, illuminator));
     fmt::print("{}", comparison_row(fmt::format("seed {}, S = {}", seed, sensor.samples), comparison));
@@ -176,9 +176,9 @@ TEST_CASE("random cameras and signals agree with the reference") {
     const Scene scene = triangles_in_view(random, 40 + 10 * (seed % 12), sensor);
     const Illuminator illuminator = random_illuminator(random, 1 + 7 * (seed % 6), sensor.world_from_camera);
     const Backscatter backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
-    const auto expected = reference::simulate(scene, sensor, illuminator, backscatter);
+    const auto expected = reference::simulate(scene, sensor, {illuminator}, backscatter);
     Simulator simulator = make_simulator(random_options(random));
-    simulator.prepare(scene, sensor, illuminator, backscatter);
+    simulator.prepare(scene, sensor, {illuminator}, backscatter);
     const Comparison comparison = compare(simulator.measure(), expected, scene, sensor,
                                           pixels_in_grazing_light(expected, scene, sensor, illuminator));
     fmt::print("{}", comparison_row(fmt::format("{}: {}", seed, described(sensor)), comparison));

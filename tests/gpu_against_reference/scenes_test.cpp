@@ -28,8 +28,8 @@ Comparison compare_variant(const Variant &variant, const Setup &setup, const Sen
                            const reference::Frame &expected) {
   Simulator simulator = make_simulator(
       {.device = {}, .keep_sample_tags = true, .precision = variant.precision, .loop = variant.loop});
-  simulator.prepare(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
-  return compare(simulator.measure(), expected, setup.scene, sensor);
+  simulator.prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
+  return compare(simulator.measure(), expected, setup.start.scene, sensor);
 }
 
 } // namespace
@@ -38,11 +38,11 @@ TEST_CASE("shipped scenes agree with the reference") {
   fmt::print("{}", comparison_heading());
   for (const std::string scene : {"paper_ring", "paper_half_ring", "room"}) {
     const Setup setup = load_setup(std::string(PMDSIM_SCENES "/") + scene + ".json");
-    Sensor sensor = setup.sensors[0];
+    Sensor sensor = setup.start.sensors[0];
     for (const std::uint32_t samples : {1u, 2u, 4u}) {
       sensor.samples = samples;
       const auto expected =
-          reference::simulate(setup.scene, sensor, setup.illuminators[0], setup.backscatter);
+          reference::simulate(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
       for (const Variant &variant : variants) {
         const std::string name = fmt::format("{}, S = {}{}", scene, samples, variant.name);
         INFO(name);

@@ -23,7 +23,7 @@ struct Frames {
   Measurement found;
 
   explicit Frames(const Scene &scene = wall_at(2.0)) {
-    truth = reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+    truth = reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                                 Backscatter::lambert);
     found = reference::to_measurement(truth);
     found.sample_triangle_id = truth.sample_triangle_id;
@@ -147,7 +147,7 @@ TEST_CASE("a wide sensor stays fine enough for the device, however dear the refe
   CHECK(coarsest.samples == 1);
   const Scene scene = wall_at(2.0);
   Camera camera("");
-  camera.prepare(scene, coarsest, monostatic_illuminator(coarsest.world_from_camera), Backscatter::lambert);
+  camera.prepare(scene, coarsest, {monostatic_illuminator(coarsest.world_from_camera)}, Backscatter::lambert);
   CHECK_NOTHROW(camera.measure("measuring"));
 }
 

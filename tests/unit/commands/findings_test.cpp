@@ -23,9 +23,9 @@ Sensor wide_sensor() {
 
 Setup setup_of(const Sensor &sensor, const Scene &scene) {
   Setup setup;
-  setup.scene = scene;
-  setup.sensors = {sensor};
-  setup.illuminators = {monostatic_illuminator(sensor.world_from_camera)};
+  setup.start.scene = scene;
+  setup.start.sensors = {sensor};
+  setup.start.illuminators = {monostatic_illuminator(sensor.world_from_camera)};
   return setup;
 }
 

@@ -20,7 +20,7 @@ struct Bench {
 
   std::string error_of_bytes(const std::string &bytes) const {
     const auto file = folder.write("scene.gltf", bytes);
-    return input_error_of([&] { load_gltf(file, Place{file}); });
+    return input_error_of([&] { load_gltf(file, Place{file}).at(0); });
   }
   std::string error_of(const json &gltf) const { return error_of_bytes(gltf.dump()); }
   std::string error_of_uri(const std::string &uri) const {
@@ -188,7 +188,7 @@ TEST_CASE("No more of a buffer's file is read than the buffer has") {
   json gltf = one_triangle();
   gltf["buffers"][0]["uri"] = "own.bin";
   const auto scene = bench.folder.write("scene.gltf", gltf.dump());
-  CHECK(load_gltf(scene, Place{scene}).scene.triangles.size() == 1);
+  CHECK(load_gltf(scene, Place{scene}).at(0).scene.triangles.size() == 1);
 }
 
 TEST_CASE("Text that is too deep or broken") {

@@ -147,7 +147,7 @@ TEST_CASE("Rings that list too much are refused, even if they are off") {
           {{"radius_m", 0.1}, {"count", 100'000}, {"active_deg", {0, 0}}});
   };
   list(9);
-  CHECK(fixture.load().illuminators[0].diodes.size() == 100'000);
+  CHECK(fixture.load().start.illuminators[0].diodes.size() == 100'000);
   list(10);
   CHECK_THAT(fixture.error(),
              EndsWith("/diodes/rings/10/count: expected at most 1000000 diodes in all rings, on or off"));

@@ -73,7 +73,7 @@ void check_against_opencv(const Calibration &c, const Sensor &sensor) {
 Sensor loaded(const Sensor &sensor) {
   SetupFixture fixture;
   fixture.setup["sensors"] = {json::parse(sensor_block(sensor).dump(2))};
-  return fixture.load().sensors.at(0);
+  return fixture.load().start.sensors.at(0);
 }
 
 void check_calibration(const Calibration &c) {

@@ -14,7 +14,7 @@ namespace {
 GltfScene load_bytes(const std::string &bytes, const std::string &name = "scene.gltf") {
   const TemporaryFolder folder;
   const auto file = folder.write(name, bytes);
-  return load_gltf(file, Place{file});
+  return load_gltf(file, Place{file}).at(0);
 }
 
 Scene load(const json &gltf) { return load_bytes(gltf.dump()).scene; }
@@ -94,7 +94,7 @@ TEST_CASE("A .glb, a .gltf with a file beside it and one with a data URI are the
   json gltf = one_triangle();
   gltf["buffers"][0]["uri"] = "parts/../parts/a%20b.bin";
   const auto file = folder.write("scene.gltf", gltf.dump());
-  CHECK(load_gltf(file, Place{file}).scene.positions_m == expected);
+  CHECK(load_gltf(file, Place{file}).at(0).scene.positions_m == expected);
 }
 
 TEST_CASE("Reflectivity is the base colour's luminance or what extras give") {

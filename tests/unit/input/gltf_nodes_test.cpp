@@ -16,7 +16,7 @@ namespace {
 GltfScene load(const json &gltf) {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.gltf", gltf.dump());
-  return load_gltf(file, Place{file});
+  return load_gltf(file, Place{file}).at(0);
 }
 
 std::string error_of(const json &gltf) {

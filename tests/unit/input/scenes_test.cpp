@@ -43,8 +43,8 @@ TEST_CASE("Every setup that ships loads without a warning") {
     INFO(name);
     REQUIRE(expected.contains(name));
     const Setup setup = load_setup(entry.path());
-    CHECK(setup.scene.triangles.size() == expected.at(name).triangles);
-    CHECK(setup.illuminators.at(0).diodes.size() == expected.at(name).diodes);
+    CHECK(setup.start.scene.triangles.size() == expected.at(name).triangles);
+    CHECK(setup.start.illuminators.at(0).diodes.size() == expected.at(name).diodes);
     CHECK(setup.warnings.empty());
     ++found;
   }
@@ -71,8 +71,8 @@ TEST_CASE("The README shows the examples that ship") {
 
 TEST_CASE("The room's camera looks down at what stands in it") {
   const Setup setup = load_setup(std::filesystem::path(PMDSIM_SCENES) / "room.json");
-  CHECK(setup.scene.objects == std::vector<std::string>{"wall", "floor", "box", "sphere"});
-  const glm::dvec3 view = setup.sensors.at(0).world_from_camera.direction({0, 0, 1});
+  CHECK(setup.start.scene.objects == std::vector<std::string>{"wall", "floor", "box", "sphere"});
+  const glm::dvec3 view = setup.start.sensors.at(0).world_from_camera.direction({0, 0, 1});
   CHECK(view.z < -0.9);
   CHECK(view.y < -0.1);
   CHECK(view.y > -0.3);

@@ -12,7 +12,7 @@ namespace {
 double distance(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::length(a - b); }
 
 // By value: a loop over it outlives a setup that is only a temporary.
-std::vector<Diode> diodes_of(const Setup &setup) { return setup.illuminators.at(0).diodes; }
+std::vector<Diode> diodes_of(const Setup &setup) { return setup.start.illuminators.at(0).diodes; }
 
 std::size_t active_of_48(const json &active_deg) {
   SetupFixture fixture;
@@ -24,8 +24,8 @@ std::size_t active_of_48(const json &active_deg) {
 
 TEST_CASE("A sensor is what the setup says, with the contract's defaults") {
   const Setup setup = SetupFixture().load();
-  REQUIRE(setup.sensors.size() == 1);
-  const Sensor &sensor = setup.sensors[0];
+  REQUIRE(setup.start.sensors.size() == 1);
+  const Sensor &sensor = setup.start.sensors[0];
   CHECK(sensor.name == "pmd");
   CHECK(sensor.resolution == glm::uvec2(64, 48));
   CHECK(sensor.pixel_pitch_m == glm::dvec2(45e-6, 40e-6));
@@ -34,7 +34,7 @@ TEST_CASE("A sensor is what the setup says, with the contract's defaults") {
   CHECK(sensor.modulation_hz == std::vector{20e6});
   CHECK(sensor.samples == 1);
   CHECK(setup.backscatter == Backscatter::lambert);
-  CHECK(setup.scene.triangles.size() == 1);
+  CHECK(setup.start.scene.triangles.size() == 1);
   CHECK(setup.warnings.empty());
 }
 
@@ -47,8 +47,8 @@ TEST_CASE("Values that are given are used") {
   fixture.illuminator()["intensity_w_sr"] = 3;
   const Setup setup = fixture.load();
   CHECK(setup.backscatter == Backscatter::constant);
-  CHECK(setup.sensors[0].samples == 16);
-  CHECK(setup.sensors[0].focus_distance_m == 0.5);
+  CHECK(setup.start.sensors[0].samples == 16);
+  CHECK(setup.start.sensors[0].focus_distance_m == 0.5);
   CHECK(diodes_of(setup)[0].pattern.kind == Pattern::Kind::cosine);
   CHECK(diodes_of(setup)[0].pattern.order == 2.5);
   CHECK(diodes_of(setup)[0].intensity_w_sr == 3.0);
@@ -56,11 +56,11 @@ TEST_CASE("Values that are given are used") {
 
 TEST_CASE("Without a pose the camera looks along -Z, +Y up, and the light is with it") {
   const Setup setup = SetupFixture().load();
-  const Pose &pose = setup.sensors[0].world_from_camera;
+  const Pose &pose = setup.start.sensors[0].world_from_camera;
   CHECK(pose.point({0, 0, 2}) == glm::dvec3(0, 0, -2));
   CHECK(pose.direction({1, 0, 0}) == glm::dvec3(1, 0, 0));
   CHECK(pose.direction({0, 1, 0}) == glm::dvec3(0, -1, 0));
-  CHECK(setup.illuminators[0].world_from_illuminator.rotation == pose.rotation);
+  CHECK(setup.start.illuminators[0].world_from_illuminator.rotation == pose.rotation);
 }
 
 TEST_CASE("A camera looks at a point") {
@@ -68,12 +68,12 @@ TEST_CASE("A camera looks at a point") {
   fixture.sensor()["pose"] = {{"position_m", {1, 2, 3}}, {"look_at_m", {5, 2, 3}}, {"up", {7, 0, -2}}};
   fixture.illuminator()["pose"] = {{"position_m", {0, 1, 0}}, {"look_at_m", {0, 1, 1}}};
   const Setup setup = fixture.load();
-  const Pose &camera = setup.sensors[0].world_from_camera;
+  const Pose &camera = setup.start.sensors[0].world_from_camera;
   CHECK(distance(camera.point({0, 0, 4}), {5, 2, 3}) < 1e-15);
   CHECK(distance(camera.direction({0, 1, 0}), {0, 0, 1}) < 1e-15);
   CHECK(distance(camera.direction({1, 0, 0}), {0, 1, 0}) < 1e-15);
   CHECK(glm::determinant(camera.rotation) == Approx(1.0));
-  const Pose &light = setup.illuminators[0].world_from_illuminator;
+  const Pose &light = setup.start.illuminators[0].world_from_illuminator;
   CHECK(distance(light.direction({1, 0, 0}), {-1, 0, 0}) < 1e-15);
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("A camera sits on a node, whatever its scale") {
                                {"rotation", {0, half_turn, 0, half_turn}},
                                {"scale", {0.1, 3, 5}}};
   fixture.sensor()["pose"] = {{"node", "Camera"}};
-  const Pose pose = fixture.load().sensors[0].world_from_camera;
+  const Pose pose = fixture.load().start.sensors[0].world_from_camera;
   CHECK(distance(pose.translation_m, {1, 0, 2}) < 1e-15);
   CHECK(distance(pose.direction({0, 0, 1}), {-1, 0, 0}) < 1e-15);
   CHECK(distance(pose.direction({0, 1, 0}), {0, -1, 0}) < 1e-15);
@@ -160,7 +160,7 @@ TEST_CASE("Monostatic light away from the lens is a warning") {
   const Setup setup = fixture.load();
   CHECK(setup.warnings ==
         std::vector<std::string>{"illuminator ring: monostatic light is not in the lens of sensor pmd"});
-  CHECK(setup.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(0, 1e-3, 0));
+  CHECK(setup.start.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(0, 1e-3, 0));
   fixture.illuminator()["diodes"] = {{"rings", {{{"radius_m", 0.1}, {"count", 8}}}}};
   CHECK(fixture.load().warnings.empty());
 }
@@ -186,10 +186,10 @@ TEST_CASE("An integer may be written with a fraction of zero") {
   fixture.illuminator()["diodes"]["rings"][0]["count"] = 1.2e1;
   fixture.scene["accessors"][0]["count"] = 3.0;
   const Setup setup = fixture.load();
-  CHECK(setup.sensors[0].resolution == glm::uvec2(8, 8));
-  CHECK(setup.sensors[0].samples == 2);
+  CHECK(setup.start.sensors[0].resolution == glm::uvec2(8, 8));
+  CHECK(setup.start.sensors[0].samples == 2);
   CHECK(diodes_of(setup).size() == 12);
-  CHECK(setup.scene.triangles.size() == 1);
+  CHECK(setup.start.scene.triangles.size() == 1);
 }
 
 TEST_CASE("The setup as used states every default") {
@@ -237,7 +237,7 @@ TEST_CASE("A scene without triangles is a warning") {
   SetupFixture fixture;
   fixture.scene = {{"asset", {{"version", "2.0"}}}};
   const Setup setup = fixture.load();
-  CHECK(setup.scene.triangles.empty());
+  CHECK(setup.start.scene.triangles.empty());
   REQUIRE(setup.warnings.size() == 1);
   CHECK_THAT(setup.warnings[0], Catch::Contains("scene.gltf: the scene has no triangles"));
 }

@@ -18,7 +18,7 @@ Setup setup_with(const json &keys) {
   return fixture.load();
 }
 
-Sensor sensor_with(const json &keys) { return setup_with(keys).sensors.at(0); }
+Sensor sensor_with(const json &keys) { return setup_with(keys).start.sensors.at(0); }
 
 std::string error_with(const json &keys) {
   SetupFixture fixture;
@@ -67,7 +67,7 @@ TEST_CASE("Brown-Conrady with zeros is no distortion, a fisheye with zeros is on
 
 TEST_CASE("The fisheye's coefficients are used by name, and its defaults are stated") {
   const Setup setup = setup_with({{"distortion", {{"model", "fisheye"}, {"k1", 0.1}, {"k4", -0.2}}}});
-  const auto &d = std::get<Fisheye>(setup.sensors[0].distortion);
+  const auto &d = std::get<Fisheye>(setup.start.sensors[0].distortion);
   CHECK(d.k1 == 0.1);
   CHECK(d.k2 == 0.0);
   CHECK(d.k3 == 0.0);
@@ -224,15 +224,15 @@ TEST_CASE("Several sensors have names of their own, and the light stands in any 
   left["modulation_hz"] = {10e6, 40e6};
   fixture.setup["sensors"].push_back(left);
   const Setup setup = fixture.load();
-  REQUIRE(setup.sensors.size() == 2);
-  CHECK(setup.sensors[1].name == "left");
-  CHECK(setup.sensors[1].modulation_hz.size() == 2);
-  CHECK(setup.sensors[0].modulation_hz.size() == 1);
-  CHECK(setup.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(0.0));
+  REQUIRE(setup.start.sensors.size() == 2);
+  CHECK(setup.start.sensors[1].name == "left");
+  CHECK(setup.start.sensors[1].modulation_hz.size() == 2);
+  CHECK(setup.start.sensors[0].modulation_hz.size() == 1);
+  CHECK(setup.start.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(0.0));
   CHECK(setup.as_used["illuminators"][0]["pose"] == json({{"sensor", "pmd"}}));
   CHECK(setup.as_used["sensors"][1]["taps"] == 4);
   fixture.illuminator()["pose"] = {{"sensor", "left"}};
-  CHECK(fixture.load().illuminators[0].world_from_illuminator.translation_m == glm::dvec3(-1, 2, 3));
+  CHECK(fixture.load().start.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(-1, 2, 3));
 }
 
 TEST_CASE("A doubled name of a sensor, and too many sensors") {
@@ -242,7 +242,7 @@ TEST_CASE("A doubled name of a sensor, and too many sensors") {
              EndsWith("/sensors/1/name: expected a name that no other sensor has, found \"pmd\""));
   for (std::size_t i = 1; i < 64; ++i)
     fixture.setup["sensors"][i] = second_sensor(fixture, "pmd" + std::to_string(i));
-  CHECK(fixture.load().sensors.size() == 64);
+  CHECK(fixture.load().start.sensors.size() == 64);
   fixture.setup["sensors"].push_back(second_sensor(fixture, "last"));
   CHECK_THAT(fixture.error(), Contains("/sensors: expected an array of 1 to 64"));
 }

@@ -83,8 +83,8 @@ TEST_CASE("a chip beside the axis and farther from the lens looks aside and narr
 TEST_CASE("a tilted chip measures along its own rays") {
   const double alpha_rad = 0.3;
   const Sensor sensor = three_by_three({{alpha_rad, 0, 0}, {0.01, 0, 0}});
-  const auto frame = reference::simulate(wall_at(2), sensor, monostatic_illuminator(sensor.world_from_camera),
-                                         Backscatter::constant);
+  const auto frame = reference::simulate(
+      wall_at(2), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   // The bottom centre pixel.
   const double depth_m = focal_length_m + pitch_m * std::sin(alpha_rad);
   const double range_m = 2 * std::hypot(1, 0.01 / depth_m, pitch_m * std::cos(alpha_rad) / depth_m);
@@ -100,7 +100,7 @@ TEST_CASE("the part of a chip that reaches behind the lens sees nothing") {
   Sensor sensor = three_by_three({{std::numbers::pi / 2, 0, 0}, {0, 0, 0.01 - focal_length_m}});
   sensor.distortion = GENERATE(as<Distortion>{}, std::monostate{}, BrownConrady{}, Fisheye{});
   const auto frame = reference::simulate(
-      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
+      builder.scene(), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   CHECK(frame.coverage[1] == 0); // top: pitch_m behind the lens but for 0.01 m
   CHECK(frame.coverage[4] == 1);
   CHECK(frame.coverage[7] == 1);

@@ -13,7 +13,7 @@ using namespace pmdsim::test;
 namespace {
 
 double monostatic_distance_m(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                              Backscatter::constant)
       .returns[0]
       .distance_m[0];
@@ -26,7 +26,7 @@ TEST_CASE("a diode beside the lens reads half of its longer path") {
   const double baseline_m = 0.05;
   const Sensor sensor = axial_sensor();
   const auto frame = reference::simulate(
-      wall_at(z_m), sensor, diode_beside_lens(sensor, diode_at({baseline_m, 0, 0})), Backscatter::lambert);
+      wall_at(z_m), sensor, {diode_beside_lens(sensor, diode_at({baseline_m, 0, 0}))}, Backscatter::lambert);
   CHECK(frame.returns[0].distance_m[0] ==
         Approx((std::hypot(z_m, baseline_m) + z_m) / 2).epsilon(0).margin(1e-12));
   CHECK(frame.range_m[0] == Approx(z_m).epsilon(1e-15));
@@ -47,8 +47,8 @@ TEST_CASE("a pixel off the axis reads the distance along its ray") {
   sensor.resolution = {3, 3};
   sensor.pixel_pitch_m = {0.05, 0.03};
   sensor.focal_length_m = 0.1;
-  const auto frame = reference::simulate(wall_at(2), sensor, monostatic_illuminator(sensor.world_from_camera),
-                                         Backscatter::constant);
+  const auto frame = reference::simulate(
+      wall_at(2), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   const double per_depth = std::sqrt(1 + 0.5 * 0.5 + 0.3 * 0.3);
   for (const std::size_t corner : {0u, 2u, 6u, 8u}) {
     CHECK(frame.returns[0].distance_m[corner] == Approx(2 * per_depth).epsilon(1e-13));
@@ -63,8 +63,8 @@ TEST_CASE("a focus nearer than infinity moves the chip back and narrows the view
   sensor.pixel_pitch_m = glm::dvec2(0.1);
   sensor.focal_length_m = 0.1;
   sensor.focus_distance_m = 0.2;
-  const auto frame = reference::simulate(wall_at(2), sensor, monostatic_illuminator(sensor.world_from_camera),
-                                         Backscatter::constant);
+  const auto frame = reference::simulate(
+      wall_at(2), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   CHECK(frame.range_m[0] == Approx(2 * std::sqrt(1 + 0.5 * 0.5)).epsilon(1e-14));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("a pixel half on a near and half on a far wall mixes their phasors") {
   Sensor sensor = axial_sensor();
   sensor.samples = 2;
   const auto frame = reference::simulate(
-      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
+      builder.scene(), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
 
   const double wavenumber = 4 * std::numbers::pi * sensor.modulation_hz[0] / speed_of_light_m_s;
   const auto z = 0.5 * (std::polar(near_reflectivity / (near_m * near_m), wavenumber * near_m) +
@@ -92,7 +92,7 @@ TEST_CASE("phase grows with the path's length from zero") {
   const Sensor sensor = axial_sensor();
   const auto frame =
       reference::simulate(wall_at(sensor.ambiguity_m() / 4), sensor,
-                          monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
+                          {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   CHECK(frame.returns[0].phase_rad[0] == Approx(std::numbers::pi / 2).epsilon(1e-13));
   CHECK(frame.returns[0].z[0].imag() > 0);
 }
@@ -108,7 +108,8 @@ TEST_CASE("a scene far from the world's origin is measured as at the origin") {
     sensor.pixel_pitch_m = glm::dvec2(0.02);
     sensor.world_from_camera = world_from_camera;
     return reference::simulate(builder.scene(), sensor,
-                               diode_beside_lens(sensor, diode_at({0.1, 0.02, -0.03})), Backscatter::lambert);
+                               {diode_beside_lens(sensor, diode_at({0.1, 0.02, -0.03}))},
+                               Backscatter::lambert);
   };
   const auto near = measure(turned_only);
   const auto far = measure(turned_far);

@@ -50,7 +50,7 @@ double largest_way_and_back_error(const Sensor &sensor) {
 }
 
 reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                              Backscatter::constant);
 }
 

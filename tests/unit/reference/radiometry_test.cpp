@@ -14,7 +14,7 @@ namespace {
 
 double amplitude(const Scene &scene, const Diode &diode, Backscatter backscatter) {
   const Sensor sensor = axial_sensor();
-  return reference::simulate(scene, sensor, diode_beside_lens(sensor, diode), backscatter)
+  return reference::simulate(scene, sensor, {diode_beside_lens(sensor, diode)}, backscatter)
       .returns[0]
       .amplitude[0];
 }
@@ -63,7 +63,7 @@ TEST_CASE("a diode behind the surface that the lens sees adds nothing") {
   const auto backscatter = GENERATE(Backscatter::constant, Backscatter::lambert);
   const Diode diode = diode_at({0.3, 0, 4});
   const Sensor sensor = axial_sensor();
-  const auto frame = reference::simulate(wall_at(2), sensor, diode_beside_lens(sensor, diode), backscatter);
+  const auto frame = reference::simulate(wall_at(2), sensor, {diode_beside_lens(sensor, diode)}, backscatter);
   CHECK(frame.returns[0].amplitude[0] == 0);
   CHECK(std::isnan(frame.returns[0].phase_rad[0]));
   CHECK(std::isnan(frame.returns[0].distance_m[0]));
@@ -102,11 +102,13 @@ TEST_CASE("the light's own pose turns positions and axes") {
   // Its +z is the camera's +x: the diode sits at (1, 0, 0) and looks along +x, away from the wall's centre.
   illuminator.world_from_illuminator =
       compose(sensor.world_from_camera, {glm::dmat3(0, 0, -1, 0, 1, 0, 1, 0, 0), glm::dvec3(0)});
-  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).returns[0].amplitude[0] ==
-        0);
+  CHECK(
+      reference::simulate(wall_at(1), sensor, {illuminator}, Backscatter::constant).returns[0].amplitude[0] ==
+      0);
   illuminator.diodes[0].axis = {-1, 0, 0};
-  CHECK(reference::simulate(wall_at(1), sensor, illuminator, Backscatter::constant).returns[0].amplitude[0] ==
-        Approx(std::cos(std::numbers::pi / 4) / 2).epsilon(1e-6));
+  CHECK(
+      reference::simulate(wall_at(1), sensor, {illuminator}, Backscatter::constant).returns[0].amplitude[0] ==
+      Approx(std::cos(std::numbers::pi / 4) / 2).epsilon(1e-6));
 }
 
 TEST_CASE("vignetting takes the fourth power of the cosine from what is off the axis") {
@@ -115,9 +117,9 @@ TEST_CASE("vignetting takes the fourth power of the cosine from what is off the 
   sensor.pixel_pitch_m = glm::dvec2(0.05);
   sensor.focal_length_m = 0.1;
   const Illuminator light = monostatic_illuminator(sensor.world_from_camera);
-  const auto plain = reference::simulate(wall_at(2), sensor, light, Backscatter::lambert);
+  const auto plain = reference::simulate(wall_at(2), sensor, {light}, Backscatter::lambert);
   sensor.vignetting = Vignetting::cos4;
-  const auto vignetted = reference::simulate(wall_at(2), sensor, light, Backscatter::lambert);
+  const auto vignetted = reference::simulate(wall_at(2), sensor, {light}, Backscatter::lambert);
   for (std::size_t pixel = 0; pixel < 25; ++pixel) {
     const double cosine = 2 / plain.range_m[pixel];
     CHECK(vignetted.returns[0].amplitude[pixel] ==
@@ -137,11 +139,11 @@ TEST_CASE("the frame of many diodes is the sum of their frames") {
   sensor.world_from_camera = world_from_camera;
   const Illuminator all = random_illuminator(random, 9, world_from_camera);
 
-  const auto together = reference::simulate(scene, sensor, all, Backscatter::lambert);
+  const auto together = reference::simulate(scene, sensor, {all}, Backscatter::lambert);
   std::vector<std::complex<double>> z(together.returns[0].z.size());
   for (const Diode &diode : all.diodes) {
     const auto alone =
-        reference::simulate(scene, sensor, {"one", world_from_camera, {diode}}, Backscatter::lambert);
+        reference::simulate(scene, sensor, {{"one", world_from_camera, {diode}}}, Backscatter::lambert);
     for (std::size_t pixel = 0; pixel < z.size(); ++pixel)
       z[pixel] += alone.returns[0].z[pixel];
   }

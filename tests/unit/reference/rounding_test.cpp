@@ -48,7 +48,7 @@ TEST_CASE("a frame is rounded channel by channel") {
   SceneBuilder builder;
   builder.add_wall({2, {0.3}, {-9, -9}, {0, 9}});
   const auto frame = reference::simulate(
-      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::lambert);
+      builder.scene(), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::lambert);
   const Measurement measurement = reference::to_measurement(frame);
   CHECK(measurement.resolution == sensor.resolution);
   REQUIRE(measurement.returns.size() == 2);
@@ -83,8 +83,8 @@ TEST_CASE("two runs give the same bits") {
   sensor.pixel_pitch_m = glm::dvec2(4e-3);
   sensor.world_from_camera = world_from_camera;
   sensor.samples = 2;
-  const auto first = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
-  const auto second = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  const auto first = reference::simulate(scene, sensor, {illuminator}, Backscatter::lambert);
+  const auto second = reference::simulate(scene, sensor, {illuminator}, Backscatter::lambert);
   CHECK(std::memcmp(first.returns[0].z.data(), second.returns[0].z.data(),
                     first.returns[0].z.size() * sizeof(first.returns[0].z[0])) == 0);
   CHECK(first.sample_triangle_id == second.sample_triangle_id);

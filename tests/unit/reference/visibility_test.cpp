@@ -246,7 +246,7 @@ TEST_CASE("pixels whose rays run along a wall's diagonal are covered") {
   builder.add_wall({2, {}, {-1, -1}, {1, 1}});
   const Sensor sensor = wide_sensor({101, 101}, 0.9);
   const auto frame = reference::simulate(
-      builder.scene(), sensor, monostatic_illuminator(sensor.world_from_camera), Backscatter::constant);
+      builder.scene(), sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   CHECK(*std::min_element(frame.coverage.begin(), frame.coverage.end()) == 1);
 }
 

@@ -36,7 +36,7 @@ Scene slanted_wall() {
 }
 
 reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, monostatic_illuminator(sensor.world_from_camera),
+  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                              Backscatter::constant);
 }
 
@@ -85,11 +85,11 @@ TEST_CASE("every frequency is measured as if it were alone") {
   sensor.waveform = GENERATE(as<Waveform>{}, sine, square, truncated_triangle(3));
   const std::vector<double> modulation_hz{20e6, 80.1e6, 3e5};
   sensor.modulation_hz = modulation_hz;
-  const auto together = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+  const auto together = reference::simulate(scene, sensor, {illuminator}, Backscatter::lambert);
   REQUIRE(together.returns.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     sensor.modulation_hz = {modulation_hz[i]};
-    const auto alone = reference::simulate(scene, sensor, illuminator, Backscatter::lambert);
+    const auto alone = reference::simulate(scene, sensor, {illuminator}, Backscatter::lambert);
     CHECK(together.returns[i].ambiguity_m == sensor.ambiguity_m());
     CHECK(same_bits(together.returns[i].amplitude, alone.returns[0].amplitude));
     CHECK(same_bits(together.returns[i].phase_rad, alone.returns[0].phase_rad));
@@ -190,7 +190,7 @@ TEST_CASE("without light every tap is 0 and there is no phase, whatever the wave
   sensor.taps = 5;
   const Scene scene = GENERATE(Scene{}, wall_at(2));
   // Behind the wall.
-  const auto frame = reference::simulate(scene, sensor, diode_beside_lens(sensor, diode_at({0, 0, 4})),
+  const auto frame = reference::simulate(scene, sensor, {diode_beside_lens(sensor, diode_at({0, 0, 4}))},
                                          Backscatter::lambert);
   const reference::FrameReturn &found = frame.returns[0];
   REQUIRE(found.taps.size() == 5);
