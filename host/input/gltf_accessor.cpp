@@ -1,10 +1,13 @@
 #include "host/input/gltf_accessor.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
 #include <tiny_gltf.h>
+#include <type_traits>
 
 namespace pmdsim {
 
@@ -50,6 +53,48 @@ T element(const Elements &elements, std::size_t index) {
   return value;
 }
 
+bool has_components(const tinygltf::Accessor &accessor, int components) {
+  return accessor.type == (components == 1 ? TINYGLTF_TYPE_SCALAR : components);
+}
+
+const char *vector_type(int components) {
+  constexpr std::array names{"\"SCALAR\"", "\"VEC2\"", "\"VEC3\"", "\"VEC4\""};
+  return names.at(static_cast<std::size_t>(components) - 1);
+}
+
+// A normalized integer, glTF 2.0, section 3.6.2.2: of the most negative ones two mean -1.
+template <class T>
+double number(T value, bool normalized) {
+  const auto plain = static_cast<double>(value);
+  if constexpr (std::is_integral_v<T>)
+    return normalized ? std::max(-1.0, plain / static_cast<double>(std::numeric_limits<T>::max())) : plain;
+  return plain;
+}
+
+double component(const Elements &elements, std::size_t index, int c, const tinygltf::Accessor &accessor) {
+  const auto read = [&]<class T>(T) {
+    T value;
+    std::memcpy(&value,
+                elements.first + index * elements.stride_bytes + static_cast<std::size_t>(c) * sizeof(T),
+                sizeof(T));
+    return number(value, accessor.normalized);
+  };
+  switch (accessor.componentType) {
+  case TINYGLTF_COMPONENT_TYPE_BYTE:
+    return read(std::int8_t{});
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    return read(std::uint8_t{});
+  case TINYGLTF_COMPONENT_TYPE_SHORT:
+    return read(std::int16_t{});
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    return read(std::uint16_t{});
+  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    return read(std::uint32_t{});
+  default:
+    return read(float{});
+  }
+}
+
 template <class T>
 std::vector<std::uint32_t> checked_indices(const Elements &elements, std::size_t vertex_count,
                                            const Place &place) {
@@ -68,23 +113,22 @@ std::vector<std::uint32_t> checked_indices(const Elements &elements, std::size_t
 
 } // namespace
 
-std::vector<glm::vec3> read_positions(const tinygltf::Model &model, std::size_t index, const Place &root) {
+std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t index, int components,
+                                     const Place &root) {
   const Place place = root / "accessors" / index;
   const tinygltf::Accessor &accessor = model.accessors[index];
-  if (accessor.type != TINYGLTF_TYPE_VEC3)
-    throw input_error(place / "type", "expected \"VEC3\" for POSITION");
-  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    throw input_error(place / "componentType",
-                      "quantized positions are not supported yet (expected 5126, float)");
+  if (!has_components(accessor, components))
+    throw input_error(place / "type", fmt::format("expected {}", vector_type(components)));
   const Elements elements = checked_elements(model, accessor, place);
-  std::vector<glm::vec3> positions(elements.count);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    positions[i] = element<glm::vec3>(elements, i);
-    const glm::vec3 &p = positions[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw input_error(place, fmt::format("element {} is no finite position", i));
-  }
-  return positions;
+  std::vector<glm::dvec4> vectors(elements.count, glm::dvec4(0.0));
+  for (std::size_t i = 0; i < elements.count; ++i)
+    for (int c = 0; c < components; ++c) {
+      const double value = component(elements, i, c, accessor);
+      if (!std::isfinite(value))
+        throw input_error(place, fmt::format("element {} is not finite", i));
+      vectors[i][c] = value;
+    }
+  return vectors;
 }
 
 std::vector<std::uint32_t> read_indices(const tinygltf::Model &model, std::size_t index,

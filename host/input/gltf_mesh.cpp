@@ -44,7 +44,7 @@ std::vector<Corners> triangle_corners(int mode, std::uint32_t count, const Place
   return triangles;
 }
 
-std::vector<glm::dvec3> world_positions(const std::vector<glm::vec3> &positions,
+std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions,
                                         const AffineTransform &world_from_node, const Place &place) {
   std::vector<glm::dvec3> world;
   world.reserve(positions.size());
@@ -66,7 +66,7 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
   refuse_other_geometry(primitive, place);
   const Place root{place.file};
   const auto accessor = static_cast<std::size_t>(primitive.attributes.at("POSITION"));
-  const std::vector<glm::vec3> positions = read_positions(model, accessor, root);
+  const std::vector<glm::dvec4> positions = read_vectors(model, accessor, 3, root);
   std::vector<std::uint32_t> indices(positions.size());
   if (primitive.indices < 0)
     std::iota(indices.begin(), indices.end(), 0u);
