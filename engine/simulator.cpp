@@ -39,7 +39,7 @@ struct Prepared {
   Sensor sensor;
   Signal signal;
   std::vector<PlannedStrip> strips;
-  vulkan::Buffer planes;
+  SceneBuffers scene;
   StripBuffers buffers;
   VisibilityPass visibility;
   std::variant<PointsPass, SearchPass> points; // without and with distortion
@@ -50,10 +50,10 @@ struct Prepared {
 std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, const Sensor &sensor,
                                                  const CameraScene &camera, const Scene &scene,
                                                  const std::vector<RasterBlock> &blocks, bool surfaces,
-                                                 SamplePrecision precision) {
+                                                 bool painted, SamplePrecision precision) {
   if (sensor.has_distortion())
-    return SearchPass(device, sensor, camera, scene, blocks, surfaces, precision);
-  return PointsPass(device, sensor, surfaces, precision);
+    return SearchPass(device, sensor, camera, scene, blocks, surfaces, painted, precision);
+  return PointsPass(device, sensor, surfaces, painted, precision);
 }
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
@@ -76,13 +76,16 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
   const auto planes = triangle_planes(camera, scene, backscatter,
                                       sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
+  SceneBuffers buffers{vulkan::upload(device, std::as_bytes(std::span(planes))),
+                       upload_paint(device, camera, scene, backscatter)};
+  const bool painted = buffers.paint.painted, masked = buffers.paint.masked;
   return {sensor,
           signal,
           strips,
-          vulkan::upload(device, std::as_bytes(std::span(planes))),
+          std::move(buffers),
           make_strip_buffers(device, strips, projection.blocks, signal, options.keep_sample_tags),
-          VisibilityPass(device, projection, sensor, strips),
-          points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
+          VisibilityPass(device, projection, sensor, strips, masked, options.precision),
+          points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(), painted,
                       options.precision),
           AccumulatePass(device, groups, model, signal, options),
           ResolvePass(device, signal, groups.largest_intensity_w_sr, is_tiled(sensor), options.precision)};
@@ -112,12 +115,13 @@ struct Simulator::State {
 void Simulator::State::see(const PlannedStrip &planned) {
   const StripBuffers &buffers = prepared->buffers;
   const auto *points = std::get_if<PointsPass>(&prepared->points);
-  prepared->visibility.record(recorder.commands(), planned, points ? buffers.tags : buffers.fragments);
+  prepared->visibility.record(recorder.commands(), planned, prepared->scene,
+                              points ? buffers.tags : buffers.fragments);
   recorder.end_pass("visibility");
   if (points)
-    points->record(recorder.commands(), planned.strip, buffers, prepared->planes);
+    points->record(recorder.commands(), planned.strip, buffers, prepared->scene);
   else
-    std::get<SearchPass>(prepared->points).record(recorder.commands(), planned, buffers, prepared->planes);
+    std::get<SearchPass>(prepared->points).record(recorder.commands(), planned, buffers, prepared->scene);
   recorder.end_pass("points");
 }
 
@@ -137,7 +141,7 @@ void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t runs, cons
 }
 
 void Simulator::State::resolve(const PlannedStrip &planned) {
-  prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->planes);
+  prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes);
   recorder.end_pass("resolve");
   record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
   recorder.end_pass("read_back");

@@ -15,6 +15,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Le
   LensModel at;
   float guess[]; // lens_guesses
 };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer BlockPlanes { BlockPlane at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Views { RasterView at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupDiode at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };

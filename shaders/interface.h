@@ -50,9 +50,16 @@ PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
 PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or is filled in part; 0: nominal
 PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
+PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
+
+PMDSIM_CONSTANT wrap_repeat = 0;
+PMDSIM_CONSTANT wrap_mirrored_repeat = 1;
+PMDSIM_CONSTANT wrap_clamp = 2;
+PMDSIM_CONSTANT filter_nearest = 0;
+PMDSIM_CONSTANT filter_linear = 1;
 
 PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of every surface
 PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
@@ -81,6 +88,34 @@ struct TrianglePlane {
   uint object;       // id in the scene
   float along_min; // where a ray can meet the triangle, a hair wider than exact: depth, with distortion range, m
   float along_max;
+};
+
+// How a triangle or a disc is painted, in scenes that have any paint: affine functions of a point's offset from the
+// shape's origin (camera frame, m), their gradients in xyz, their values at the origin in w.
+struct ShapePaint {
+  vec4 origin_hi, origin_lo; // a triangle's first corner, a disc's centre; w: a disc's radius, 0 of a triangle
+  vec4 s_hi, s_lo;           // column of the texture, texels
+  vec4 t_hi, t_lo;           // row
+  vec4 red, green, blue, alpha; // vertex colour
+  uint surface;                 // index into SurfacePaint[]
+  uint padding_1, padding_2, padding_3;
+};
+
+// rho (constant) or rho / pi (lambert) of a colour is dot(backscatter.rgb, colour.rgb) + backscatter.a.
+struct SurfacePaint {
+  vec4 backscatter;
+  uvec2 texels;        // vec4[]: linear RGBA, row by row
+  uint columns, rows;  // of the texture
+  uint wrap_u, wrap_v; // wrap_*
+  uint filtering;      // filter_*
+  float alpha;         // of the surface, times the colour's
+  float alpha_cutoff;  // the surface is not there below it
+  uint padding_1, padding_2, padding_3;
+};
+
+// The plane of a raster block: the ray through (x, y), fragments from its top left corner, is x * X + y * Y + corner.
+struct BlockPlane {
+  vec4 x_hi, x_lo, y_hi, y_lo, corner_hi, corner_lo;
 };
 
 // A triangle's corners a, b, c, camera frame, m, and what lies beyond its edges.
@@ -157,6 +192,12 @@ struct VisibilityConstants {
   uint column, row;              // of the strip's first pixel
   uint resolution_x;             // of the frame
   uint fragments_per_pixel_side; // 0: with distortion
+  // Where shapes have holes:
+  uint block_x, block_y; // of the strip's first fragment, from its block's corner
+  uvec2 block;           // in: BlockPlane
+  uvec2 planes;          // in: TrianglePlane[]
+  uvec2 shapes;          // in: ShapePaint[]
+  uvec2 surfaces;        // in: SurfacePaint[]
 };
 
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
@@ -171,6 +212,8 @@ struct PointsConstants {
   uvec2
       surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for it
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
+  uvec2 shapes;      // in, where painted: ShapePaint[]
+  uvec2 surfaces;    // in, where painted: SurfacePaint[]
 };
 
 struct SearchConstants {
@@ -185,6 +228,8 @@ struct SearchConstants {
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
+  uvec2 shapes;
+  uvec2 surfaces;
 };
 
 // The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
@@ -246,9 +291,10 @@ static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
-static_assert(sizeof(VisibilityConstants) == 32);
-static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
-static_assert(sizeof(SearchConstants) == 112 && offsetof(SearchConstants, lens) == 32);
+static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
+static_assert(sizeof(VisibilityConstants) == 72);
+static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);

@@ -28,19 +28,19 @@ Real3 sample_ray(Sample at) {
   return Real3(x, y, real(1.0));
 }
 
-void store_hit(PointBuffers to, uint i, Real3 ray, TrianglePlane plane) {
+void store_hit(PointBuffers to, uint i, Real3 ray, uint id, TrianglePlane plane) {
   Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
   // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
   Real depth = real_clamp(divide(offset, dot3(normal, ray)), plane.along_min, plane.along_max);
-  store_point(to, i, high3(ray), Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth), plane);
+  store_point(to, i, high3(ray), Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth), id, plane);
 }
 
 void main() {
   Strip strip = constants.strip;
   uint i = gl_GlobalInvocationID.x;
-  PointBuffers to =
-      PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter);
+  PointBuffers to = PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter,
+                                 constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
   Real3 ray = sample_ray(at); // before anything branches, so that lavapipe reads the chip once for all lanes
   if (at.pixel >= strip.columns * strip.rows) {
@@ -53,5 +53,5 @@ void main() {
     store_miss(to, i);
     return;
   }
-  store_hit(to, i, ray, Planes(constants.planes).at[tag.y]);
+  store_hit(to, i, ray, tag.y, Planes(constants.planes).at[tag.y]);
 }

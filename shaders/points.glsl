@@ -3,11 +3,13 @@
 #define PMDSIM_POINTS_GLSL
 
 #include "buffers.glsl"
+#include "paint.glsl"
 #include "real.glsl"
 
 layout(local_size_x = workgroup_size) in;
 layout(constant_id = constant_surfaces) const uint surfaces = 1;
 layout(constant_id = constant_vignetting) const uint vignetting = 0;
+layout(constant_id = constant_painted) const uint painted = 0;
 
 // Which sample an invocation is.
 struct Sample {
@@ -28,6 +30,7 @@ Sample sample_of(uint i, Strip strip) {
 // Buffers of what is left, as in PointsConstants.
 struct PointBuffers {
   uvec2 position_hi, position_lo, surface, backscatter;
+  uvec2 shapes, surfaces; // in: paint
 };
 
 // A sample that sees nothing: no backscatter, the point in the lens itself.
@@ -43,11 +46,14 @@ float cos4(vec3 ray) {
   return cos2 * cos2;
 }
 
-// A sample whose ray, of any length, meets the plane at `point`.
-void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, TrianglePlane plane) {
+// A sample whose ray, of any length, meets the shape `id` at `point` of its plane.
+void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, uint id, TrianglePlane plane) {
   store_vec3(to.position_hi, i, high3(point));
   store_vec3(to.position_lo, i, rest3(point));
-  Floats(to.backscatter).at[i] = vignetting != 0 ? plane.backscatter * cos4(ray) : plane.backscatter;
+  float backscatter = plane.backscatter;
+  if (painted != 0)
+    backscatter = look_of(to.shapes, to.surfaces, id, point).backscatter;
+  Floats(to.backscatter).at[i] = vignetting != 0 ? backscatter * cos4(ray) : backscatter;
   if (surfaces != 0)
     Vec4s(to.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
 }

@@ -46,6 +46,10 @@ Real range_along(Real3 ray, TrianglePlane plane) {
   return divide(real(plane.plane_hi.w, plane.plane_lo.w), dot3(normal, ray));
 }
 
+bool is_there(uint id, Real3 point) {
+  return painted == 0 || look_of(constants.shapes, constants.surfaces, id, point).is_there;
+}
+
 // Where the ray meets the surface that `triangle` belongs to, walking from neighbour to neighbour: triangles smaller than
 // fragments may not be seen by any.
 const uint longest_walk = 16;
@@ -55,7 +59,7 @@ Hit walk(Real3 ray, uint triangle) {
     uint edge = edge_beyond(ray, corners);
     if (edge == no_edge) {
       Real range = range_along(ray, Planes(constants.planes).at[triangle]);
-      return Hit(high(range) > 0.0 ? triangle : no_triangle, range);
+      return Hit(high(range) > 0.0 && is_there(triangle, scale3(ray, range)) ? triangle : no_triangle, range);
     }
     triangle = edge == 0u ? corners.beyond[0] : edge == 1u ? corners.beyond[1] : corners.beyond[2];
   }
@@ -103,6 +107,8 @@ Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
   bool surrounded = true;
   [[unroll]] for (uint n = 0; n < neighbours; ++n)
     surrounded = surrounded && seen[n] != no_triangle;
+  if (painted != 0 && surrounded)
+    surrounded = !may_be_absent(constants.shapes, constants.surfaces, seen[covering]);
   if (!surrounded)
     return hit;
   TrianglePlane plane = Planes(constants.planes).at[seen[covering]];
@@ -112,8 +118,8 @@ Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
 void main() {
   Strip strip = constants.strip;
   uint i = gl_GlobalInvocationID.x;
-  PointBuffers to =
-      PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter);
+  PointBuffers to = PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter,
+                                 constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
   // Before anything branches, so that lavapipe reads the lens once for all lanes.
   Lenses lens = Lenses(constants.lens);
@@ -132,5 +138,5 @@ void main() {
     return;
   }
   Tags(constants.tags).at[tag_at] = uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle);
-  store_point(to, i, high3(ray), scale3(ray, hit.range), Planes(constants.planes).at[hit.triangle]);
+  store_point(to, i, high3(ray), scale3(ray, hit.range), hit.triangle, Planes(constants.planes).at[hit.triangle]);
 }

@@ -53,26 +53,65 @@ Bounds ranges_m(const std::array<glm::dvec3, 3> &corners_m, const Plane &plane) 
           std::max({glm::length(a), glm::length(b), glm::length(c)})};
 }
 
+// An equilateral triangle around the disc, which faces the lens; a little wider, so that the raster's
+// snapping takes nothing of the disc.
+std::array<glm::dvec3, 3> around_disc(const glm::dvec3 &centre_m, double radius_m) {
+  const glm::dvec3 view = glm::normalize(centre_m);
+  const glm::dvec3 aside =
+      std::abs(view.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0); // not along the view
+  const glm::dvec3 u = glm::normalize(glm::cross(view, aside)), v = glm::cross(view, u);
+  const double reach_m = 2.02 * radius_m;
+  return {centre_m + reach_m * v, centre_m + reach_m * (-0.5 * std::numbers::sqrt3 * u - 0.5 * v),
+          centre_m + reach_m * (0.5 * std::numbers::sqrt3 * u - 0.5 * v)};
+}
+
+class Viewpoint {
+public:
+  explicit Viewpoint(const Pose &world_from_camera)
+      : camera_from_world_(glm::transpose(world_from_camera.rotation)),
+        lens_m_(world_from_camera.translation_m) {}
+
+  // The lens is taken off first: what is left is small, wherever in the world the scene stands.
+  glm::dvec3 operator()(const glm::dvec3 &world_m) const { return camera_from_world_ * (world_m - lens_m_); }
+
+private:
+  glm::dmat3 camera_from_world_;
+  glm::dvec3 lens_m_;
+};
+
+void add_triangle(CameraScene &camera, const Scene &scene, std::uint32_t id, const Viewpoint &in_camera) {
+  const Triangle &triangle = scene.triangles[id];
+  CameraTriangle seen{{}, id};
+  for (std::size_t k = 0; k < 3; ++k)
+    seen.corners_m[k] = in_camera(scene.positions_m[triangle.vertices[k]]);
+  if (const auto plane = visible_plane(seen.corners_m, scene.surfaces[triangle.surface].double_sided)) {
+    camera.triangles.push_back(seen);
+    camera.planes.push_back(*plane);
+  }
+}
+
+void add_disc(CameraScene &camera, const Scene &scene, std::size_t index, const Viewpoint &in_camera) {
+  const Disc &disc = scene.discs[index];
+  const glm::dvec3 centre_m = in_camera(scene.positions_m[disc.vertex]);
+  const double range_m = glm::length(centre_m);
+  if (!(range_m > 0.0))
+    return;
+  camera.triangles.push_back(
+      {around_disc(centre_m, disc.radius_m), static_cast<std::uint32_t>(scene.triangles.size() + index)});
+  camera.planes.push_back({-centre_m / range_m, -range_m});
+}
+
 } // namespace
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
-  const Pose &world_from_camera = sensor.world_from_camera;
-  const glm::dmat3 camera_from_world = glm::transpose(world_from_camera.rotation);
+  const Viewpoint in_camera(sensor.world_from_camera);
   CameraScene camera;
-  camera.triangles.reserve(scene.triangles.size());
-  camera.planes.reserve(scene.triangles.size());
-  for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) {
-    const Triangle &triangle = scene.triangles[id];
-    CameraTriangle seen{{}, id};
-    // The lens is taken off first: what is left is small, wherever in the world the scene stands.
-    for (std::size_t k = 0; k < 3; ++k)
-      seen.corners_m[k] =
-          camera_from_world * (scene.positions_m[triangle.vertices[k]] - world_from_camera.translation_m);
-    if (const auto plane = visible_plane(seen.corners_m, scene.surfaces[triangle.surface].double_sided)) {
-      camera.triangles.push_back(seen);
-      camera.planes.push_back(*plane);
-    }
-  }
+  camera.triangles.reserve(scene.shape_count());
+  camera.planes.reserve(scene.shape_count());
+  for (std::uint32_t id = 0; id < scene.triangles.size(); ++id)
+    add_triangle(camera, scene, id, in_camera);
+  for (std::size_t i = 0; i < scene.discs.size(); ++i)
+    add_disc(camera, scene, i, in_camera);
   return camera;
 }
 
@@ -87,23 +126,26 @@ std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &senso
   return diodes;
 }
 
+double backscatter_per_reflectivity(Backscatter backscatter) {
+  return backscatter == Backscatter::lambert ? std::numbers::inv_pi : 1.0;
+}
+
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
                                                    Backscatter backscatter, AlongRay along) {
   // A hair wider than the triangle, so that rounding to float never clamps a true hit.
   constexpr double slack = 1e-6;
-  const double per_reflectivity = backscatter == Backscatter::lambert ? std::numbers::inv_pi : 1.0;
-  std::vector<shader::TrianglePlane> records(scene.triangles.size());
+  const double per_reflectivity = backscatter_per_reflectivity(backscatter);
+  std::vector<shader::TrianglePlane> records(scene.shape_count());
   for (std::size_t i = 0; i < camera.triangles.size(); ++i) {
     const auto &[corners_m, id] = camera.triangles[i];
     const Plane &plane = camera.planes[i];
     const auto [nearest_m, farthest_m] =
         along == AlongRay::depth ? depths_m(corners_m) : ranges_m(corners_m, plane);
-    const Triangle &triangle = scene.triangles[id];
     const DoublePair4 pair(plane.normal, plane.offset_m);
     records[id] = {pair.hi,
                    pair.lo,
-                   static_cast<float>(scene.surfaces[triangle.surface].reflectivity * per_reflectivity),
-                   triangle.object,
+                   static_cast<float>(scene.surfaces[scene.surface_of(id)].reflectivity * per_reflectivity),
+                   scene.object_of(id),
                    static_cast<float>(std::max(0.0, nearest_m) * (1.0 - slack)),
                    static_cast<float>(std::max(0.0, farthest_m) * (1.0 + slack))};
   }

@@ -12,9 +12,10 @@
 
 namespace pmdsim {
 
+// A triangle, or the one around a disc.
 struct CameraTriangle {
   std::array<glm::dvec3, 3> corners_m; // camera frame
-  std::uint32_t id;                    // index into Scene::triangles
+  std::uint32_t id;                    // of the triangle or the disc in the scene
 };
 
 // The plane normal . P = offset_m, camera frame, the unit normal turned to the lens (so offset_m < 0).
@@ -24,7 +25,7 @@ struct Plane {
 };
 
 struct CameraScene {
-  // The triangles that the lens can see: without those of no area, those seen edge-on and culled back faces.
+  // The shapes that the lens can see: without those of no area, those seen edge-on and culled back faces.
   std::vector<CameraTriangle> triangles;
   std::vector<Plane> planes; // beside `triangles`
 };
@@ -37,7 +38,10 @@ std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &senso
 // What TrianglePlane::along_* bound: the ray's depth, or its range.
 enum class AlongRay { depth, range };
 
-// The records that the points passes look up by triangle id, one for each of the scene's triangles.
+// B of a fully lit surface over its reflectivity: 1 / pi of Lambert's.
+double backscatter_per_reflectivity(Backscatter backscatter);
+
+// The records that the points passes look up by id, one for each of the scene's shapes.
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
                                                    Backscatter backscatter, AlongRay along);
 

@@ -17,8 +17,8 @@ struct DoublePair4 {
   glm::vec4 hi;
   glm::vec4 lo;
 
-  DoublePair4(const glm::dvec3 &xyz, double w)
-      : hi(xyz, w), lo(xyz - glm::dvec3(hi), w - static_cast<double>(hi.w)) {}
+  explicit DoublePair4(const glm::dvec4 &value) : hi(value), lo(value - glm::dvec4(hi)) {}
+  DoublePair4(const glm::dvec3 &xyz, double w) : DoublePair4(glm::dvec4(xyz, w)) {}
 };
 
 } // namespace pmdsim

@@ -2,6 +2,7 @@
 // The points pass: for every sample the point of the scene that it sees, from its triangle's plane and its
 // exact ray. For sensors without distortion.
 
+#include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/sensor.h"
 #include "engine/simulator_options.h"
@@ -12,11 +13,12 @@ namespace pmdsim {
 class PointsPass {
 public:
   // `surfaces`: whether the sum asks for normals and heights.
-  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, SamplePrecision precision);
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
+             SamplePrecision precision);
 
-  // `planes` holds the TrianglePlane of each of the scene's triangles.
+  // `scene.planes` holds the TrianglePlane of each of the scene's triangles.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const vulkan::Buffer &planes) const;
+              const StripBuffers &buffers, const SceneBuffers &scene) const;
 
 private:
   shader::vec4 slope_;

@@ -87,7 +87,7 @@ vulkan::Buffer upload_corners(const vulkan::Device &device, const CameraScene &c
 
 SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
                        const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
-                       SamplePrecision precision)
+                       bool painted, SamplePrecision precision)
     : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
       corners_(upload_corners(device, camera, scene)),
       pipeline_(device,
@@ -95,22 +95,25 @@ SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const
                 sizeof(shader::SearchConstants),
                 {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
                  std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
-                                                                    : shader::distortion_brown}) {}
+                                                                    : shader::distortion_brown,
+                 0u, painted ? 1u : 0u}) {}
 
 void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                        const StripBuffers &buffers, const vulkan::Buffer &planes) const {
+                        const StripBuffers &buffers, const SceneBuffers &scene) const {
   const shader::SearchConstants constants{
       planned.strip,
       words(lens_.address()),
       words(views_.address() + planned.block * sizeof(shader::RasterView)),
       words(buffers.fragments.address()),
-      words(planes.address()),
+      words(scene.planes.address()),
       words(corners_.address()),
       words(buffers.tags.address()),
       words(buffers.position_hi.address()),
       words(buffers.position_lo.address()),
       words(buffers.surface.address()),
-      words(buffers.backscatter.address())};
+      words(buffers.backscatter.address()),
+      words(scene.paint.shapes.address()),
+      words(scene.paint.surfaces.address())};
   pipeline_.dispatch(commands, constants, sample_count(planned.strip), shader::workgroup_size);
 }
 

@@ -3,6 +3,7 @@
 // by the inverse lens model, and the nearest triangle that the fragments around it see.
 
 #include "engine/passes/camera_scene.h"
+#include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
 #include "engine/sensor.h"
@@ -13,14 +14,14 @@ namespace pmdsim {
 
 class SearchPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights.
+  // `surfaces`: whether the sum asks for normals and heights; `painted`: whether shapes have paint.
   SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
-             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
+             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces, bool painted,
              SamplePrecision precision);
 
-  // `planes` holds the TrianglePlane of each of the scene's triangles, with ranges along the ray.
+  // `scene.planes` holds the TrianglePlane of each of the scene's triangles, with ranges along the ray.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-              const StripBuffers &buffers, const vulkan::Buffer &planes) const;
+              const StripBuffers &buffers, const SceneBuffers &scene) const;
 
 private:
   vulkan::Buffer lens_;

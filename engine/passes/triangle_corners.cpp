@@ -33,6 +33,8 @@ std::vector<Edge> sorted_edges(const CameraScene &camera, const Scene &scene) {
   std::vector<Edge> edges;
   edges.reserve(3 * camera.triangles.size());
   for (const CameraTriangle &triangle : camera.triangles) {
+    if (triangle.id >= scene.triangles.size())
+      continue; // discs stand alone
     const auto &vertices = scene.triangles[triangle.id].vertices;
     for (std::uint32_t side = 0; side < 3; ++side) {
       const auto [low, high] = std::minmax(first[vertices[side]], first[vertices[(side + 1) % 3]]);
@@ -46,7 +48,7 @@ std::vector<Edge> sorted_edges(const CameraScene &camera, const Scene &scene) {
 } // namespace
 
 std::vector<shader::TriangleCorners> triangle_corners(const CameraScene &camera, const Scene &scene) {
-  std::vector<shader::TriangleCorners> records(scene.triangles.size());
+  std::vector<shader::TriangleCorners> records(scene.shape_count());
   for (const auto &[corners_m, id] : camera.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const DoublePair4 pair(corners_m[k], 0.0);

@@ -1,8 +1,12 @@
 #include "engine/passes/visibility.h"
 
+#include "engine/passes/double_pair.h"
+#include "engine/passes/sample_precision.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/errors.h"
 #include "spirv/visibility_frag.h"
+#include "spirv/visibility_masked_double_float.h"
+#include "spirv/visibility_masked_fp64.h"
 #include "spirv/visibility_vert.h"
 
 #include <algorithm>
@@ -46,11 +50,32 @@ vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
   });
 }
 
+// Rays of the blocks' fragments, for what has to know them.
+vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
+  std::vector<shader::BlockPlane> records;
+  for (const RasterBlock &block : blocks) {
+    const glm::dmat3 camera_from_raster = glm::inverse(block.raster_from_camera);
+    const DoublePair4 x(camera_from_raster[0], 0.0), y(camera_from_raster[1], 0.0),
+        corner(camera_from_raster[2], 0.0);
+    records.push_back({x.hi, x.lo, y.hi, y.lo, corner.hi, corner.lo});
+  }
+  return vulkan::upload(device, std::as_bytes(std::span(records)));
+}
+
+// The opaque form runs no arithmetic at all.
+std::span<const std::uint32_t> fragment_shader(const vulkan::Device &device, bool masked,
+                                               SamplePrecision precision) {
+  if (!masked)
+    return shader::visibility_frag_spirv;
+  return choose(device, precision, shader::visibility_masked_fp64_spirv,
+                shader::visibility_masked_double_float_spirv);
+}
+
 vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
-                                 float half_viewport) {
+                                 float half_viewport, std::span<const std::uint32_t> fragment_spirv) {
   return vulkan::checked([&] {
     const auto vertex = shader_module(device, shader::visibility_vert_spirv);
-    const auto fragment = shader_module(device, shader::visibility_frag_spirv);
+    const auto fragment = shader_module(device, fragment_spirv);
     const vk::SpecializationMapEntry entry(0, 0, sizeof(float));
     const vk::SpecializationInfo constants(1, &entry, sizeof(float), &half_viewport);
     const std::array stages{
@@ -90,20 +115,23 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 }
 
 VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
-                               const Sensor &sensor, const std::vector<PlannedStrip> &strips)
+                               const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
+                               SamplePrecision precision)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
+      planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()),
       tags_(device, largest_extent(projection.blocks, strips), tag_format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
             vk::ImageAspectFlagBits::eColor),
       depth_(device, largest_extent(projection.blocks, strips), depth_format,
              vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      layout_(make_layout(device)), pipeline_(make_pipeline(device, layout_, half_viewport_)) {}
+      layout_(make_layout(device)),
+      pipeline_(make_pipeline(device, layout_, half_viewport_, fragment_shader(device, masked, precision))) {}
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                            const vulkan::Buffer &tags) const {
+                            const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   tags_.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
@@ -118,12 +146,13 @@ void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const Plann
       depth_.view(), Layout::eDepthAttachmentOptimal, vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
       vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0.0f));
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
-  draw(commands, planned);
+  draw(commands, planned, scene);
   commands.endRendering();
   copy_tags(commands, extent, tags);
 }
 
-void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
+void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                          const SceneBuffers &scene) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
@@ -132,11 +161,11 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
   const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
   for (std::uint32_t row = 0; row < tiles; ++row)
     for (std::uint32_t column = 0; column < tiles; ++column)
-      draw_tile(commands, planned, {column, row});
+      draw_tile(commands, planned, scene, {column, row});
 }
 
 void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                               const glm::uvec2 &tile) const {
+                               const SceneBuffers &scene, const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   const bool tiled = is_tiled(sensor_);
@@ -154,8 +183,19 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
                       vk::Rect2D({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)},
                                  {size.x, size.y}));
   const shader::VisibilityConstants constants{
-      raster_shift(sensor_, tile), corner.x, corner.y, strip.column, strip.row, strip.resolution_x,
-      block.distorted ? 0 : side};
+      raster_shift(sensor_, tile),
+      corner.x,
+      corner.y,
+      strip.column,
+      strip.row,
+      strip.resolution_x,
+      block.distorted ? 0 : side,
+      in_block.x,
+      in_block.y,
+      words(planes_of_blocks_.address() + planned.block * sizeof(shader::BlockPlane)),
+      words(scene.planes.address()),
+      words(scene.paint.shapes.address()),
+      words(scene.paint.surfaces.address())};
   commands.pushConstants<shader::VisibilityConstants>(*layout_, stages_with_constants, 0, constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
 }

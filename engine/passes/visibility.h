@@ -3,7 +3,9 @@
 // its triangle ID, nearest wins.
 
 #include "engine/passes/projection.h"
+#include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
+#include "engine/simulator_options.h"
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/image.h"
 
@@ -16,25 +18,27 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class VisibilityPass {
 public:
-  // `strips` tell how large an image is needed.
+  // `strips` tell how large an image is needed; `masked`: whether shapes may have holes.
   VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-                 const std::vector<PlannedStrip> &strips);
+                 const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision);
 
   // Leaves the tags of the strip's samples, or with distortion of its block's fragments, in `tags`, visible
   // to compute shaders and transfers.
-  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &tags) const;
 
 private:
-  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
+  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+            const SceneBuffers &scene) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                 const glm::uvec2 &tile) const;
+                 const SceneBuffers &scene, const glm::uvec2 &tile) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                  const vulkan::Buffer &tags) const;
 
   Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
+  vulkan::Buffer planes_of_blocks_; // BlockPlane of each where shapes may have holes
   vulkan::Image tags_;
   vulkan::Image depth_;
   float half_viewport_;

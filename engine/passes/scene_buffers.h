@@ -1,0 +1,13 @@
+#pragma once
+// What the passes look up about the scene, by a shape's id.
+
+#include "engine/passes/paint.h"
+
+namespace pmdsim {
+
+struct SceneBuffers {
+  vulkan::Buffer planes; // TrianglePlane of each of the scene's shapes
+  PaintBuffers paint;
+};
+
+} // namespace pmdsim
