@@ -17,6 +17,8 @@
 #include "spirv/search_double_float.h"
 #include "spirv/search_fp64.h"
 #include "spirv/visibility_frag.h"
+#include "spirv/visibility_masked_double_float.h"
+#include "spirv/visibility_masked_fp64.h"
 #include "spirv/visibility_vert.h"
 #include "tests/architecture/spirv_layout.h"
 
@@ -60,6 +62,23 @@ const std::map<std::string, HostLayout> scene_and_light{
      {sizeof(TrianglePlane),
       {MEMBER(TrianglePlane, plane_hi), MEMBER(TrianglePlane, plane_lo), MEMBER(TrianglePlane, backscatter),
        MEMBER(TrianglePlane, object), MEMBER(TrianglePlane, along_min), MEMBER(TrianglePlane, along_max)}}},
+    {"ShapePaint",
+     {sizeof(ShapePaint),
+      {MEMBER(ShapePaint, origin_hi), MEMBER(ShapePaint, origin_lo), MEMBER(ShapePaint, s_hi),
+       MEMBER(ShapePaint, s_lo), MEMBER(ShapePaint, t_hi), MEMBER(ShapePaint, t_lo), MEMBER(ShapePaint, red),
+       MEMBER(ShapePaint, green), MEMBER(ShapePaint, blue), MEMBER(ShapePaint, alpha),
+       MEMBER(ShapePaint, surface), MEMBER(ShapePaint, padding_1), MEMBER(ShapePaint, padding_2),
+       MEMBER(ShapePaint, padding_3)}}},
+    {"SurfacePaint",
+     {sizeof(SurfacePaint),
+      {MEMBER(SurfacePaint, backscatter), MEMBER(SurfacePaint, texels), MEMBER(SurfacePaint, columns),
+       MEMBER(SurfacePaint, rows), MEMBER(SurfacePaint, wrap_u), MEMBER(SurfacePaint, wrap_v),
+       MEMBER(SurfacePaint, filtering), MEMBER(SurfacePaint, alpha), MEMBER(SurfacePaint, alpha_cutoff),
+       MEMBER(SurfacePaint, padding_1), MEMBER(SurfacePaint, padding_2), MEMBER(SurfacePaint, padding_3)}}},
+    {"BlockPlane",
+     {sizeof(BlockPlane),
+      {MEMBER(BlockPlane, x_hi), MEMBER(BlockPlane, x_lo), MEMBER(BlockPlane, y_hi), MEMBER(BlockPlane, y_lo),
+       MEMBER(BlockPlane, corner_hi), MEMBER(BlockPlane, corner_lo)}}},
     {"TriangleCorners",
      {sizeof(TriangleCorners),
       {MEMBER(TriangleCorners, hi), MEMBER(TriangleCorners, lo), MEMBER(TriangleCorners, beyond),
@@ -82,20 +101,25 @@ const std::map<std::string, HostLayout> constants_until_points{
       {MEMBER(VisibilityConstants, shift), MEMBER(VisibilityConstants, tile_x),
        MEMBER(VisibilityConstants, tile_y), MEMBER(VisibilityConstants, column),
        MEMBER(VisibilityConstants, row), MEMBER(VisibilityConstants, resolution_x),
-       MEMBER(VisibilityConstants, fragments_per_pixel_side)}}},
+       MEMBER(VisibilityConstants, fragments_per_pixel_side), MEMBER(VisibilityConstants, block_x),
+       MEMBER(VisibilityConstants, block_y), MEMBER(VisibilityConstants, block),
+       MEMBER(VisibilityConstants, planes), MEMBER(VisibilityConstants, shapes),
+       MEMBER(VisibilityConstants, surfaces)}}},
     {"PointsConstants",
      {sizeof(PointsConstants),
       {MEMBER(PointsConstants, strip), MEMBER(PointsConstants, slope), MEMBER(PointsConstants, chip),
        MEMBER(PointsConstants, tags), MEMBER(PointsConstants, planes), MEMBER(PointsConstants, position_hi),
        MEMBER(PointsConstants, position_lo), MEMBER(PointsConstants, surface),
-       MEMBER(PointsConstants, backscatter)}}},
+       MEMBER(PointsConstants, backscatter), MEMBER(PointsConstants, shapes),
+       MEMBER(PointsConstants, surfaces)}}},
     {"SearchConstants",
      {sizeof(SearchConstants),
       {MEMBER(SearchConstants, strip), MEMBER(SearchConstants, lens), MEMBER(SearchConstants, view),
        MEMBER(SearchConstants, fragments), MEMBER(SearchConstants, planes), MEMBER(SearchConstants, corners),
        MEMBER(SearchConstants, tags), MEMBER(SearchConstants, position_hi),
        MEMBER(SearchConstants, position_lo), MEMBER(SearchConstants, surface),
-       MEMBER(SearchConstants, backscatter)}}},
+       MEMBER(SearchConstants, backscatter), MEMBER(SearchConstants, shapes),
+       MEMBER(SearchConstants, surfaces)}}},
 };
 
 const std::map<std::string, HostLayout> constants_of_the_sum{
@@ -134,6 +158,8 @@ struct Shader {
 const std::vector<Shader> shaders{
     {"visibility.vert", visibility_vert_spirv},
     {"visibility.frag", visibility_frag_spirv},
+    {"visibility_masked.frag, fp64", visibility_masked_fp64_spirv},
+    {"visibility_masked.frag, float pairs", visibility_masked_double_float_spirv},
     {"points, fp64", points_fp64_spirv},
     {"points, float pairs", points_double_float_spirv},
     {"search, fp64", search_fp64_spirv},
