@@ -37,7 +37,7 @@ class Comparing {
 public:
   Comparing(const Measurement &measured, const reference::Frame &expected, const Scene &scene,
             const Sensor &sensor)
-      : measured_(measured), expected_(expected), sensor_(sensor), lens_(sensor),
+      : measured_(measured), expected_(expected), scene_(scene), sensor_(sensor), lens_(sensor),
         triangles_(reference::triangles_in_camera(scene, sensor)) {}
 
   // Compares the samples of a pixel; true where all see the same.
@@ -98,13 +98,19 @@ private:
     result_.differing_far_off += !near_edge(sample, measured) && !near_edge(sample, expected);
   }
 
-  bool near_edge(const glm::uvec2 &sample, std::uint32_t triangle) const {
-    return triangle < triangles_.size() &&
-           pixels_to_edge(lens_, sensor_, sample, triangles_[triangle]) <= 1.0;
+  bool near_edge(const glm::uvec2 &sample, std::uint32_t id) const {
+    if (id == no_id)
+      return false;
+    if (id < triangles_.size())
+      return pixels_to_edge(lens_, sensor_, sample, triangles_[id]) <= 1.0;
+    const Disc &disc = scene_.discs[id - triangles_.size()];
+    const glm::dvec3 centre_m = inverse(sensor_.world_from_camera).point(scene_.positions_m[disc.vertex]);
+    return pixels_to_rim(lens_, sensor_, sample, centre_m, disc.radius_m) <= 1.0;
   }
 
   const Measurement &measured_;
   const reference::Frame &expected_;
+  const Scene &scene_;
   const Sensor &sensor_;
   reference::LensModel lens_;
   std::vector<reference::CameraTriangle> triangles_;

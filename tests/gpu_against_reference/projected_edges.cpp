@@ -46,4 +46,11 @@ double pixels_to_edge(const reference::LensModel &lens, const Sensor &sensor, co
   return nearest_rad / pixel_angle_rad(lens, sensor, sample);
 }
 
+double pixels_to_rim(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
+                     const glm::dvec3 &centre_m, double radius_m) {
+  const double off_centre_rad = angle_rad(*lens.sample_ray(sample), centre_m);
+  const double rim_rad = std::atan2(radius_m, glm::length(centre_m));
+  return std::abs(off_centre_rad - rim_rad) / pixel_angle_rad(lens, sensor, sample);
+}
+
 } // namespace pmdsim::test

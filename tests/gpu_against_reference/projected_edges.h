@@ -1,5 +1,5 @@
 #pragma once
-// Where a triangle's edges lie in the image, in double.
+// Where the edges of triangles and discs lie in the image, in double.
 
 #include "engine/reference/camera_frame.h"
 #include "engine/reference/lens_model.h"
@@ -11,5 +11,9 @@ namespace pmdsim::test {
 // straight lines.
 double pixels_to_edge(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
                       const reference::CameraTriangle &triangle);
+
+// The same to the rim of a disc about `centre_m`, camera frame, that faces the lens.
+double pixels_to_rim(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample,
+                     const glm::dvec3 &centre_m, double radius_m);
 
 } // namespace pmdsim::test
