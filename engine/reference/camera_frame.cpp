@@ -12,6 +12,8 @@ glm::dvec3 point_in_camera(const glm::dvec3 &position_world_m, const Pose &world
   return glm::transpose(world_from_camera.rotation) * (position_world_m - world_from_camera.translation_m);
 }
 
+bool is_masked(const Surface &surface) { return surface.paint && surface.paint->alpha_cutoff > 0; }
+
 } // namespace
 
 std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor &sensor) {
@@ -26,9 +28,18 @@ std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor
     const auto &[a, b, c] = triangle.vertices;
     const Surface &surface = scene.surfaces[triangle.surface];
     triangles.push_back(
-        {{vertices_m[a], vertices_m[b], vertices_m[c]}, surface.reflectivity, surface.double_sided});
+        {{vertices_m[a], vertices_m[b], vertices_m[c]}, surface.double_sided, is_masked(surface)});
   }
   return triangles;
+}
+
+std::vector<CameraDisc> discs_in_camera(const Scene &scene, const Sensor &sensor) {
+  std::vector<CameraDisc> discs;
+  discs.reserve(scene.discs.size());
+  for (const Disc &disc : scene.discs)
+    discs.push_back({point_in_camera(scene.positions_m[disc.vertex], sensor.world_from_camera), disc.radius_m,
+                     is_masked(scene.surfaces[disc.surface])});
+  return discs;
 }
 
 std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor &sensor) {
@@ -43,6 +54,7 @@ std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor
     diode.position_m =
         camera_from_world * (world_from_illuminator.direction(diode.position_m) + lens_to_illuminator_m);
     diode.axis = camera_from_world * world_from_illuminator.direction(diode.axis);
+    diode.across = camera_from_world * world_from_illuminator.direction(diode.across);
   }
   return diodes;
 }

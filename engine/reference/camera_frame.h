@@ -15,16 +15,30 @@ namespace pmdsim::reference {
 // it.
 struct CameraTriangle {
   std::array<glm::dvec3, 3> corners_m;
-  double reflectivity;
   bool double_sided;
+  bool masked = false; // its paint may leave parts of it out
 
   // Not normalised; towards the lens where the lens sees the front.
   glm::dvec3 front() const { return glm::cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]); }
 };
 
-std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor &sensor);
+// A disc with its centre in metres from the lens, which it faces. One about the lens itself is not there.
+struct CameraDisc {
+  glm::dvec3 centre_m;
+  double radius_m;
+  bool masked = false;
 
-// The illuminator's diodes with position and axis in the camera's frame.
+  // Unit length, from the lens to the centre; zero where they are one.
+  glm::dvec3 axis() const {
+    const double distance_m = glm::length(centre_m);
+    return distance_m > 0 ? centre_m / distance_m : glm::dvec3(0.0);
+  }
+};
+
+std::vector<CameraTriangle> triangles_in_camera(const Scene &scene, const Sensor &sensor);
+std::vector<CameraDisc> discs_in_camera(const Scene &scene, const Sensor &sensor);
+
+// The illuminator's diodes with position, axis and `across` in the camera's frame.
 std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor &sensor);
 
 // The ray of one sample, as LensModel gives it; throws std::bad_optional_access where the sample sees

@@ -1,6 +1,9 @@
 #include "engine/reference/light_paths.h"
 
+#include "engine/reference/diagram.h"
+
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace pmdsim::reference {
@@ -14,30 +17,42 @@ double backscatter_per_sr(Backscatter backscatter, double reflectivity, double c
                                               : reflectivity * std::numbers::inv_pi * cos_incidence;
 }
 
-double pattern_gain(const Pattern &pattern, double cos_theta) {
-  if (pattern.kind == Pattern::Kind::isotropic)
-    return 1.0;
-  return cos_theta > 0 ? std::pow(cos_theta, pattern.order) : 0.0;
+double pattern_gain(const Diode &diode, const glm::dvec3 &to_diode_m, double diode_range_m) {
+  switch (diode.pattern.kind) {
+  case Pattern::Kind::cosine: {
+    const double cos_theta = -glm::dot(diode.axis, to_diode_m) / diode_range_m;
+    return cos_theta > 0 ? std::pow(cos_theta, diode.pattern.order) : 0.0;
+  }
+  case Pattern::Kind::diagram:
+    return diagram_gain(diode, -to_diode_m);
+  case Pattern::Kind::isotropic:
+    break;
+  }
+  return 1.0;
 }
 
 } // namespace
 
-std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Diode> &diodes,
+std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
                                    Backscatter backscatter) {
+  std::size_t diodes = 0;
+  for (const Light &light : lights)
+    diodes += light.diodes.size();
   std::vector<LightPath> paths;
-  paths.reserve(diodes.size());
+  paths.reserve(diodes);
   const double lens_range_m = glm::length(point.position_m);
-  for (const Diode &diode : diodes) {
-    const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
-    const double diode_range_m = glm::length(to_diode_m);
-    const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
-    const double cos_theta = -glm::dot(diode.axis, to_diode_m) / diode_range_m;
-    const double returned_w_sr2 = point.lens_gain *
-                                  backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
-                                  diode.intensity_w_sr * pattern_gain(diode.pattern, cos_theta);
-    if (returned_w_sr2 != 0)
-      paths.push_back({diode_range_m + lens_range_m, returned_w_sr2 / (diode_range_m * diode_range_m)});
-  }
+  for (const Light &light : lights)
+    for (const Diode &diode : light.diodes) {
+      const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
+      const double diode_range_m = glm::length(to_diode_m);
+      const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
+      const double returned_w_sr2 = point.lens_gain *
+                                    backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
+                                    diode.intensity_w_sr * pattern_gain(diode, to_diode_m, diode_range_m);
+      if (returned_w_sr2 != 0)
+        paths.push_back({diode_range_m + lens_range_m, returned_w_sr2 / (diode_range_m * diode_range_m),
+                         light.phase_turns});
+    }
   return paths;
 }
 

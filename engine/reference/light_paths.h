@@ -18,12 +18,19 @@ struct SurfacePoint {
 };
 
 struct LightPath {
-  double length_m;       // r_nm + r_n
-  double weight_w_m2_sr; // lens_gain * B * I * J / r_nm^2
+  double length_m;          // r_nm + r_n
+  double weight_w_m2_sr;    // lens_gain * B * I * J / r_nm^2
+  double phase_turns = 0.0; // added to what the length makes of it, -1/2 to 1/2
 };
 
-// Of every diode (camera frame) whose light returns through `point`.
-std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Diode> &diodes,
+// Diodes of one phase, camera frame.
+struct Light {
+  std::vector<Diode> diodes;
+  double phase_turns; // -1/2 to 1/2
+};
+
+// Of every diode whose light returns through `point`.
+std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
                                    Backscatter backscatter);
 
 } // namespace pmdsim::reference

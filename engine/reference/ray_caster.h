@@ -1,12 +1,13 @@
 #pragma once
-// What a ray from the lens sees first. Embree finds the triangles near the ray in float, with room to spare;
-// whether the ray hits one, and which is nearest, is decided in double from the triangle's corners and the
-// ray's exact direction.
+// What a ray from the lens sees first. Embree finds the triangles and discs near the ray in float, with room
+// to spare; whether the ray hits one, and which is nearest, is decided in double from the shape's exact place
+// and the ray's exact direction.
 
 #include "engine/reference/camera_frame.h"
 
 #include <cstdint>
 #include <embree3/rtcore.h>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,24 +15,33 @@
 namespace pmdsim::reference {
 
 struct Hit {
-  std::uint32_t triangle;
-  double range_m; // from the lens, along the ray
+  std::uint32_t id; // of a triangle, or the number of triangles and a disc's index
+  double range_m;   // from the lens, along the ray
 };
+
+// Whether a masked shape is there where its corners count `weights`.
+using IsThere = std::function<bool(std::uint32_t id, const glm::dvec3 &weights)>;
 
 class RayCaster {
 public:
   // Throws Error: out_of_memory.
-  explicit RayCaster(std::vector<CameraTriangle> triangles);
+  explicit RayCaster(std::vector<CameraTriangle> triangles, std::vector<CameraDisc> discs = {},
+                     IsThere is_there = {});
 
-  // The nearest triangle along `direction` (unit length) whose face the lens can see; the lowest id where
-  // several are equally near. A ray through the edge that two triangles share hits one of them. Any number of
-  // threads may call this at once.
+  // The nearest triangle along `direction` (unit length) whose face the lens can see, or disc; the lowest id
+  // where several are equally near. A ray through the edge that two triangles share hits one of them. Any
+  // number of threads may call this at once.
   std::optional<Hit> nearest(const glm::dvec3 &direction) const;
 
-  const CameraTriangle &triangle(std::uint32_t id) const { return triangles_[id]; }
+  // How much each corner of the shape that `direction` hits counts there.
+  glm::dvec3 weights(const glm::dvec3 &direction, std::uint32_t id) const;
+  // Unit length, turned to the lens, which looks along `direction`.
+  glm::dvec3 normal(const glm::dvec3 &direction, std::uint32_t id) const;
 
 private:
   std::vector<CameraTriangle> triangles_;
+  std::vector<CameraDisc> discs_;
+  IsThere is_there_;
   std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };
@@ -39,5 +49,7 @@ private:
 // The distance along `direction` (unit length) from the lens to where it passes through `triangle`, edges
 // included; nothing where it misses, runs in the triangle's plane or meets a face that the lens cannot see.
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle);
+// The same for a disc, its rim included.
+std::optional<double> range_along(const glm::dvec3 &direction, const CameraDisc &disc);
 
 } // namespace pmdsim::reference

@@ -6,8 +6,11 @@
 #include "engine/reference/lens_model.h"
 #include "engine/reference/light_paths.h"
 #include "engine/reference/ray_caster.h"
+#include "engine/reference/surface_colours.h"
 
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace pmdsim::reference {
@@ -16,13 +19,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+std::vector<Light> lights_in_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor) {
+  std::vector<Light> lights;
+  lights.reserve(illuminators.size());
+  for (const Illuminator &illuminator : illuminators)
+    lights.push_back({diodes_in_camera(illuminator, sensor),
+                      std::remainder(illuminator.modulation_phase_rad / (2.0 * std::numbers::pi), 1.0)});
+  return lights;
+}
+
 // One frame being computed: everything that the threads read, and the frame that each fills a row at a time.
 class FrameJob {
 public:
   FrameJob(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
            Backscatter backscatter)
       : scene_(scene), sensor_(sensor), backscatter_(backscatter), lens_(sensor),
-        diodes_(diodes_in_camera(illuminators.front(), sensor)), caster_(triangles_in_camera(scene, sensor)),
+        lights_(lights_in_camera(illuminators, sensor)),
+        caster_(
+            triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
+            [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); }),
         frame_(dark_frame(sensor)) {}
 
   std::uint32_t rows() const { return sensor_.resolution.y; }
@@ -47,7 +62,7 @@ private:
     const std::uint32_t id =
         frame_.sample_triangle_id[sample_index(pixel * sensor_.samples + nearest_to_centre)];
     frame_.triangle_id[index] = id;
-    frame_.object_id[index] = id == no_id ? no_id : scene_.triangles[id].object;
+    frame_.object_id[index] = id == no_id ? no_id : scene_.object_of(id);
   }
 
   void add_sample(PixelSums &sums, const glm::uvec2 &sample) {
@@ -57,21 +72,25 @@ private:
     const auto hit = caster_.nearest(*direction);
     if (!hit)
       return;
-    frame_.sample_triangle_id[sample_index(sample)] = hit->triangle;
+    frame_.sample_triangle_id[sample_index(sample)] = hit->id;
     const SurfacePoint point = surface_point(*direction, *hit);
     ++sums.hits;
     sums.range_m.add(hit->range_m);
     sums.z_m.add(point.position_m.z);
-    const auto paths = light_paths(point, diodes_, backscatter_);
+    const auto paths = light_paths(point, lights_, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
-    const CameraTriangle &triangle = caster_.triangle(hit.triangle);
-    const glm::dvec3 front = glm::normalize(triangle.front());
-    return {hit.range_m * direction, glm::dot(front, direction) < 0 ? front : -front, triangle.reflectivity,
+    return {hit.range_m * direction, caster_.normal(direction, hit.id), reflectivity(direction, hit.id),
             lens_.vignetting_gain(direction)};
+  }
+
+  double reflectivity(const glm::dvec3 &direction, std::uint32_t id) const {
+    const Surface &surface = scene_.surfaces[scene_.surface_of(id)];
+    return surface.paint ? painted_reflectivity(scene_, id, caster_.weights(direction, id))
+                         : surface.reflectivity;
   }
 
   std::size_t sample_index(const glm::uvec2 &sample) const {
@@ -82,7 +101,7 @@ private:
   const Sensor &sensor_;
   Backscatter backscatter_;
   LensModel lens_;
-  std::vector<Diode> diodes_;
+  std::vector<Light> lights_;
   RayCaster caster_;
   Frame frame_;
 };

@@ -57,13 +57,17 @@ ReturnSum::ReturnSum(const Sensor &sensor, double modulation_hz)
 
 void ReturnSum::add(const std::vector<LightPath> &paths) {
   if (is_sine())
-    for (const auto &[length_m, weight_w_m2_sr] : paths)
-      phasors_.add(std::polar(weight_w_m2_sr, full_turn_rad * fraction(length_m * turns_per_m_)));
+    for (const LightPath &path : paths)
+      phasors_.add(std::polar(path.weight_w_m2_sr, full_turn_rad * phase_turns(path)));
   for (std::uint32_t k = 0; k < taps_.size(); ++k)
-    for (const auto &[length_m, weight_w_m2_sr] : paths) {
-      const double turns = fraction(length_m * turns_per_m_) - reference_turns(k, sensor_->taps);
-      taps_[k].add(weight_w_m2_sr * correlation(sensor_->waveform, turns));
+    for (const LightPath &path : paths) {
+      const double turns = phase_turns(path) - reference_turns(k, sensor_->taps);
+      taps_[k].add(path.weight_w_m2_sr * correlation(sensor_->waveform, turns));
     }
+}
+
+double ReturnSum::phase_turns(const LightPath &path) const {
+  return fraction(path.length_m * turns_per_m_) + path.phase_turns;
 }
 
 std::complex<double> ReturnSum::z() const {

@@ -28,6 +28,7 @@ public:
   double tap(std::uint32_t k) const;
 
 private:
+  double phase_turns(const LightPath &path) const; // -1/2 to 3/2
   bool is_sine() const { return sensor_->waveform.kind == Waveform::Kind::sine; }
 
   const Sensor *sensor_;

@@ -61,7 +61,7 @@ void check_against_all(const std::vector<CameraTriangle> &triangles, Random &ran
     const glm::dvec3 direction = glm::normalize(random.in_box({-0.7, -0.7, 1}, {0.7, 0.7, 1}));
     const auto hit = caster.nearest(direction);
     hits += hit.has_value();
-    disagreements += (hit ? hit->triangle : no_id) != nearest_of_all(direction, triangles);
+    disagreements += (hit ? hit->id : no_id) != nearest_of_all(direction, triangles);
   }
   CHECK(hits > rays / 20);
   CHECK(disagreements == 0);
@@ -158,7 +158,7 @@ TEST_CASE("rays to all sides find the triangle that a search over all of them fi
     const glm::dvec3 direction = random.unit_vector();
     const auto hit = caster.nearest(direction);
     hits += hit.has_value();
-    disagreements += (hit ? hit->triangle : no_id) != nearest_of_all(direction, triangles);
+    disagreements += (hit ? hit->id : no_id) != nearest_of_all(direction, triangles);
   }
   CHECK(hits > 5000);
   CHECK(disagreements == 0);
@@ -174,7 +174,7 @@ TEST_CASE("close stacks of triangles are told apart in double precision") {
   for (int i = 0; i < 1000; ++i) {
     const auto hit = caster.nearest(glm::normalize(random.in_box({-0.7, -0.7, 1}, {0.7, 0.7, 1})));
     REQUIRE(hit);
-    REQUIRE(hit->triangle / 2 == 1);
+    REQUIRE(hit->id / 2 == 1);
   }
 }
 
@@ -182,9 +182,7 @@ TEST_CASE("of two coincident triangles the lower id is seen") {
   SceneBuilder builder;
   for (int i = 0; i < 3; ++i)
     builder.add_triangle({-5, -5, 2}, {-5, 5, 2}, {5, 5, 2});
-  CHECK(
-      RayCaster(triangles_of(builder.scene())).nearest(glm::normalize(glm::dvec3(-0.2, 0.1, 1)))->triangle ==
-      0);
+  CHECK(RayCaster(triangles_of(builder.scene())).nearest(glm::normalize(glm::dvec3(-0.2, 0.1, 1)))->id == 0);
 }
 
 TEST_CASE("rays through shared edges and vertices always hit") {
@@ -236,7 +234,7 @@ TEST_CASE("rays a nanometre beside an edge hit the triangle on that side") {
       const glm::dvec3 on_edge = glm::mix(corners_m[i], corners_m[(i + 1) % 3], random.uniform(0.1, 0.9));
       const glm::dvec3 beside_edge = glm::mix(on_edge, corners_m[(i + 2) % 3], 1e-8);
       const auto hit = caster.nearest(glm::normalize(beside_edge));
-      wrong += !hit || hit->triangle != id;
+      wrong += !hit || hit->id != id;
     }
   CHECK(wrong == 0);
 }
@@ -258,7 +256,7 @@ TEST_CASE("a culled back face is invisible and hides nothing") {
   builder.add_triangle({-9, -9, 2}, {-9, 9, 2}, {9, 9, 2});
   const auto hit = RayCaster(triangles_of(builder.scene())).nearest(glm::normalize(glm::dvec3(-0.2, 0.1, 1)));
   REQUIRE(hit);
-  CHECK(hit->triangle == (double_sided ? 0 : 1));
+  CHECK(hit->id == (double_sided ? 0 : 1));
 }
 
 TEST_CASE("what lies behind the lens is not seen, however near") {
@@ -267,8 +265,8 @@ TEST_CASE("what lies behind the lens is not seen, however near") {
   builder.add_wall({2});
   builder.add_triangle({-1e-3, -1e-3, 1e-4}, {-1e-3, 1e-3, 1e-4}, {1e-3, 1e-3, 1e-4});
   const RayCaster caster(triangles_of(builder.scene()));
-  CHECK(caster.nearest(glm::normalize(glm::dvec3(0.2, -0.1, 1)))->triangle == 2);
-  CHECK(caster.nearest(glm::normalize(glm::dvec3(-0.2, 0.1, 1)))->triangle == 3);
+  CHECK(caster.nearest(glm::normalize(glm::dvec3(0.2, -0.1, 1)))->id == 2);
+  CHECK(caster.nearest(glm::normalize(glm::dvec3(-0.2, 0.1, 1)))->id == 3);
 }
 
 TEST_CASE("a closed body shows the lens its near faces, turned inside out its far ones") {
