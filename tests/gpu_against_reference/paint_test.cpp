@@ -66,4 +66,5 @@ TEST_CASE("random paint and points agree with the reference") {
   }
   fmt::print("of all cameras with distortion, {:.5f} % of the samples see another shape\n",
              100 * distorted.differing_fraction());
+  CHECK(distorted.differing_fraction() <= 1e-3);
 }
