@@ -193,6 +193,7 @@ struct VisibilityConstants {
   uint resolution_x;             // of the frame
   uint fragments_per_pixel_side; // 0: with distortion
   // Where shapes have holes:
+  vec2 sample_shift;     // of the tile's samples from the fragments' centres, fragments
   uint block_x, block_y; // of the strip's first fragment, from its block's corner
   uvec2 block;           // in: BlockPlane
   uvec2 planes;          // in: TrianglePlane[]
@@ -292,7 +293,7 @@ static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
-static_assert(sizeof(VisibilityConstants) == 72);
+static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);

@@ -16,7 +16,7 @@ Real3 term(float factor, vec4 hi, vec4 lo) { return scale3(real3(hi.xyz, lo.xyz)
 Real3 fragment_ray() {
   BlockPlane block = BlockPlanes(constants.block).at;
   vec2 place = gl_FragCoord.xy - vec2(constants.tile_x, constants.tile_y) +
-               vec2(constants.block_x, constants.block_y) + constants.shift;
+               vec2(constants.block_x, constants.block_y) + constants.sample_shift;
   Real3 ray = add3(term(place.x, block.x_hi, block.x_lo), term(place.y, block.y_hi, block.y_lo));
   return add3(ray, real3(block.corner_hi.xyz, block.corner_lo.xyz));
 }

@@ -13,12 +13,14 @@ bool is_tiled(const Sensor &sensor) {
   return !sensor.has_distortion() && sensor.fill_factor != glm::dvec2(1.0);
 }
 
+glm::dvec2 sample_shift(const Sensor &sensor, const glm::uvec2 &subsample) {
+  return is_tiled(sensor) ? ((glm::dvec2(subsample) + 0.5) / static_cast<double>(sensor.samples) - 0.5) *
+                                sensor.fill_factor
+                          : glm::dvec2(0.0);
+}
+
 glm::vec2 raster_shift(const Sensor &sensor, const glm::uvec2 &subsample) {
-  if (!is_tiled(sensor))
-    return glm::vec2(0.0f);
-  const glm::dvec2 from_centre =
-      ((glm::dvec2(subsample) + 0.5) / static_cast<double>(sensor.samples) - 0.5) * sensor.fill_factor;
-  return glm::roundEven(from_centre * grid) / grid;
+  return glm::roundEven(sample_shift(sensor, subsample) * grid) / grid;
 }
 
 std::vector<RasterBlock> chip_blocks(const Sensor &sensor, std::uint32_t block_fragments) {

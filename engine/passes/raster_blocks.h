@@ -25,8 +25,9 @@ struct RasterBlock {
 // raster_shift().
 bool is_tiled(const Sensor &sensor);
 
-// From the centre of a fragment to the sample (k_x, k_y) that it stands for, in fragments; a multiple of
-// 1/256.
+// From the centre of a fragment to the sample (k_x, k_y) that it stands for, in fragments.
+glm::dvec2 sample_shift(const Sensor &sensor, const glm::uvec2 &subsample);
+// The same to the nearest 1/256, by which the raster is moved.
 glm::vec2 raster_shift(const Sensor &sensor, const glm::uvec2 &subsample);
 
 // Blocks of a sensor without distortion, as even as can be, of at most `block_fragments` fragments a side

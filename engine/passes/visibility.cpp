@@ -190,6 +190,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       strip.row,
       strip.resolution_x,
       block.distorted ? 0 : side,
+      sample_shift(sensor_, tile),
       in_block.x,
       in_block.y,
       words(planes_of_blocks_.address() + planned.block * sizeof(shader::BlockPlane)),
