@@ -95,8 +95,7 @@ private:
     if (measured == expected)
       return;
     ++result_.differing_samples;
-    result_.differing_far_off += !near_edge(sample, measured) && !near_edge(sample, expected) &&
-                                 !cut_each_other(sample, measured, expected);
+    result_.differing_far_off += !near_edge(sample, measured) && !near_edge(sample, expected);
   }
 
   bool near_edge(const glm::uvec2 &sample, std::uint32_t id) const {
@@ -105,22 +104,6 @@ private:
     if (id < triangles_.size())
       return pixels_to_edge(lens_, sensor_, sample, triangles_[id]) <= 1.0;
     return pixels_to_rim(lens_, sensor_, sample, centre_m(id), disc(id).radius_m) <= 1.0;
-  }
-
-  // Where shapes cut through each other the raster's grid moves the line along which they do, which no edge
-  // marks: there both are as far away, to within the width of a pixel.
-  bool cut_each_other(const glm::uvec2 &sample, std::uint32_t a, std::uint32_t b) const {
-    if (a == no_id || b == no_id)
-      return false;
-    const double range_a_m = range_m(sample, a), range_b_m = range_m(sample, b);
-    return std::abs(range_a_m - range_b_m) <= range_a_m * pixel_angle_rad(lens_, sensor_, sample);
-  }
-
-  double range_m(const glm::uvec2 &sample, std::uint32_t id) const {
-    const bool is_disc = id >= triangles_.size();
-    const glm::dvec3 on_plane_m = is_disc ? centre_m(id) : triangles_[id].corners_m[0];
-    const glm::dvec3 normal = is_disc ? on_plane_m : triangles_[id].front();
-    return glm::dot(normal, on_plane_m) / glm::dot(normal, *lens_.sample_ray(sample));
   }
 
   const Disc &disc(std::uint32_t id) const { return scene_.discs[id - triangles_.size()]; }

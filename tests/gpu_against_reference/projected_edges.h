@@ -6,10 +6,6 @@
 
 namespace pmdsim::test {
 
-// Of a sample's pixel: between the same samples of neighbouring ones, the nearer of both; a single pixel
-// counts as half a turn.
-double pixel_angle_rad(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample);
-
 // Angle at the lens from the ray of a sample (column, row in 0 ... S * resolution - 1) to the triangle's
 // nearest edge, over the angle from the sample's pixel to the next: in pixels, whatever the lens does to
 // straight lines.
