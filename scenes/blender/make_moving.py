@@ -1,6 +1,6 @@
 """Builds a small moving scene in Blender and lets its own exporter write it as glTF.
 
-    blender --background --factory-startup --python-exit-code 1 --python scenes/blender/make_moving.py -- OUT.glb [--keys]
+    blender --background --factory-startup --python scenes/blender/make_moving.py -- OUT.glb [--keys]
 
 Without --keys the exporter samples every animation at every frame, its default; with --keys it writes Blender's own key
 frames (cubic splines, lines, steps). The motion is such that glTF can say it exactly either way: Bezier handles lie a
@@ -62,15 +62,11 @@ def box_mesh(name, side_m):
 
 
 def sheet_mesh(name, width_m, height_m, columns=1, rows=1):
-    """In the local plane z = 0 about the origin, its front towards +z; its first texture coordinates run from 0 to 1."""
+    """In the local plane z = 0 about the origin, its front towards +z; texture coordinates run from 0 to 1."""
     places = [(column / columns, row / rows) for row in range(rows + 1) for column in range(columns + 1)]
     vertices = [((u - 0.5) * width_m, (v - 0.5) * height_m, 0.0) for u, v in places]
-    corner = lambda column, row: row * (columns + 1) + column
-    faces = [
-        (corner(c, r), corner(c + 1, r), corner(c + 1, r + 1), corner(c, r + 1))
-        for r in range(rows)
-        for c in range(columns)
-    ]
+    firsts = [row * (columns + 1) + column for row in range(rows) for column in range(columns)]
+    faces = [(first, first + 1, first + columns + 2, first + columns + 1) for first in firsts]
     mesh = mesh_of(name, vertices, faces)
     layer = mesh.uv_layers.new(name="unit")
     for loop in mesh.loops:
@@ -230,12 +226,13 @@ def plate():
 
 
 def cart():
-    """A box that goes 1 m along the view in 1 s, with a swerve, and turns by 150 degrees, starting and ending gently."""
+    """A box that goes 1 m along the view in 1 s, with a swerve, and turns by 150 degrees; it starts and ends gently."""
     material = material_of("cart", (0.7, 0.1, 0.05))
     thing = add("Cart", box_mesh("cart", 0.3), material)
     thing.rotation_mode = "QUATERNION"
     turned = Quaternion((0.2, 0.3, 1.0), math.radians(150))
-    way = {0: before_camera(0.6, -0.1, 1.8), 20: before_camera(0.75, 0.0, 2.1), LAST_FRAME: before_camera(0.6, -0.1, 2.8)}
+    way = {0: (0.6, -0.1, 1.8), 20: (0.75, 0.0, 2.1), LAST_FRAME: (0.6, -0.1, 2.8)}
+    way = {frame: before_camera(*place) for frame, place in way.items()}
     key(thing, "location", way, "BEZIER")
     key(thing, "rotation_quaternion", {0: Quaternion(), LAST_FRAME: turned}, "BEZIER")
     light = add("Light", None)
@@ -272,7 +269,7 @@ def posters(pattern, photo):
     second = mesh.uv_layers.new(name="second")
     for loop in mesh.loops:
         u, v = mesh.uv_layers["unit"].data[loop.index].uv
-        second.data[loop.index].uv = (0.75 * u - 0.25, 0.5 * v + 0.125)
+        second.data[loop.index].uv = (0.75 * u + 0.125, 0.5 * v + 0.125)
     banner = add("Banner", mesh, shifted)
     banner.location = before_camera(0.25, 0.7, 2.3)
     banner.rotation_euler = (math.radians(70), 0.0, math.radians(25))
@@ -312,7 +309,8 @@ def sleeve():
 
 
 def cloud():
-    """Loose vertices with a radius and a colour (bytes) each; the exporter writes them as points."""
+    """Loose vertices with a radius and a colour (bytes) each; the exporter writes them as points. Their material says
+    how large points without a radius are: gltfpack loses them."""
     vertices = []
     for k in range(24):
         turn = 2.4 * k  # a sunflower's
@@ -324,7 +322,9 @@ def cloud():
     for k in range(24):
         radius.data[k].value = 0.01 + 0.0005 * k
         colours.data[k].color_srgb = ((10 * k + 5) / 255, 128 / 255, (250 - 10 * k) / 255, 1.0)
-    thing = add("Cloud", mesh, material_of("cloud", (1.0, 1.0, 1.0)))
+    material = material_of("cloud", (1.0, 1.0, 1.0))
+    material["pmdsim_point_area_m2"] = 8e-4
+    thing = add("Cloud", mesh, material)
     thing.location = before_camera(1.0, 0.35, 2.2)
     thing.rotation_euler = CAMERA_TURN
 
