@@ -10,9 +10,11 @@ import re
 import shutil
 import struct
 import subprocess
+import sys
 import zlib
 
-from make_scenes import ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, FLOAT, HERE, UNSIGNED_SHORT, Gltf
+sys.dont_write_bytecode = True  # leaves no cache among the scenes
+from make_scenes import ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, FLOAT, HERE, UNSIGNED_SHORT, Gltf  # noqa: E402
 
 UNSIGNED_BYTE = 5121
 
