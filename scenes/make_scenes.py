@@ -32,12 +32,16 @@ class Gltf:
 
     def _accessor(self, data, target, **accessor):
         self.data += b"\0" * (-len(self.data) % 4)
-        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), "target": target}
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
         self.data += data
         return self._append("accessors", {"bufferView": self._append("bufferViews", view), **accessor})
 
     def node(self, node):
-        self.json["scenes"][0]["nodes"].append(self._append("nodes", node))
+        index = self._append("nodes", node)
+        self.json["scenes"][0]["nodes"].append(index)
+        return index
 
     def material(self, name, reflectivity):
         return self._append("materials", {"name": name, "extras": {"pmdsim_reflectivity": reflectivity}})
@@ -62,6 +66,33 @@ class Gltf:
         )
         primitive = {"attributes": {"POSITION": position}, "indices": index, "material": material}
         return self._append("meshes", {"primitives": [primitive]})
+
+    def animation(self, node, path, times_s, values):
+        """Linear between keys."""
+        keys = self._accessor(
+            struct.pack(f"<{len(times_s)}f", *times_s),
+            None,
+            componentType=FLOAT,
+            count=len(times_s),
+            type="SCALAR",
+            min=[min(times_s)],
+            max=[max(times_s)],
+        )
+        numbers = [number for value in values for number in value]
+        output = self._accessor(
+            struct.pack(f"<{len(numbers)}f", *numbers),
+            None,
+            componentType=FLOAT,
+            count=len(values),
+            type={3: "VEC3", 4: "VEC4"}[len(values[0])],
+        )
+        self._append(
+            "animations",
+            {
+                "samplers": [{"input": keys, "output": output, "interpolation": "LINEAR"}],
+                "channels": [{"sampler": 0, "target": {"node": node, "path": path}}],
+            },
+        )
 
     def write_gltf(self, name):
         uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
@@ -184,6 +215,23 @@ def room():
     scene.write_glb("room.glb")
 
 
+def moving():
+    """A board that moves away at 1 m/s before a wall, a box that turns once in 2 s, a lamp that swings by."""
+    scene = Gltf()
+    wall = scene.mesh(*rectangle(-2, 2, -1.5, 1.5), scene.material("wall paint", 0.8))
+    scene.node({"name": "wall", "mesh": wall, "translation": [0, 0, -4]})
+    board = scene.mesh(*rectangle(-0.25, 0.25, -0.25, 0.25), scene.material("board", 0.6))
+    board = scene.node({"name": "board", "mesh": board, "translation": [-0.4, 0.1, -1.5]})
+    carton = scene.mesh(*box(0.5, 0.5, 0.5), scene.material("cardboard", 0.45))
+    carton = scene.node({"name": "box", "mesh": carton, "translation": [0.5, -0.5, -2.5]})
+    lamp = scene.node({"name": "Lamp", "translation": [-1, 0.8, 0]})
+    scene.animation(board, "translation", [0, 2], [[-0.4, 0.1, -1.5], [-0.4, 0.1, -3.5]])
+    quarters = [math.pi / 4 * k for k in range(5)]
+    scene.animation(carton, "rotation", [0, 0.5, 1, 1.5, 2], [[0, math.sin(a), 0, math.cos(a)] for a in quarters])
+    scene.animation(lamp, "translation", [0, 2], [[-1, 0.8, 0], [1, 0.8, 0]])
+    scene.write_gltf("moving.gltf")
+
+
 # The cameras of the analytic scenes: square pixels of 10 micrometres behind a lens of 1 m, one row of them. A pixel is
 # so narrow that every sample of it is equally far, to a few nanometres.
 PIXEL_PER_METRE = 10e-6
@@ -220,6 +268,7 @@ def main():
     wall("wall_2m.gltf", 0.4, 2.0)
     wall("wall_0m3.gltf", 0.45, 0.3)
     room()
+    moving()
     staircase("analytic/wrap_10mhz.gltf", [15.0, 20.0, 49.0])
     staircase("analytic/on_axis_baseline.gltf", [0.5, 1.0, 2.0, 5.0])
     staircase("analytic/inverse_square.gltf", [0.5, 1.0, 2.0, 4.0, 8.0])
