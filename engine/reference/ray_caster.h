@@ -24,7 +24,7 @@ using IsThere = std::function<bool(std::uint32_t id, const glm::dvec3 &weights)>
 
 class RayCaster {
 public:
-  // Throws Error: out_of_memory.
+  // `is_there` is asked about masked shapes only. Throws Error: out_of_memory.
   explicit RayCaster(std::vector<CameraTriangle> triangles, std::vector<CameraDisc> discs = {},
                      IsThere is_there = {});
 

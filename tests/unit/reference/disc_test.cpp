@@ -147,6 +147,7 @@ TEST_CASE("the nearest of many discs and triangles is the one that a search over
   const Scene scene = random_triangles(random, 100, node_from_camera());
   const auto triangles = reference::triangles_in_camera(scene, Sensor{});
   std::vector<CameraDisc> discs;
+  discs.reserve(300);
   for (int i = 0; i < 300; ++i)
     discs.push_back({random.in_box({-1.2, -1.2, 0.8}, {1.2, 1.2, 3}), random.uniform(0.01, 0.2)});
   const RayCaster caster(triangles, discs);
