@@ -46,15 +46,17 @@ Between between(Real place, uint texels, uint wrap, uint filtering) {
   return Between(wrapped(first, size, wrap), wrapped(first + 1, size, wrap), weight);
 }
 
+// Between equal colours exactly that colour, so that an alpha that equals its cutoff makes no holes.
+vec4 blend(vec4 a, vec4 b, float weight) { return a + weight * (b - a); }
+
 vec4 texel_at(SurfacePaint surface, Real s, Real t) {
   Between column = between(s, surface.columns, surface.wrap_u, surface.filtering);
   Between row = between(t, surface.rows, surface.wrap_v, surface.filtering);
   Texels texels = Texels(surface.texels);
-  vec4 upper = mix(texels.at[row.first * surface.columns + column.first],
-                   texels.at[row.first * surface.columns + column.second], column.weight);
-  vec4 lower = mix(texels.at[row.second * surface.columns + column.first],
-                   texels.at[row.second * surface.columns + column.second], column.weight);
-  return mix(upper, lower, row.weight);
+  uint above = row.first * surface.columns, below = row.second * surface.columns;
+  vec4 upper = blend(texels.at[above + column.first], texels.at[above + column.second], column.weight);
+  vec4 lower = blend(texels.at[below + column.first], texels.at[below + column.second], column.weight);
+  return blend(upper, lower, row.weight);
 }
 
 struct Look {
