@@ -33,7 +33,7 @@ void check_image_size(const glm::uvec2 &size, std::size_t max_pixels, const Plac
   if (size.x > max_image_side || size.y > max_image_side)
     throw input_error(place, fmt::format("expected at most {} pixels a side, {}", max_image_side, found));
   if (std::size_t{size.x} * size.y > max_pixels)
-    throw input_error(place, fmt::format("expected at most {} pixels, {}", max_pixels, found));
+    throw input_error(place, fmt::format("expected at most {} further pixels, {}", max_pixels, found));
 }
 
 } // namespace pmdsim
