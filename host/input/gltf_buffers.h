@@ -3,12 +3,11 @@
 // folder.
 
 #include "host/input/gltf_document.h"
+#include "host/input/gltf_uri.h"
 
 #include <vector>
 
 namespace pmdsim {
-
-using Bytes = std::vector<unsigned char>;
 
 // In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes.
 // Throws Error (input): also for a URI that leads out of the scene's folder, by "..", an absolute path or a

@@ -26,8 +26,7 @@ std::string without_files(const json &document) {
   return kept.dump();
 }
 
-tinygltf::Model read_model(const std::filesystem::path &file, const Place &named_at) {
-  const GltfDocument document = read_gltf_document(file, named_at);
+tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::path &file) {
   const std::string text = without_files(document.json);
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
@@ -41,30 +40,21 @@ tinygltf::Model read_model(const std::filesystem::path &file, const Place &named
   return model;
 }
 
-// The scene's surfaces, made as they are used: index -1 is glTF's default material, white and single-sided.
+// The scene's surfaces, made as they are used.
 class Surfaces {
 public:
-  Surfaces(const tinygltf::Model &model, const Place &root, Scene &scene)
-      : model_(model), root_(root), scene_(scene) {}
+  Surfaces(GltfMaterials &materials, Scene &scene) : materials_(materials), scene_(scene) {}
 
   std::uint32_t operator[](int material) {
     const auto [known, is_new] =
         ids_.try_emplace(material, static_cast<std::uint32_t>(scene_.surfaces.size()));
     if (is_new)
-      scene_.surfaces.push_back(made(material));
+      scene_.surfaces.push_back(materials_.material_of(material, false).surface);
     return known->second;
   }
 
 private:
-  Surface made(int material) const {
-    if (material < 0)
-      return {};
-    const auto index = static_cast<std::size_t>(material);
-    return surface_of(model_.materials[index], root_ / "materials" / index);
-  }
-
-  const tinygltf::Model &model_;
-  const Place &root_;
+  GltfMaterials &materials_;
   Scene &scene_;
   std::map<int, std::uint32_t> ids_;
 };
@@ -85,15 +75,16 @@ void append_object(const tinygltf::Model &model, const SceneNode &scene_node, co
 
 } // namespace
 
-GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model)
-    : file_(std::move(file)), model_(std::move(model)) {}
+GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
+                   std::shared_ptr<GltfMaterials> materials)
+    : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)) {}
 
 bool GltfFile::moves() const { return false; }
 
 GltfScene GltfFile::at(double) const {
   const Place root{file_};
   GltfScene result{file_, {}, {}};
-  Surfaces surfaces(*model_, root, result.scene);
+  Surfaces surfaces(*materials_, result.scene);
   for (const SceneNode &scene_node : active_nodes(*model_, root)) {
     const tinygltf::Node &node = model_->nodes[scene_node.index];
     if (!node.name.empty())
@@ -105,7 +96,9 @@ GltfScene GltfFile::at(double) const {
 }
 
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
-  return {file, std::make_shared<const tinygltf::Model>(read_model(file, named_at))};
+  const GltfDocument document = read_gltf_document(file, named_at);
+  const auto model = std::make_shared<const tinygltf::Model>(model_of(document, file));
+  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file)};
 }
 
 } // namespace pmdsim

@@ -16,6 +16,8 @@ class Model;
 
 namespace pmdsim {
 
+class GltfMaterials;
+
 struct NamedNode {
   std::string name;
   AffineTransform world_from_node;
@@ -31,7 +33,8 @@ struct GltfScene {
 // A file, read and checked once.
 class GltfFile {
 public:
-  GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model);
+  GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
+           std::shared_ptr<GltfMaterials> materials);
 
   // Whether anything in the active scene is animated.
   bool moves() const;
@@ -41,6 +44,7 @@ public:
 private:
   std::filesystem::path file_;
   std::shared_ptr<const tinygltf::Model> model_;
+  std::shared_ptr<GltfMaterials> materials_; // decodes textures at the first use
 };
 
 // Throws Error (input): what is wrong in the file is told at its place there ("scene.gltf: /accessors/3:

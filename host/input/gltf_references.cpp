@@ -88,6 +88,23 @@ void check_accessors(const json &document, const Place &root) {
            [&](const json &view, const Place &place) { buffers.check_member(view, "buffer", place); });
 }
 
+void check_textures(const json &document, const Place &root) {
+  const Reference textures(document, "textures"), images(document, "images"), samplers(document, "samplers"),
+      views(document, "bufferViews");
+  const json::json_pointer base_texture("/pbrMetallicRoughness/baseColorTexture");
+  for_each(document, "materials", root, [&](const json &material, const Place &place) {
+    if (material.contains(base_texture))
+      textures.check_member(material.at(base_texture), "index",
+                            place / "pbrMetallicRoughness" / "baseColorTexture");
+  });
+  for_each(document, "textures", root, [&](const json &texture, const Place &place) {
+    images.check_member(texture, "source", place);
+    samplers.check_member(texture, "sampler", place);
+  });
+  for_each(document, "images", root,
+           [&](const json &image, const Place &place) { views.check_member(image, "bufferView", place); });
+}
+
 } // namespace
 
 void check_references(const json &document, const Place &root) {
@@ -96,6 +113,7 @@ void check_references(const json &document, const Place &root) {
   check_nodes(document, root);
   check_primitives(document, root);
   check_accessors(document, root);
+  check_textures(document, root);
 }
 
 } // namespace pmdsim

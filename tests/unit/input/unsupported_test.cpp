@@ -82,15 +82,4 @@ TEST_CASE("glTF features of later are refused by name") {
              EndsWith("/accessors/0/sparse: sparse accessors are not supported yet"));
   CHECK_THAT(scene_error("/accessors/0/componentType", 5122),
              Contains("quantized positions are not supported yet"));
-  const auto material_error = [](const json &material) {
-    SetupFixture fixture;
-    fixture.scene["materials"] = {material};
-    fixture.scene["meshes"][0]["primitives"][0]["material"] = 0;
-    return fixture.error();
-  };
-  CHECK_THAT(material_error({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}),
-             EndsWith("/materials/0/pbrMetallicRoughness/baseColorTexture: textures are not supported yet"));
-  CHECK_THAT(material_error({{"alphaMode", "MASK"}}),
-             Contains("/materials/0/alphaMode: MASK is not supported yet"));
-  CHECK_THAT(material_error({{"alphaMode", "BLEND"}}), Contains("BLEND is not supported yet"));
 }
