@@ -44,16 +44,17 @@ bool reaches_axis(const DiagramTable &table) { return table.theta_deg.front() ==
 // Gives all phi of the axis their mean, which is returned.
 double merge_axis(DiagramTable &table, double maximum) {
   const std::size_t phis = table.phi_deg.size();
-  double mean = 0.0;
+  const double first = table.at(0, 0).relative;
+  double mean = first; // exact where all are equal
   for (std::size_t phi = 0; phi < phis; ++phi) {
     const auto [relative, line] = table.at(0, phi);
-    if (std::abs(relative - table.at(0, 0).relative) > same_direction * maximum)
+    if (std::abs(relative - first) > same_direction * maximum)
       throw input_error(
           TextPlace{table.file, line},
           fmt::format("expected on the axis, which is one direction, the same value all around (within "
                       "1 % of the maximum), found {} and {}",
-                      table.at(0, 0).relative, relative));
-    mean += relative / static_cast<double>(phis);
+                      first, relative));
+    mean += (relative - first) / static_cast<double>(phis);
   }
   for (std::size_t phi = 0; phi < phis; ++phi)
     table.at(0, phi).relative = mean;

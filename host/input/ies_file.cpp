@@ -32,9 +32,13 @@ public:
     return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
   }
 
-  double number(std::string_view what) { return number_of(expect_word(what), what, here()); }
+  double number(std::string_view what) {
+    const std::string_view word = expect_word(what);
+    return number_of(word, what, here());
+  }
   double number_within(Range range, std::string_view what) {
-    return number_in(range, expect_word(what), what, here());
+    const std::string_view word = expect_word(what);
+    return number_in(range, word, what, here());
   }
   std::size_t count(Range range, std::string_view what) {
     const double value = number_within(range, what);
