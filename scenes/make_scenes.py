@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes every glTF file in this folder, byte for byte the same each time. Needs nothing but Python 3."""
+"""Writes every glTF file and radiation diagram in this folder, byte for byte the same each time. Needs nothing but Python 3."""
 
 import base64
 import json
@@ -264,11 +264,37 @@ def mixed(name, near_m, far_m, near_reflectivity):
     scene.write_gltf(name)
 
 
+def cosine_diagram(name, order):
+    """J = cos(theta)^order from 0 to 90 degrees in steps of 1, as CSV and as IES LM-63-2002."""
+    angles = range(91)
+    relative = [f"{0.0 if angle == 90 else math.cos(math.radians(angle)) ** order:.9f}" for angle in angles]
+    rows = [f"{angle}, {value}" for angle, value in zip(angles, relative)]
+    (HERE / f"{name}.csv").write_text("\n".join(["angle_deg, relative", *rows]) + "\n")
+
+    def wrapped(words, per_line):
+        return "\n".join(" ".join(words[i : i + per_line]) for i in range(0, len(words), per_line))
+
+    ies = [
+        "IESNA:LM-63-2002",
+        "[TEST] none, computed by pmdsim scenes/make_scenes.py",
+        "[MANUFAC] none",
+        f"[LUMINAIRE] a diode with the diagram cos^{order}",
+        "TILT=NONE",
+        f"1 -1 1.0 {len(angles)} 1 1 2 0 0 0",
+        "1.0 1.0 1.0",
+        wrapped([str(angle) for angle in angles], 20),
+        "0",
+        wrapped(relative, 8),
+    ]
+    (HERE / f"{name}.ies").write_text("\n".join(ies) + "\n")
+
+
 def main():
     wall("wall_2m.gltf", 0.4, 2.0)
     wall("wall_0m3.gltf", 0.45, 0.3)
     room()
     moving()
+    cosine_diagram("led_cos3", 3)
     staircase("analytic/wrap_10mhz.gltf", [15.0, 20.0, 49.0])
     staircase("analytic/on_axis_baseline.gltf", [0.5, 1.0, 2.0, 5.0])
     staircase("analytic/inverse_square.gltf", [0.5, 1.0, 2.0, 4.0, 8.0])

@@ -36,6 +36,19 @@ ordered_json sensor_json(const SensorFindings &findings) {
       {"taps", sensor.taps}};
 }
 
+ordered_json light_json(const LightFindings &light) {
+  return {{"diodes", light.diodes}, {"intensity_w_sr", light.intensity_w_sr}, {"power_w", light.power_w}};
+}
+
+ordered_json illuminators_json(const Findings &findings) {
+  ordered_json illuminators = ordered_json::array();
+  for (const auto &[name, light] : findings.illuminators) {
+    illuminators.push_back({{"name", name}});
+    illuminators.back().update(light_json(light));
+  }
+  return illuminators;
+}
+
 // The keys of the first sensor (and its first frequency) stand at the top too.
 ordered_json report_json(const Setup &setup, const Findings &findings) {
   std::vector<std::string> warnings = setup.warnings;
@@ -43,21 +56,20 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   ordered_json sensors = ordered_json::array();
   for (const SensorFindings &sensor : findings.sensors)
     sensors.push_back(sensor_json(sensor));
-  ordered_json report{{"triangles", findings.triangles},
-                      {"diodes", findings.diodes},
-                      {"intensity_w_sr", findings.intensity_w_sr},
-                      {"power_w", findings.power_w},
-                      {"ambiguity_m", findings.sensors.front().frequencies.front().ambiguity_m}};
+  ordered_json report{{"triangles", findings.triangles}};
+  report.update(light_json(findings.light));
+  report["ambiguity_m"] = findings.sensors.front().frequencies.front().ambiguity_m;
   for (const char *key :
        {"image_distance_m", "field_of_view_deg", "pixel_footprint_at_1m_m", "visible_range_m"})
     report[key] = sensors.front()[key];
+  report["illuminators"] = illuminators_json(findings);
   report["sensors"] = sensors;
   report["warnings"] = warnings;
   return report;
 }
 
 std::string line(const std::string &name, const std::string &value) {
-  return fmt::format("{:<25}{}\n", name, value);
+  return fmt::format("{:<24} {}\n", name, value);
 }
 
 std::string visible_text(const VisibleRange &range) {
@@ -99,11 +111,22 @@ std::string sensor_text(const SensorFindings &findings) {
          frequencies_text(findings);
 }
 
+std::string light_text(const LightFindings &light) {
+  return fmt::format("{}, {:.6g} W/sr on their axes, {:.6g} W of modulated power", light.diodes,
+                     light.intensity_w_sr, light.power_w);
+}
+
+std::string illuminators_text(const Findings &findings) {
+  std::string text = line("diodes", light_text(findings.light));
+  if (findings.illuminators.size() > 1)
+    for (const auto &[name, light] : findings.illuminators)
+      text += line("  of " + name, light_text(light));
+  return text;
+}
+
 std::string report_text(const Setup &setup, const Findings &findings) {
   std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
-                     line("triangles", fmt::format("{}", findings.triangles)) +
-                     line("diodes", fmt::format("{}, {:.6g} W/sr on their axes, {:.6g} W of modulated power",
-                                                findings.diodes, findings.intensity_w_sr, findings.power_w));
+                     line("triangles", fmt::format("{}", findings.triangles)) + illuminators_text(findings);
   for (const SensorFindings &sensor : findings.sensors)
     text += sensor_text(sensor);
   return text;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pmdsim {
@@ -34,10 +35,17 @@ struct SensorFindings {
   std::optional<double> common_ambiguity_m; // of all frequencies together
 };
 
+// Of all diodes of one illuminator together, or of all that there are.
+struct LightFindings {
+  std::size_t diodes = 0;
+  double intensity_w_sr = 0.0; // each on its axis, modulated part
+  double power_w = 0.0;        // over all directions, modulated part
+};
+
 struct Findings {
-  std::size_t triangles, diodes;
-  double intensity_w_sr; // of all diodes together, each on its axis, modulated part
-  double power_w;        // of all diodes together over all directions, modulated part
+  std::size_t triangles;
+  LightFindings light;
+  std::vector<std::pair<std::string, LightFindings>> illuminators; // with their names
   std::vector<SensorFindings> sensors;
 };
 
@@ -46,8 +54,9 @@ Findings findings_of(const Setup &setup);
 // Beyond what loading the setup has warned of already, one line each.
 std::vector<std::string> warnings_of(const Findings &findings);
 
-// Its intensity over all directions: 4 pi I of an isotropic diode, 2 pi I / (n + 1) of a cosine's order n.
-double diode_power_w(const Diode &diode);
+// The integral of J over all directions: 4 pi of an isotropic diode, 2 pi / (n + 1) of a cosine's order n,
+// and of a diagram what its interpolation makes of it, exactly.
+double solid_angle_sr(const Pattern &pattern);
 
 // c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers
 // of hertz.

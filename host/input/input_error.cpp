@@ -35,6 +35,10 @@ Error input_error(const TextPlace &place, std::string_view message) {
           one_line(fmt::format("{}:{}{}: {}", place.file.string(), place.line, column, message))};
 }
 
+Error input_error(const AnyPlace &place, std::string_view message) {
+  return std::visit([&](const auto &known) { return input_error(known, message); }, place);
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 80;
   const bool cut = text.size() > longest;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace pmdsim {
 
@@ -32,6 +33,10 @@ struct TextPlace {
 
 // "FILE:LINE:COLUMN: MESSAGE", "FILE:LINE: MESSAGE" for a whole line.
 Error input_error(const TextPlace &place, std::string_view message);
+
+// A place that names a file: JSON and text files do.
+using AnyPlace = std::variant<Place, TextPlace>;
+Error input_error(const AnyPlace &place, std::string_view message);
 
 // Text from an input file as it may stand in a message: in double quotes, escaped, of bounded length.
 std::string in_quotes(std::string_view text);

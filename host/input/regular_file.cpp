@@ -46,14 +46,16 @@ std::string read_all(int descriptor, std::size_t size_bytes) {
   return bytes;
 }
 
-Error refused(const std::filesystem::path &file, const std::string &why, const Place &named_at) {
-  return input_error(named_at, named_at.file == file ? why : in_quotes(file.string()) + ": " + why);
+Error refused(const std::filesystem::path &file, const std::string &why, const AnyPlace &named_at) {
+  const auto &named_in = std::visit(
+      [](const auto &place) -> const auto & { return place.file; }, named_at);
+  return input_error(named_at, named_in == file ? why : in_quotes(file.string()) + ": " + why);
 }
 
 // A regular file, open for reading.
 class RegularFile {
 public:
-  RegularFile(const std::filesystem::path &file, const Place &named_at)
+  RegularFile(const std::filesystem::path &file, const AnyPlace &named_at)
       // Without O_NONBLOCK, opening a FIFO waits for a writer.
       : descriptor_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
     struct stat status {};
@@ -77,7 +79,7 @@ private:
 } // namespace
 
 std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
-                              const Place &named_at) {
+                              const AnyPlace &named_at) {
   const RegularFile opened(file, named_at);
   if (opened.size_bytes() > max_bytes)
     throw refused(file, fmt::format("has {} bytes, expected at most {}", opened.size_bytes(), max_bytes),

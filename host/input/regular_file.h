@@ -12,7 +12,7 @@ namespace pmdsim {
 // The bytes of a regular file. Never waits on what is no regular file. Throws Error (input) at `named_at`,
 // the place that names the file (its own Place where the user named it on the command line).
 std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
-                              const Place &named_at);
+                              const AnyPlace &named_at);
 
 // The first `length_bytes` of a regular file, and nothing beyond them. As above; throws for a shorter file
 // too.

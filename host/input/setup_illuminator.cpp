@@ -1,7 +1,9 @@
 #include "host/input/setup_illuminator.h"
 
+#include "host/input/diode_across.h"
 #include "host/input/diode_file.h"
 #include "host/input/limits.h"
+#include "host/input/setup_pose.h"
 
 #include <cmath>
 #include <cstdint>
@@ -14,16 +16,20 @@ using nlohmann::ordered_json;
 
 namespace {
 
-Pattern pattern_of(const ordered_json &pattern) {
+Pattern pattern_of(const ordered_json &pattern, const Place &place, DiagramFiles &diagrams) {
   if (pattern.contains("isotropic"))
     return {};
-  return {Pattern::Kind::cosine, pattern.at("order").get<double>()};
+  if (pattern.contains("order"))
+    return {Pattern::Kind::cosine, pattern.at("order").get<double>()};
+  const std::filesystem::path file = place.file.parent_path() / pattern.at("file").get<std::string>();
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place / "file")};
 }
 
 // `degrees` modulo 360, in [0, 360).
 double full_turn(double degrees) {
   const double rest = std::fmod(degrees, 360.0);
-  return rest < 0.0 ? rest + 360.0 : rest;
+  const double turned = rest < 0.0 ? rest + 360.0 : rest;
+  return turned < 360.0 ? turned : 0.0; // a tiny negative angle is rounded to 360
 }
 
 // From the first angle on to the second, both inclusive; a whole turn or more is everything.
@@ -75,8 +81,9 @@ std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, co
   return diodes;
 }
 
-std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place) {
-  std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place);
+std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place,
+                               DiagramFiles &diagrams) {
+  std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place, diagrams);
   for (std::size_t i = 0; i < diodes.size(); ++i) {
     diodes[i].intensity_w_sr *= intensity;
     if (diodes[i].intensity_w_sr > max_intensity_w_sr)
@@ -87,18 +94,42 @@ std::vector<Diode> file_diodes(const std::string &name, double intensity, const 
   return diodes;
 }
 
-} // namespace
-
-std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place) {
+// Ring by ring in the order of their angles, or in the diode file's order.
+std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place, DiagramFiles &diagrams) {
   const ordered_json &diodes = illuminator.at("diodes");
   const auto intensity_w_sr = illuminator.at("intensity_w_sr").get<double>();
   if (diodes.contains("file"))
-    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file");
+    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file", diagrams);
+  const ordered_json &pattern = illuminator.at("pattern");
   Diode diode;
   diode.intensity_w_sr = intensity_w_sr;
-  diode.pattern = pattern_of(illuminator.at("pattern"));
+  diode.pattern = pattern_of(pattern, place / "pattern", diagrams);
+  diode.across = diode_across(diode.axis, glm::radians(pattern.value("roll_deg", 0.0)));
   return diodes.contains("rings") ? ring_diodes(diodes.at("rings"), diode, place / "diodes" / "rings")
                                   : std::vector<Diode>{diode};
+}
+
+} // namespace
+
+std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
+                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         std::vector<std::string> &warnings) {
+  DiagramFiles diagrams;
+  std::vector<Illuminator> result;
+  std::size_t diodes = 0;
+  for (std::size_t i = 0; i < illuminators.size(); ++i) {
+    const ordered_json &illuminator = illuminators[i];
+    result.push_back({illuminator.at("name"),
+                      world_from_frame(illuminator.at("pose"), place / i / "pose", scene, sensors),
+                      diodes_of(illuminator, place / i, diagrams),
+                      glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>()))});
+    diodes += result.back().diodes.size();
+    if (diodes > max_diodes)
+      throw input_error(place / i / "diodes",
+                        fmt::format("expected at most {} diodes in all illuminators", max_diodes));
+  }
+  warnings.insert(warnings.end(), diagrams.warnings().begin(), diagrams.warnings().end());
+  return result;
 }
 
 } // namespace pmdsim

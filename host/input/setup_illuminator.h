@@ -1,17 +1,21 @@
 #pragma once
-// The diodes of a setup's illuminator.
+// The illuminators of a setup.
 
 #include "engine/illuminator.h"
+#include "engine/sensor.h"
+#include "host/input/gltf_loader.h"
 #include "host/input/input_error.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace pmdsim {
 
-// `illuminator` is an element of the setup's /illuminators, `place`, with its defaults filled in. Returns 1
-// to 100,000 diodes in the illuminator's frame: ring by ring in the order of their angles, or in the diode
-// file's order. Throws Error (input).
-std::vector<Diode> diodes_of(const nlohmann::ordered_json &illuminator, const Place &place);
+// `illuminators` is the setup's /illuminators, `place`, with their defaults filled in. At most 100,000 diodes
+// in all. Appends to `warnings`, one line each, what is odd about their diagrams. Throws Error (input).
+std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,
+                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         std::vector<std::string> &warnings);
 
 } // namespace pmdsim

@@ -8,7 +8,6 @@
 #include "host/input/schema_defaults.h"
 #include "host/input/schemas.h"
 #include "host/input/setup_illuminator.h"
-#include "host/input/setup_pose.h"
 #include "host/input/setup_sensor.h"
 #include "host/input/setup_support.h"
 
@@ -58,33 +57,14 @@ ordered_json read_setup(const Place &root) {
   return setup;
 }
 
-void refuse_doubled_names(const std::vector<Sensor> &sensors, const Place &place) {
+// `kind` says what the sensors or illuminators at `place` are.
+template <class Named>
+void refuse_doubled_names(const std::vector<Named> &all, const char *kind, const Place &place) {
   std::set<std::string> names;
-  for (std::size_t i = 0; i < sensors.size(); ++i)
-    if (!names.insert(sensors[i].name).second)
-      throw input_error(place / i / "name", fmt::format("expected a name that no other sensor has, found {}",
-                                                        in_quotes(sensors[i].name)));
-}
-
-Illuminator illuminator_of(const ordered_json &illuminator, const Place &place, const GltfScene &scene,
-                           const std::vector<Sensor> &sensors) {
-  return {illuminator.at("name"), world_from_frame(illuminator.at("pose"), place / "pose", scene, sensors),
-          diodes_of(illuminator, place)};
-}
-
-// Monostatic light, the paper's eq. 2 and 3, is at the lens, but its pose may put it anywhere.
-void warn_of_distant_monostatic_light(Setup &setup) {
-  constexpr double rounding_m = 1e-9;
-  for (std::size_t i = 0; i < setup.start.illuminators.size(); ++i) {
-    const Illuminator &light = setup.start.illuminators[i];
-    if (setup.as_used.at("illuminators").at(i).at("diodes") != "monostatic")
-      continue;
-    for (const Sensor &sensor : setup.start.sensors)
-      if (glm::distance(light.world_from_illuminator.translation_m, sensor.world_from_camera.translation_m) >
-          rounding_m)
-        setup.warnings.push_back(fmt::format(
-            "illuminator {}: monostatic light is not in the lens of sensor {}", light.name, sensor.name));
-  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!names.insert(all[i].name).second)
+      throw input_error(place / i / "name", fmt::format("expected a name that no other {} has, found {}",
+                                                        kind, in_quotes(all[i].name)));
 }
 
 // What N taps make of harmonic h is 0 unless h is next to a multiple of N (DESIGN, section 1).
@@ -122,13 +102,11 @@ Setup load_setup(const std::filesystem::path &file) {
   const ordered_json &sensors = setup.as_used.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
     setup.start.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
-  refuse_doubled_names(setup.start.sensors, root / "sensors");
-  const ordered_json &illuminators = setup.as_used.at("illuminators");
-  for (std::size_t i = 0; i < illuminators.size(); ++i)
-    setup.start.illuminators.push_back(
-        illuminator_of(illuminators[i], root / "illuminators" / i, scene, setup.start.sensors));
+  refuse_doubled_names(setup.start.sensors, "sensor", root / "sensors");
+  setup.start.illuminators = illuminators_of(setup.as_used.at("illuminators"), root / "illuminators", scene,
+                                             setup.start.sensors, setup.warnings);
+  refuse_doubled_names(setup.start.illuminators, "illuminator", root / "illuminators");
 
-  warn_of_distant_monostatic_light(setup);
   warn_of_unseen_harmonics(setup);
   if (scene.scene.triangles.empty())
     setup.warnings.push_back(

@@ -24,13 +24,6 @@ void check_sensor(const ordered_json &sensor, const Place &place) {
     throw input_error(place / "samples", "not supported yet (expected an integer from 1 to 16)");
 }
 
-void check_illuminator(const ordered_json &illuminator, const Place &place) {
-  expect_only(illuminator, {{"modulation_phase_deg", 0}}, place);
-  if (illuminator.contains("pattern") && illuminator.at("pattern").contains("file"))
-    throw input_error(place / "pattern" / "file",
-                      "not supported yet (expected {\"order\"} or {\"isotropic\": true})");
-}
-
 } // namespace
 
 void refuse_unsupported(const ordered_json &setup, const Place &root) {
@@ -39,9 +32,6 @@ void refuse_unsupported(const ordered_json &setup, const Place &root) {
   const ordered_json &sensors = setup.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
     check_sensor(sensors[i], root / "sensors" / i);
-  if (setup.at("illuminators").size() > 1)
-    throw input_error(root / "illuminators" / 1, "several illuminators are not supported yet (expected one)");
-  check_illuminator(setup.at("illuminators").at(0), root / "illuminators" / 0);
   expect_only(setup.at("frames"), {{"start_s", 0}, {"count", 1}}, root / "frames");
 }
 

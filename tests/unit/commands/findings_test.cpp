@@ -29,6 +29,10 @@ Setup setup_of(const Sensor &sensor, const Scene &scene) {
   return setup;
 }
 
+double table_sr(const Diagram &diagram) {
+  return solid_angle_sr({Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>(diagram)});
+}
+
 } // namespace
 
 TEST_CASE("a pinhole's field of view follows from chip and image distance") {
@@ -65,14 +69,55 @@ TEST_CASE("vignetting is told of the corner that it darkens most") {
   CHECK(field_of_view(sensor).darkest_corner == Approx(cosine * cosine * cosine * cosine));
 }
 
-TEST_CASE("a diode's power is its intensity over all directions") {
+TEST_CASE("a diode shines into the integral of its diagram") {
+  constexpr double pi = std::numbers::pi;
+  CHECK(solid_angle_sr({}) == Approx(4.0 * pi));
+  CHECK(solid_angle_sr({Pattern::Kind::cosine, 0.0}) == Approx(2.0 * pi)); // half of the sphere
+  CHECK(solid_angle_sr({Pattern::Kind::cosine, 1.0}) == Approx(pi));       // Lambert's
+}
+
+TEST_CASE("a table's integral is that of its interpolation") {
+  constexpr double pi = std::numbers::pi;
+  CHECK(table_sr({{0, pi / 2, pi}, {0}, {1, 1, 1}}) == Approx(4.0 * pi));
+  CHECK(table_sr({{0, pi / 3}, {0}, {1, 1}}) == Approx(pi)); // a cap, 2 pi (1 - cos 60)
+  // 1 - 2 theta / pi over the half-space: 2 pi (1 - 2 / pi), as the integral of theta sin(theta) is 1.
+  CHECK(table_sr({{0, pi / 2}, {0}, {1, 0}}) == Approx(2.0 * pi - 4.0));
+  // From 1 at phi = 0 linearly to 0 at 90 degrees, and back to 1 at a whole turn: its mean is 1/2.
+  CHECK(table_sr({{pi / 2, pi}, {0, pi / 2}, {1, 0, 1, 0}}) == Approx(pi));
+  // The same from where phi begins at 10 degrees and is 1 for 90 degrees: mean 1/4 + 1/2 * 3/4.
+  CHECK(table_sr({{0, pi}, {pi / 18, pi / 18 + pi / 2, pi}, {1, 1, 0, 1, 1, 0}}) ==
+        Approx(4.0 * pi * (0.25 + 0.5 * 0.75)));
+}
+
+TEST_CASE("a table of cos^3 in steps of a degree shines as cos^3 does, to its interpolation's error") {
+  Diagram table{{}, {0}, {}};
+  for (int angle = 0; angle <= 90; ++angle) {
+    table.theta_rad.push_back(glm::radians(static_cast<double>(angle)));
+    table.relative.push_back(std::pow(std::max(0.0, std::cos(table.theta_rad.back())), 3));
+  }
+  const double exact_sr = solid_angle_sr({Pattern::Kind::cosine, 3.0});
+  CHECK(table_sr(table) == Approx(exact_sr).epsilon(1e-4));
+  CHECK(table_sr(table) != Approx(exact_sr).epsilon(1e-6));
+}
+
+TEST_CASE("check adds up the diodes of each illuminator and of all") {
+  SceneBuilder builder;
+  builder.add_wall({2.0, {}, {-10.0, -10.0}, {10.0, 10.0}});
+  Setup setup = setup_of(wide_sensor(), builder.scene());
   Diode diode;
   diode.intensity_w_sr = 3.0;
-  CHECK(diode_power_w(diode) == Approx(3.0 * 4.0 * std::numbers::pi));
-  diode.pattern = {Pattern::Kind::cosine, 0.0}; // half of the sphere
-  CHECK(diode_power_w(diode) == Approx(3.0 * 2.0 * std::numbers::pi));
-  diode.pattern.order = 1.0; // Lambert's
-  CHECK(diode_power_w(diode) == Approx(3.0 * std::numbers::pi));
+  diode.pattern = {Pattern::Kind::diagram, 0.0,
+                   std::make_shared<const Diagram>(Diagram{{0, std::numbers::pi}, {0}, {1, 1}})};
+  setup.start.illuminators.push_back({"pair", {}, {diode, diode}});
+  const Findings findings = findings_of(setup);
+  CHECK(findings.light.diodes == 3);
+  CHECK(findings.light.intensity_w_sr == 7.0);
+  CHECK(findings.light.power_w == Approx(7.0 * 4.0 * std::numbers::pi));
+  REQUIRE(findings.illuminators.size() == 2);
+  CHECK(findings.illuminators[0].first == "monostatic");
+  CHECK(findings.illuminators[1].first == "pair");
+  CHECK(findings.illuminators[1].second.diodes == 2);
+  CHECK(findings.illuminators[1].second.power_w == Approx(6.0 * 4.0 * std::numbers::pi));
 }
 
 TEST_CASE("several frequencies have a longer ambiguity range together") {

@@ -35,6 +35,27 @@ TEST_CASE("check warns of a scene that is out of view, and of none that is seen"
   CHECK(json::parse(before.output)["warnings"].empty());
 }
 
+TEST_CASE("check tells of each illuminator where there are several") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = json::parse(small_setup());
+  const std::string one = work.write("one.json", setup.dump());
+  setup["illuminators"].push_back({{"name", "lamp"}, {"diodes", "monostatic"}, {"intensity_w_sr", 2}});
+  const std::string two = work.write("two.json", setup.dump());
+
+  CHECK(run_pmdsim({"check", one}).output.find("\n  of ") == std::string::npos);
+  const Run text = run_pmdsim({"check", two});
+  CHECK(text.output.find(
+            "\n  of lamp                1, 2 W/sr on their axes, 25.1327 W of modulated power\n") !=
+        std::string::npos);
+  const json report = json::parse(run_pmdsim({"check", two, "--json"}).output);
+  REQUIRE(report["illuminators"].size() == 2);
+  CHECK(report["illuminators"][1]["name"] == "lamp");
+  CHECK(report["illuminators"][1]["diodes"] == 1);
+  CHECK(report["illuminators"][1]["power_w"].get<double>() == Approx(25.1327).epsilon(1e-5));
+  CHECK(report["diodes"] == report["illuminators"][0]["diodes"].get<int>() + 1);
+}
+
 TEST_CASE("bench reports frames per second") {
   const Workspace work;
   work.write("wall.gltf", wall_gltf());

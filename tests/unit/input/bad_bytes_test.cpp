@@ -95,3 +95,20 @@ TEST_CASE("Damaged diode files") {
   });
   CHECK(refused > trials / 2);
 }
+
+TEST_CASE("Damaged radiation diagrams") {
+  SetupFixture fixture;
+  fixture.load();
+  const auto refused_with = [&](const std::string &name, const std::string &good) {
+    fixture.illuminator()["pattern"] = {{"file", name}};
+    return refused_of(good, [&](const std::string &bytes) {
+      fixture.folder.write(name, bytes);
+      fixture.load_text(fixture.setup.dump());
+    });
+  };
+  CHECK(refused_with("led.csv", "theta_deg,phi_deg,relative\n0,0,1\n0,120,1\n45,0,0.5\n45,120,0.25\n") >
+        trials / 2);
+  CHECK(refused_with("led.ies",
+                     "IESNA91\nTILT=INCLUDE\n1 2 0 90 1 1\n1 -1 1 3 2 1 2 0 0 0 1 1 1\n0 45 90\n0 90\n"
+                     "4 2 1\n4 1 0\n") > trials / 2);
+}

@@ -15,7 +15,8 @@ const std::string header = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,patt
 std::vector<Diode> read(const std::string &text) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("diodes.csv", text);
-  return read_diode_file(file, Place{file});
+  DiagramFiles diagrams;
+  return read_diode_file(file, Place{file}, diagrams);
 }
 
 std::string error_of(const std::string &text) {
@@ -64,8 +65,11 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
              EndsWith(":2: intensity_w_sr: expected a number from 0 to 1e+30, found \"-1\""));
   CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,-2\n"),
              EndsWith(":2: pattern: expected a number from 0 to 1000000, found \"-2\""));
-  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,inf\n"), Contains("pattern: expected an order or isotropic"));
-  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,led.ies\n"), Contains("\"led.ies\", is not supported yet"));
+  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,1e\n"),
+             EndsWith(":2: pattern: expected a number, found \"1e\""));
+  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,\n"),
+             EndsWith(":2: pattern: expected an order, isotropic or a diagram's file name"));
+  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,inf\n"), EndsWith("inf\": no such file"));
   CHECK_THAT(error_of(header + "0,0,0,0,0,1,1\n"), EndsWith(":2: expected 8 columns"));
   CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,1,1\n"), EndsWith(":2: expected 8 columns"));
   CHECK_THAT(error_of(header + "\n"), EndsWith(":3: expected at least one diode"));

@@ -79,6 +79,7 @@ TEST_CASE("The ranges of a setup's numbers") {
   check_limits({"/illuminators/0/diodes/rings/0/radius_m", 0, 1e9});
   check_limits({"/illuminators/0/intensity_w_sr", 0, 1e30});
   check_limits({"/illuminators/0/pattern/order", 0, 1e6});
+  check_limits({"/illuminators/0/modulation_phase_deg", -3.6e6, 3.6e6});
 }
 
 // At their ends these make no image, which is another error.
