@@ -131,6 +131,26 @@ std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t i
   return vectors;
 }
 
+std::vector<glm::dmat4> read_matrices(const tinygltf::Model &model, std::size_t index, std::size_t count,
+                                      const Place &root) {
+  const Place place = root / "accessors" / index;
+  const tinygltf::Accessor &accessor = model.accessors[index];
+  if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    throw input_error(place / "type", "expected \"MAT4\" of floats");
+  if (accessor.count < count)
+    throw input_error(place / "count", fmt::format("expected at least {}, found {}", count, accessor.count));
+  const Elements elements = checked_elements(model, accessor, place);
+  std::vector<glm::dmat4> matrices(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (int c = 0; c < 16; ++c) {
+      const double value = component(elements, i, c, accessor);
+      if (!std::isfinite(value))
+        throw input_error(place, fmt::format("element {} is not finite", i));
+      matrices[i][c / 4][c % 4] = value;
+    }
+  return matrices;
+}
+
 std::vector<std::uint32_t> read_indices(const tinygltf::Model &model, std::size_t index,
                                         std::size_t vertex_count, const Place &root) {
   const Place place = root / "accessors" / index;

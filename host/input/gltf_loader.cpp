@@ -19,8 +19,8 @@ namespace {
 // file.
 std::string without_files(const json &document) {
   json kept = json::object();
-  for (const char *key :
-       {"asset", "scene", "scenes", "nodes", "meshes", "materials", "accessors", "bufferViews"})
+  for (const char *key : {"asset", "scene", "scenes", "nodes", "meshes", "materials", "accessors",
+                          "bufferViews", "animations", "skins"})
     if (document.contains(key))
       kept[key] = document.at(key);
   return kept.dump();
@@ -59,38 +59,52 @@ private:
   std::map<int, std::uint32_t> ids_;
 };
 
-void append_object(const tinygltf::Model &model, const SceneNode &scene_node, const Place &root,
-                   Surfaces &surfaces, Scene &scene) {
-  const tinygltf::Node &node = model.nodes[scene_node.index];
-  if (node.skin >= 0)
-    throw input_error(root / "nodes" / scene_node.index / "skin", "skins are not supported yet");
+// `placement_of` gives that of each of the mesh's primitives.
+template <class PlacementOf>
+void append_object(const tinygltf::Model &model, std::size_t index, PlacementOf placement_of,
+                   const Place &root, Surfaces &surfaces, Scene &scene) {
+  const tinygltf::Node &node = model.nodes[index];
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
-  scene.objects.push_back(node.name.empty() ? fmt::format("node {}", scene_node.index) : node.name);
+  scene.objects.push_back(node.name.empty() ? fmt::format("node {}", index) : node.name);
   const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i)
-    append_primitive(model, primitives[i], scene_node.world_from_node, surfaces[primitives[i].material],
-                     object, root / "meshes" / mesh / "primitives" / i, scene);
+    append_primitive(model, primitives[i], placement_of(i), surfaces[primitives[i].material], object,
+                     root / "meshes" / mesh / "primitives" / i, scene);
 }
 
 } // namespace
 
 GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
                    std::shared_ptr<GltfMaterials> materials)
-    : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)) {}
+    : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)),
+      nodes_(active_nodes(*model_, Place{file_})), animation_(read_animation(*model_, nodes_, Place{file_})),
+      skins_(read_skins(*model_, nodes_, Place{file_})) {}
 
-bool GltfFile::moves() const { return false; }
+bool GltfFile::moves() const { return animation_.moves(); }
 
-GltfScene GltfFile::at(double) const {
+GltfScene GltfFile::at(double time_s) const {
   const Place root{file_};
+  std::vector<SceneNode> nodes = nodes_;
+  animation_.apply(time_s, nodes);
+  const std::vector<AffineTransform> world_from = world_from_nodes(nodes, root);
+  std::map<int, std::vector<AffineTransform>> world_from_skin; // by skin, then joint
+  for (const auto &[skin, joints] : skins_.joints)
+    world_from_skin[skin] = world_from_mesh_by_joint(joints, world_from);
+
   GltfScene result{file_, {}, {}};
   Surfaces surfaces(*materials_, result.scene);
-  for (const SceneNode &scene_node : active_nodes(*model_, root)) {
-    const tinygltf::Node &node = model_->nodes[scene_node.index];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const tinygltf::Node &node = model_->nodes[nodes[i].index];
+    const auto placement_of = [&](std::size_t primitive) {
+      return node.skin < 0
+                 ? Placement(world_from[i])
+                 : Placement(skins_.weights.at({node.mesh, primitive}), world_from_skin.at(node.skin));
+    };
     if (!node.name.empty())
-      result.nodes.push_back({node.name, scene_node.world_from_node});
+      result.nodes.push_back({node.name, world_from[i]});
     if (node.mesh >= 0)
-      append_object(*model_, scene_node, root, surfaces, result.scene);
+      append_object(*model_, nodes[i].index, placement_of, root, surfaces, result.scene);
   }
   return result;
 }

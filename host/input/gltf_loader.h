@@ -1,8 +1,11 @@
 #pragma once
-// glTF 2.0 scenes, .gltf and .glb: triangles in the world frame and the named nodes that poses refer to.
+// glTF 2.0 scenes, .gltf and .glb, over time: triangles in the world frame and the named nodes that poses
+// refer to.
 
 #include "engine/scene.h"
+#include "host/input/gltf_animation.h"
 #include "host/input/gltf_nodes.h"
+#include "host/input/gltf_skin.h"
 #include "host/input/input_error.h"
 
 #include <filesystem>
@@ -33,18 +36,22 @@ struct GltfScene {
 // A file, read and checked once.
 class GltfFile {
 public:
+  // Throws Error (input).
   GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
            std::shared_ptr<GltfMaterials> materials);
 
-  // Whether anything in the active scene is animated.
+  // Whether any node of the active scene is animated.
   bool moves() const;
-  // Throws Error (input).
+  // At any finite time, before 0 too. Throws Error (input).
   GltfScene at(double time_s) const;
 
 private:
   std::filesystem::path file_;
   std::shared_ptr<const tinygltf::Model> model_;
   std::shared_ptr<GltfMaterials> materials_; // decodes textures at the first use
+  std::vector<SceneNode> nodes_;             // of the active scene, where nothing animates them
+  Animation animation_;
+  Skins skins_;
 };
 
 // Throws Error (input): what is wrong in the file is told at its place there ("scene.gltf: /accessors/3:

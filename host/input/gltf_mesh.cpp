@@ -44,12 +44,12 @@ std::vector<Corners> triangle_corners(int mode, std::uint32_t count, const Place
   return triangles;
 }
 
-std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions,
-                                        const AffineTransform &world_from_node, const Place &place) {
+std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions, const Placement &placement,
+                                        const Place &place) {
   std::vector<glm::dvec3> world;
   world.reserve(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    world.push_back(world_from_node.point(glm::dvec3(positions[i])));
+    world.push_back(placement.world_from_mesh(i).point(glm::dvec3(positions[i])));
     if (!is_position(world.back()))
       throw input_error(place,
                         fmt::format("vertex {} lies outside the world, expected coordinates from {} to {} m",
@@ -61,7 +61,7 @@ std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions
 } // namespace
 
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                      const AffineTransform &world_from_node, std::uint32_t surface, std::uint32_t object,
+                      const Placement &placement, std::uint32_t surface, std::uint32_t object,
                       const Place &place, Scene &scene) {
   refuse_other_geometry(primitive, place);
   const Place root{place.file};
@@ -77,12 +77,11 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
     throw input_error(place,
                       fmt::format("the scene has more than {} vertices or triangles", max_scene_vertices));
 
-  const std::vector<glm::dvec3> world = world_positions(positions, world_from_node, place);
-  const bool mirrored = glm::determinant(world_from_node.linear) < 0.0;
+  const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
   const auto first_vertex = static_cast<std::uint32_t>(scene.positions_m.size());
   for (Corners corners :
        triangle_corners(primitive.mode, static_cast<std::uint32_t>(indices.size()), place)) {
-    if (mirrored)
+    if (glm::determinant(placement.world_from_mesh(indices[corners[0]]).linear) < 0.0)
       std::swap(corners[1], corners[2]);
     const auto vertex = [&](std::size_t k) { return first_vertex + indices[corners[k]]; };
     scene.triangles.push_back({{vertex(0), vertex(1), vertex(2)}, surface, object});

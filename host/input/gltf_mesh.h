@@ -2,7 +2,7 @@
 // A glTF primitive as triangles in the world frame.
 
 #include "engine/scene.h"
-#include "host/input/gltf_nodes.h"
+#include "host/input/gltf_placement.h"
 #include "host/input/input_error.h"
 
 namespace tinygltf {
@@ -14,11 +14,11 @@ namespace pmdsim {
 inline constexpr std::size_t max_scene_vertices = std::size_t{1} << 25; // and as many triangles
 
 // Appends the primitive's vertices and triangles (TRIANGLES, TRIANGLE_STRIP or TRIANGLE_FAN, indexed or not)
-// to `scene`. Under a mirroring transform the winding is turned, so that the front stays the front. Triangles
-// without an area, such as strips are stitched with, stay too: ids count what the file holds. Throws Error
-// (input) at `place`, /meshes/I/primitives/K.
+// to `scene`. Where the placement mirrors a triangle, judged at its first corner, the winding is turned, so
+// that the front stays the front. Triangles without an area, such as strips are stitched with, stay too: ids
+// count what the file holds. Throws Error (input) at `place`, /meshes/I/primitives/K.
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                      const AffineTransform &world_from_node, std::uint32_t surface, std::uint32_t object,
+                      const Placement &placement, std::uint32_t surface, std::uint32_t object,
                       const Place &place, Scene &scene);
 
 } // namespace pmdsim

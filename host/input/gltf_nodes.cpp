@@ -2,16 +2,12 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <tiny_gltf.h>
 
 namespace pmdsim {
 
 namespace {
-
-AffineTransform compose(const AffineTransform &a_from_b, const AffineTransform &b_from_c) {
-  return {a_from_b.linear * b_from_c.linear, a_from_b.point(b_from_c.translation_m)};
-}
 
 bool is_finite(const AffineTransform &transform) {
   for (glm::length_t column = 0; column < 3; ++column)
@@ -21,32 +17,27 @@ bool is_finite(const AffineTransform &transform) {
   return true;
 }
 
-AffineTransform from_matrix(const std::vector<double> &m, const Place &place) {
-  constexpr double rounding = 1e-6; // writers that compute in float leave that much
-  if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1.0) > rounding)
-    throw input_error(place / "matrix", "expected 0, 0, 0, 1 as the last row");
-  return {glm::dmat3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), glm::dvec3(m[12], m[13], m[14])};
-}
-
-glm::dmat3 rotation_matrix(const std::vector<double> &r, const Place &place) {
+glm::dquat unit_quaternion(const std::vector<double> &r, const Place &place) {
   const glm::dquat q(r[3], r[0], r[1], r[2]); // glTF writes x, y, z, w
   const double length = glm::length(q);
   if (!(length > 1e-3) || !std::isfinite(length))
     throw input_error(place / "rotation", "expected a unit quaternion");
-  return glm::mat3_cast(q / length);
+  return q / length;
 }
 
-AffineTransform parent_from_node(const tinygltf::Node &node, const Place &place) {
-  if (!node.matrix.empty())
-    return from_matrix(node.matrix, place);
-  AffineTransform result;
+NodeTransform transform_of(const tinygltf::Node &node, const Place &place) {
+  NodeTransform result;
+  if (!node.matrix.empty()) {
+    result.matrix = affine_transform(glm::make_mat4(node.matrix.data()));
+    if (!result.matrix)
+      throw input_error(place / "matrix", "expected 0, 0, 0, 1 as the last row");
+  }
   if (!node.rotation.empty())
-    result.linear = rotation_matrix(node.rotation, place);
+    result.rotation = unit_quaternion(node.rotation, place);
   if (!node.scale.empty())
-    for (glm::length_t axis = 0; axis < 3; ++axis)
-      result.linear[axis] *= node.scale[static_cast<std::size_t>(axis)];
+    result.scale = glm::make_vec3(node.scale.data());
   if (!node.translation.empty())
-    result.translation_m = {node.translation[0], node.translation[1], node.translation[2]};
+    result.translation_m = glm::make_vec3(node.translation.data());
   return result;
 }
 
@@ -96,30 +87,65 @@ std::vector<SceneNode> scene_roots(const tinygltf::Model &model, const std::vect
                         fmt::format("node {} is {}", index,
                                     seen[index] ? "listed twice" : "the child of another, expected a root"));
     seen[index] = true;
-    roots.push_back({index, {}});
+    roots.push_back({index, std::nullopt, {}});
   }
   return roots;
 }
 
 } // namespace
 
+AffineTransform compose(const AffineTransform &a_from_b, const AffineTransform &b_from_c) {
+  return {a_from_b.linear * b_from_c.linear, a_from_b.point(b_from_c.translation_m)};
+}
+
+std::optional<AffineTransform> affine_transform(const glm::dmat4 &m) {
+  constexpr double rounding = 1e-6; // writers that compute in float leave that much
+  if (!(std::abs(m[0].w) + std::abs(m[1].w) + std::abs(m[2].w) + std::abs(m[3].w - 1.0) <= rounding))
+    return std::nullopt;
+  return AffineTransform{glm::dmat3(m), glm::dvec3(m[3])};
+}
+
+AffineTransform NodeTransform::parent_from_node() const {
+  if (matrix)
+    return *matrix;
+  AffineTransform result{glm::mat3_cast(rotation), translation_m};
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+    result.linear[axis] *= scale[axis];
+  return result;
+}
+
 std::vector<SceneNode> active_nodes(const tinygltf::Model &model, const Place &root) {
   const std::vector<bool> has_parent = checked_has_parent(model, root);
   refuse_cycles(model, has_parent, root);
   std::vector<SceneNode> nodes = scene_roots(model, has_parent, root);
-  // Until it is reached, a node holds its parent's transform.
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::size_t index = nodes[i].index;
-    const Place place = root / "nodes" / index;
-    const AffineTransform world_from_node =
-        compose(nodes[i].world_from_node, parent_from_node(model.nodes[index], place));
-    if (!is_finite(world_from_node))
-      throw input_error(place, "its transform is not finite");
-    nodes[i].world_from_node = world_from_node;
+    nodes[i].transform = transform_of(model.nodes[index], root / "nodes" / index);
     for (const int child : model.nodes[index].children)
-      nodes.push_back({static_cast<std::size_t>(child), world_from_node});
+      nodes.push_back({static_cast<std::size_t>(child), i, {}});
   }
   return nodes;
+}
+
+std::vector<std::optional<std::size_t>> places_of_nodes(const tinygltf::Model &model,
+                                                        const std::vector<SceneNode> &nodes) {
+  std::vector<std::optional<std::size_t>> places(model.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    places[nodes[i].index] = i;
+  return places;
+}
+
+std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root) {
+  std::vector<AffineTransform> world_from;
+  world_from.reserve(nodes.size());
+  for (const SceneNode &node : nodes) {
+    const AffineTransform parent_from_node = node.transform.parent_from_node();
+    world_from.push_back(node.parent ? compose(world_from[*node.parent], parent_from_node)
+                                     : parent_from_node);
+    if (!is_finite(world_from.back()))
+      throw input_error(root / "nodes" / node.index, "its transform is not finite");
+  }
+  return world_from;
 }
 
 } // namespace pmdsim

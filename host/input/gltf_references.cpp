@@ -1,6 +1,11 @@
 #include "host/input/gltf_references.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <map>
+#include <string_view>
+#include <utility>
 
 namespace pmdsim {
 
@@ -8,17 +13,18 @@ using nlohmann::json;
 
 namespace {
 
-// An index somewhere in `document` into its array `target`.
+// An index into the array `target` of `owner`, the document or what is at `place` in it.
 class Reference {
 public:
-  Reference(const json &document, std::string target) : target_(std::move(target)) {
-    if (document.contains(target_))
-      count_ = document.at(target_).size();
+  Reference(const json &owner, const std::string &target, const Place &place = {})
+      : target_((place / target).pointer.to_string()) {
+    if (owner.contains(target))
+      count_ = owner.at(target).size();
   }
 
   void check(const json &index, const Place &place) const {
     if (index.get<std::size_t>() >= count_)
-      throw input_error(place, fmt::format("index {} into /{}, which has {}", index.dump(), target_, count_));
+      throw input_error(place, fmt::format("index {} into {}, which has {}", index.dump(), target_, count_));
   }
 
   void check_member(const json &object, const std::string &key, const Place &place) const {
@@ -50,16 +56,67 @@ void for_each(const json &object, const std::string &key, const Place &place, Vi
 }
 
 void check_nodes(const json &document, const Place &root) {
-  const Reference nodes(document, "nodes"), meshes(document, "meshes"), scenes(document, "scenes");
+  const Reference nodes(document, "nodes"), meshes(document, "meshes"), scenes(document, "scenes"),
+      skins(document, "skins");
   scenes.check_member(document, "scene", root);
   for_each(document, "scenes", root,
            [&](const json &scene, const Place &place) { nodes.check_array(scene, "nodes", place); });
   for_each(document, "nodes", root, [&](const json &node, const Place &place) {
     nodes.check_array(node, "children", place);
     meshes.check_member(node, "mesh", place);
+    skins.check_member(node, "skin", place);
+    if (node.contains("skin") && !node.contains("mesh"))
+      throw input_error(place / "skin", "expected a mesh beside it");
     if (node.contains("matrix") &&
         (node.contains("translation") || node.contains("rotation") || node.contains("scale")))
       throw input_error(place, "expected a matrix or translation, rotation and scale, found both");
+  });
+}
+
+void check_skins(const json &document, const Place &root) {
+  const Reference nodes(document, "nodes"), accessors(document, "accessors");
+  for_each(document, "skins", root, [&](const json &skin, const Place &place) {
+    nodes.check_array(skin, "joints", place);
+    accessors.check_member(skin, "inverseBindMatrices", place);
+  });
+}
+
+void check_animated_path(const std::string &path, const json &node, std::size_t index, const Place &place) {
+  constexpr std::array<std::string_view, 3> supported{"translation", "rotation", "scale"};
+  if (path == "weights")
+    throw input_error(place, "morph targets are not supported yet, nor their animation");
+  if (std::find(supported.begin(), supported.end(), path) == supported.end())
+    throw input_error(
+        place, fmt::format("expected \"translation\", \"rotation\" or \"scale\", found {}", in_quotes(path)));
+  if (node.contains("matrix"))
+    throw input_error(
+        place, fmt::format("node {} has a matrix, expected none where its {} is animated", index, path));
+}
+
+// A channel without a node animates nothing that is known here and is ignored, as glTF says.
+void check_animations(const json &document, const Place &root) {
+  const Reference nodes(document, "nodes"), accessors(document, "accessors");
+  std::map<std::pair<std::size_t, std::string>, std::string> animated; // node and path: by which channel
+  for_each(document, "animations", root, [&](const json &animation, const Place &animation_place) {
+    const Reference samplers(animation, "samplers", animation_place);
+    for_each(animation, "samplers", animation_place, [&](const json &sampler, const Place &place) {
+      accessors.check_member(sampler, "input", place);
+      accessors.check_member(sampler, "output", place);
+    });
+    for_each(animation, "channels", animation_place, [&](const json &channel, const Place &place) {
+      samplers.check_member(channel, "sampler", place);
+      const json &target = channel.at("target");
+      nodes.check_member(target, "node", place / "target");
+      if (!target.contains("node"))
+        return;
+      const auto node = target.at("node").get<std::size_t>();
+      const auto path = target.at("path").get<std::string>();
+      check_animated_path(path, document.at("nodes").at(node), node, place / "target" / "path");
+      const auto [known, is_new] = animated.try_emplace({node, path}, place.pointer.to_string());
+      if (!is_new)
+        throw input_error(place / "target",
+                          fmt::format("the {} of node {} is animated by {} too", path, node, known->second));
+    });
   });
 }
 
@@ -108,9 +165,9 @@ void check_textures(const json &document, const Place &root) {
 } // namespace
 
 void check_references(const json &document, const Place &root) {
-  if (!document.value("animations", json::array()).empty())
-    throw input_error(root / "animations", "animations are not supported yet");
   check_nodes(document, root);
+  check_skins(document, root);
+  check_animations(document, root);
   check_primitives(document, root);
   check_accessors(document, root);
   check_textures(document, root);

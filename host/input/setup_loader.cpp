@@ -97,7 +97,7 @@ Setup load_setup(const std::filesystem::path &file) {
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
 
   const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
-  const GltfFile gltf = load_gltf(scene_file, root / "scene");
+  GltfFile gltf = load_gltf(scene_file, root / "scene");
   GltfScene scene = gltf.at(setup.frames.start_s);
   const ordered_json &sensors = setup.as_used.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
@@ -113,7 +113,7 @@ Setup load_setup(const std::filesystem::path &file) {
         fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));
   setup.start.scene = std::move(scene.scene);
   if (gltf.moves())
-    setup.motion = std::make_shared<const Motion>(gltf, setup.as_used, root);
+    setup.motion = std::make_shared<const Motion>(std::move(gltf), setup.as_used, root);
   return setup;
 }
 
