@@ -19,7 +19,6 @@ void expect_only(const ordered_json &value, const ordered_json &supported, const
 }
 
 void check_sensor(const ordered_json &sensor, const Place &place) {
-  expect_only(sensor, {{"tap_interval_s", 0}}, place);
   if (sensor.at("samples").is_string())
     throw input_error(place / "samples", "not supported yet (expected an integer from 1 to 16)");
 }
@@ -42,7 +41,6 @@ void refuse_unsupported(const ordered_json &setup, const Place &root) {
   if (setup.at("illuminators").size() > 1)
     throw input_error(root / "illuminators" / 1, "several illuminators are not supported yet (expected one)");
   check_illuminator(setup.at("illuminators").at(0), root / "illuminators" / 0);
-  expect_only(setup.at("frames"), {{"start_s", 0}, {"count", 1}}, root / "frames");
 }
 
 } // namespace pmdsim
