@@ -32,6 +32,7 @@ struct SensorFindings {
   VisibleRange visible;
   std::vector<AmbiguityFinding> frequencies;
   std::optional<double> common_ambiguity_m; // of all frequencies together
+  double tap_sequence_s; // from a frame's first tap to the end of its last; 0 where all are taken at once
 };
 
 struct Findings {
@@ -39,6 +40,8 @@ struct Findings {
   double intensity_w_sr; // of all diodes together, each on its axis, modulated part
   double power_w;        // of all diodes together over all directions, modulated part
   std::vector<SensorFindings> sensors;
+  FrameTimes frames;
+  bool moves; // anything does
 };
 
 Findings findings_of(const Setup &setup);
