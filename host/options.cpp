@@ -5,8 +5,11 @@
 #include "host/input/limits.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <map>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
@@ -24,7 +27,8 @@ const std::map<std::string, Format> format_names{
 // The command line before it is checked; what comes later is kept to be refused.
 struct Written {
   std::string setup, output_directory, device, calibration, sensor_name;
-  std::string frames = "0:1", mode = "exact", precision = "fp32", max_error, max_amplitude_error;
+  std::string mode = "exact", precision = "fp32", max_error, max_amplitude_error;
+  std::optional<std::string> frames;
   std::uint32_t samples = 0; // 0: as in the setup
   std::optional<double> pixel_pitch_m;
   std::vector<std::string> formats;
@@ -65,7 +69,8 @@ void add_writing(CLI::App &command, Written &written, const std::string &default
                   fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]", default_formats))
       ->delimiter(',')
       ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
-  command.add_option("--frames", written.frames, "A:B, frames A to B - 1; only 0:1 is supported yet");
+  command.add_option("--frames", written.frames,
+                     "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
 }
 
 void add_importing(CLI::App &command, Written &written) {
@@ -81,7 +86,7 @@ void add_importing(CLI::App &command, Written &written) {
 
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
-      app.add_subcommand("render", "measure a frame: amplitude, phase, distance and ground truth");
+      app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
   add_setup(*render, written);
   add_writing(*render, written, "exr,png");
   add_measuring(*render, written);
@@ -120,7 +125,6 @@ void refuse_what_comes_later(const Written &written) {
   refuse(!written.max_error.empty(), "--max-error");
   refuse(!written.max_amplitude_error.empty(), "--max-amplitude-error");
   refuse(written.precision != "fp32", "--precision " + written.precision);
-  refuse(written.frames != "0:1", "--frames " + written.frames);
   refuse(written.no_wide_vectors, "--no-wide-vectors");
 }
 
@@ -142,6 +146,23 @@ void check_importing(const Written &written) {
                     in_quotes(written.sensor_name));
 }
 
+// Text that is a whole number and nothing else.
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+FrameRange frame_range_of(const std::string &text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto first = whole_number(std::string_view(text).substr(0, colon));
+  const auto end = whole_number(std::string_view(text).substr(std::min(colon + 1, text.size())));
+  if (!first || !end || *first >= *end)
+    throw Error(ExitCode::usage,
+                "--frames: expected A:B, whole numbers, A below B, found " + in_quotes(text));
+  return {*first, *end};
+}
+
 Options checked(const Written &written, const std::string &command) {
   refuse(!command_names.contains(command), command);
   refuse(command == "bench" && written.setup.empty(), "bench without a setup");
@@ -157,6 +178,8 @@ Options checked(const Written &written, const std::string &command) {
   options.json = written.json;
   if (written.samples != 0)
     options.samples = written.samples;
+  if (written.frames)
+    options.frames = frame_range_of(*written.frames);
   options.output_directory = output_directory(written, command);
   for (const std::string &format : written.formats)
     options.formats.insert(format_names.at(format));

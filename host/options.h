@@ -12,11 +12,19 @@ namespace pmdsim {
 enum class Command { render, deform, check, bench, import_calibration, devices };
 enum class Format { exr, npy, png, csv };
 
+// Frames `first` to `end` - 1.
+struct FrameRange {
+  std::uint32_t first = 0, end = 1;
+
+  std::uint32_t count() const { return end - first; }
+};
+
 struct Options {
   Command command = Command::devices;
   std::filesystem::path setup;            // all but import-calibration and devices
   std::filesystem::path output_directory; // render and deform; filled in where -o is absent
   std::set<Format> formats;               // render and deform
+  std::optional<FrameRange> frames;       // render and deform, instead of all
   std::string device;                     // as SimulatorOptions::device, or "reference" in any case
   std::optional<std::uint32_t> samples;   // S, instead of the setup's
   std::filesystem::path calibration;      // import-calibration, and the two below

@@ -108,6 +108,16 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
   });
 }
 
+// A device has one viewport, so one pipeline for each fragment shader.
+std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, float half_viewport,
+                                                 std::span<const std::uint32_t> fragment_spirv) {
+  return device.pipelines().get(fragment_spirv.data(), {}, [&] {
+    vk::raii::PipelineLayout layout = make_layout(device);
+    vk::raii::Pipeline pipeline = make_pipeline(device, layout, half_viewport, fragment_spirv);
+    return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
+  });
+}
+
 } // namespace
 
 std::uint32_t raster_block_fragments(const vulkan::Device &device) {
@@ -127,8 +137,7 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
       depth_(device, largest_extent(projection.blocks, strips), depth_format,
              vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      layout_(make_layout(device)),
-      pipeline_(make_pipeline(device, layout_, half_viewport_, fragment_shader(device, masked, precision))) {}
+      compiled_(compiled(device, half_viewport_, fragment_shader(device, masked, precision))) {}
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                             const SceneBuffers &scene, const vulkan::Buffer &tags) const {
@@ -156,7 +165,7 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *compiled_->pipeline);
   commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
   const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
   for (std::uint32_t row = 0; row < tiles; ++row)
@@ -197,7 +206,8 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       words(scene.planes.address()),
       words(scene.paint.shapes.address()),
       words(scene.paint.surfaces.address())};
-  commands.pushConstants<shader::VisibilityConstants>(*layout_, stages_with_constants, 0, constants);
+  commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
+                                                      constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
 }
 

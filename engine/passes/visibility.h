@@ -42,8 +42,7 @@ private:
   vulkan::Image tags_;
   vulkan::Image depth_;
   float half_viewport_;
-  vk::raii::PipelineLayout layout_;
-  vk::raii::Pipeline pipeline_;
+  std::shared_ptr<const vulkan::Pipeline> compiled_;
 };
 
 } // namespace pmdsim

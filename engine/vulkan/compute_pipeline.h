@@ -4,15 +4,12 @@
 #include "engine/vulkan/device.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
-#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim::vulkan {
-
-// Specialization constants: the value of constant_id i stands at index i.
-using Specialization = std::vector<std::uint32_t>;
 
 class ComputePipeline {
 public:
@@ -26,15 +23,14 @@ public:
                 std::uint32_t invocations, std::uint32_t workgroup) const {
     if (sizeof(Constants) != push_constant_bytes_ || invocations % workgroup != 0)
       throw std::logic_error("a dispatch does not fit its pipeline");
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.pushConstants<Constants>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, constants);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *compiled_->pipeline);
+    commands.pushConstants<Constants>(*compiled_->layout, vk::ShaderStageFlagBits::eCompute, 0, constants);
     commands.dispatch(invocations / workgroup, 1, 1);
   }
 
 private:
   std::uint32_t push_constant_bytes_ = 0;
-  vk::raii::PipelineLayout layout_ = nullptr;
-  vk::raii::Pipeline pipeline_ = nullptr;
+  std::shared_ptr<const Pipeline> compiled_;
 };
 
 } // namespace pmdsim::vulkan

@@ -2,6 +2,7 @@
 // One Vulkan device, its one queue (graphics and compute) and what the passes must know of its limits.
 
 #include "engine/vulkan/instance.h"
+#include "engine/vulkan/pipeline_cache.h"
 
 #include <cstdint>
 #include <string>
@@ -30,6 +31,8 @@ public:
   const Limits &limits() const { return limits_; }
   bool is_cpu() const { return is_cpu_; }
   bool has_fp64() const { return has_fp64_; }
+  // Of this device: what is compiled does not change it.
+  PipelineCache &pipelines() const { return pipelines_; }
   // Throws std::logic_error with the first of the validation layer's messages, if there is any.
   void require_no_validation_message() const;
 
@@ -47,6 +50,7 @@ private:
   std::uint32_t queue_family_;
   vk::raii::Device device_;
   vk::raii::Queue queue_;
+  mutable PipelineCache pipelines_;
 };
 
 } // namespace pmdsim::vulkan

@@ -115,13 +115,16 @@ std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string 
   const std::size_t diodes = diode_count(setup.start.illuminators);
   Camera camera(device, {.sample_triangles = true});
   std::vector<AccuracyCheck> checks;
+  ProgressBar bar(2.0 * static_cast<double>(setup.start.sensors.size()));
+  const auto progress = interruptible_progress(bar);
   for (const Sensor &fine : setup.start.sensors) {
     const Sensor sensor = affordable(fine, diodes, setup.start.sensors.size());
     camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
-    const Measurement found = camera.measure("measuring what is checked");
-    ProgressBar bar("checking against the reference");
-    const reference::Frame truth = reference::simulate(setup.start.scene, sensor, setup.start.illuminators,
-                                                       setup.backscatter, interruptible_progress(bar));
+    bar.begin("measuring what is checked", 1.0);
+    const Measurement found = camera.measure(progress);
+    bar.begin("checking against the reference", 1.0);
+    const reference::Frame truth =
+        reference::simulate(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter, progress);
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
       checks.push_back(compare(found, truth, sensor, i));
   }

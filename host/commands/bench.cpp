@@ -1,7 +1,8 @@
 #include "host/commands/accuracy_check.h"
-#include "host/commands/camera.h"
 #include "host/commands/commands.h"
+#include "host/commands/exposure.h"
 #include "host/commands/loaded_setup.h"
+#include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
 #include "host/output/manifest.h"
 
@@ -44,22 +45,24 @@ std::vector<AccuracyCheck> check_before_timing(const Setup &setup, const Camera 
   return checks;
 }
 
-// Of all sensors.
+// Of all sensors and exposures.
 double interaction_count(const Setup &setup) {
-  double samples = 0.0;
-  for (const Sensor &sensor : setup.start.sensors)
-    samples += static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
-  return samples * static_cast<double>(diode_count(setup.start.illuminators));
+  return samples_of_frame(setup) * static_cast<double>(diode_count(setup.start.illuminators));
 }
 
 // Only times are kept: frames of the largest sensors would not fit side by side.
-Timing time_frames(Camera &camera) {
+Timing time_frames(const Setup &setup, std::size_t sensor, Exposures &exposures, ProgressBar &bar) {
+  const auto measure = [&](const std::string &label) {
+    bar.begin(label, samples_of_frame(setup, setup.start.sensors[sensor]));
+    return exposures.take(sensor, setup.frames.start_s, Light::beside_lens, interruptible_progress(bar))
+        .measurement;
+  };
   std::vector<double> frames_ms;
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> passes_ms;
-  camera.measure("warming up");
+  measure("warming up");
   for (int i = 0; i < measured_frames; ++i) {
-    const Measurement measurement = camera.measure(fmt::format("timing {}/{}", i + 1, measured_frames));
+    const Measurement measurement = measure(fmt::format("timing {}/{}", i + 1, measured_frames));
     frames_ms.push_back(measurement.frame_ms);
     for (const PassTime &pass : measurement.passes) {
       if (!passes_ms.contains(pass.name))
@@ -86,12 +89,11 @@ void add(Timing &sum, const Timing &timing) {
   }
 }
 
-Timing time_all_sensors(const Setup &setup, Camera &camera) {
+Timing time_all_sensors(const Setup &setup, Exposures &exposures) {
+  ProgressBar bar((1 + measured_frames) * samples_of_frame(setup));
   Timing sum;
-  for (const Sensor &sensor : setup.start.sensors) {
-    camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
-    add(sum, time_frames(camera));
-  }
+  for (std::size_t i = 0; i < setup.start.sensors.size(); ++i)
+    add(sum, time_frames(setup, i, exposures, bar));
   return sum;
 }
 
@@ -160,9 +162,10 @@ std::string report_text(const Setup &setup, const Camera &camera, const Timing &
 
 void run_bench(const Options &options) {
   const Setup setup = load_for_command(options);
-  Camera camera(options.device);
+  Exposures exposures(setup, options.device, false);
+  const Camera &camera = exposures.camera();
   const std::vector<AccuracyCheck> checks = check_before_timing(setup, camera, options.device);
-  const Timing timing = time_all_sensors(setup, camera);
+  const Timing timing = time_all_sensors(setup, exposures);
   if (options.json)
     print(report_json(setup, camera, timing, checks));
   else

@@ -2,7 +2,6 @@
 
 #include "engine/reference/reference.h"
 #include "host/commands/interruption.h"
-#include "host/commands/progress_bar.h"
 
 #include <algorithm>
 #include <cctype>
@@ -50,10 +49,8 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
     simulator_->prepare(scene, sensor, illuminators, backscatter);
 }
 
-Measurement Camera::measure(const std::string &label) {
-  ProgressBar bar(label);
-  const auto progress = interruptible_progress(bar);
-  progress(0.0);
+Measurement Camera::measure(const Progress &progress) {
+  throw_if_interrupted();
   if (simulator_)
     return simulator_->measure(progress);
   Measurement measurement = reference::to_measurement(reference::simulate(

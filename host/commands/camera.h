@@ -31,8 +31,8 @@ public:
   // What follows measures this. `scene` must outlive it.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter);
-  // One frame; `label` stands beside the progress bar. Throws Error, interrupted among others.
-  Measurement measure(const std::string &label);
+  // One frame. Throws Error, interrupted among others.
+  Measurement measure(const Progress &progress = {});
 
 private:
   struct Prepared {

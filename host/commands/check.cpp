@@ -14,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json sensor_json(const SensorFindings &findings) {
-  const auto &[sensor, view, visible, frequencies, common_ambiguity_m] = findings;
+  const auto &[sensor, view, visible, frequencies, common_ambiguity_m, sequence_s] = findings;
   ordered_json shares_beyond = ordered_json::array();
   for (const AmbiguityFinding &frequency : frequencies)
     shares_beyond.push_back(frequency.share_beyond);
@@ -33,7 +33,19 @@ ordered_json sensor_json(const SensorFindings &findings) {
       {"share_beyond_ambiguity", shares_beyond},
       {"common_ambiguity_m", common_ambiguity_m ? ordered_json(*common_ambiguity_m) : ordered_json(nullptr)},
       {"waveform", waveform_json(sensor.waveform)},
-      {"taps", sensor.taps}};
+      {"taps", sensor.taps},
+      {"tap_interval_s", sensor.tap_interval_s},
+      {"tap_sequence_s", sequence_s}};
+}
+
+// From the first frame's time to the last one's.
+double span_s(const FrameTimes &frames) { return frames.time_s(frames.count - 1) - frames.start_s; }
+
+ordered_json frames_json(const FrameTimes &frames) {
+  return {{"start_s", frames.start_s},
+          {"rate_hz", frames.count > 1 ? ordered_json(frames.rate_hz) : ordered_json(nullptr)},
+          {"count", frames.count},
+          {"span_s", span_s(frames)}};
 }
 
 ordered_json light_json(const LightFindings &light) {
@@ -58,6 +70,8 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
     sensors.push_back(sensor_json(sensor));
   ordered_json report{{"triangles", findings.triangles}};
   report.update(light_json(findings.light));
+  report["frames"] = frames_json(findings.frames);
+  report["moves"] = findings.moves;
   report["ambiguity_m"] = findings.sensors.front().frequencies.front().ambiguity_m;
   for (const char *key :
        {"image_distance_m", "field_of_view_deg", "pixel_footprint_at_1m_m", "visible_range_m"})
@@ -94,7 +108,7 @@ std::string frequencies_text(const SensorFindings &findings) {
 }
 
 std::string sensor_text(const SensorFindings &findings) {
-  const auto &[sensor, view, visible, frequencies, common_ambiguity_m] = findings;
+  const auto &[sensor, view, visible, frequencies, common_ambiguity_m, sequence_s] = findings;
   const glm::dvec2 footprint_mm = 1e3 * view.footprint_at_1m_m;
   std::string text =
       "\n" + line("sensor", sensor.name) + line("visible", visible_text(visible)) +
@@ -107,8 +121,19 @@ std::string sensor_text(const SensorFindings &findings) {
   if (sensor.vignetting == Vignetting::cos4)
     text += line("vignetting",
                  fmt::format("cos^4, {:.3g} of the light in the darkest corner", view.darkest_corner));
-  return text + line("waveform", fmt::format("{}, {} taps", waveform_text(sensor.waveform), sensor.taps)) +
-         frequencies_text(findings);
+  text += line("waveform", fmt::format("{}, {} taps", waveform_text(sensor.waveform), sensor.taps));
+  if (sequence_s > 0.0)
+    text += line("taps of a frame",
+                 fmt::format("{} one after the other, {:.6g} s each, {:.6g} s in all",
+                             sensor.taps * sensor.modulation_hz.size(), sensor.tap_interval_s, sequence_s));
+  return text + frequencies_text(findings);
+}
+
+std::string frames_text(const FrameTimes &frames) {
+  if (frames.count == 1)
+    return fmt::format("1, at {:.6g} s", frames.start_s);
+  return fmt::format("{} at {:.6g} Hz, from {:.6g} s to {:.6g} s", frames.count, frames.rate_hz,
+                     frames.start_s, frames.time_s(frames.count - 1));
 }
 
 std::string light_text(const LightFindings &light) {
@@ -126,7 +151,9 @@ std::string illuminators_text(const Findings &findings) {
 
 std::string report_text(const Setup &setup, const Findings &findings) {
   std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
-                     line("triangles", fmt::format("{}", findings.triangles)) + illuminators_text(findings);
+                     line("triangles", fmt::format("{}", findings.triangles)) + illuminators_text(findings) +
+                     line("frames", frames_text(findings.frames)) +
+                     line("motion", findings.moves ? "the scene moves" : "nothing moves");
   for (const SensorFindings &sensor : findings.sensors)
     text += sensor_text(sensor);
   return text;

@@ -1,7 +1,9 @@
-#include "host/commands/camera.h"
 #include "host/commands/commands.h"
+#include "host/commands/exposure.h"
+#include "host/commands/frame_sequence.h"
 #include "host/commands/frame_writer.h"
 #include "host/commands/loaded_setup.h"
+#include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
 #include "host/output/deformation.h"
 #include "host/output/manifest.h"
@@ -19,18 +21,20 @@ using nlohmann::ordered_json;
 // Deformations of one frame, a map each frequency.
 using Maps = std::vector<std::vector<float>>;
 
+// What scripts and people are told of one sensor's frame.
 struct DeformedFrame {
-  FrameRecord record;
+  std::uint32_t frame;
+  double time_s;
+  std::string sensor;
+  std::vector<double> modulation_hz;
   std::vector<DeformationStatistics> statistics; // of each frequency
 };
 
 // Only the distances are kept while the frame with the light beside the lens is measured.
-Maps monostatic_distances_m(Camera &camera, const Setup &setup, const Sensor &sensor) {
-  camera.prepare(setup.start.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                 setup.backscatter);
-  Measurement measurement = camera.measure(fmt::format("measuring {}, light in the lens", sensor.name));
+Maps monostatic_distances_m(Exposures &exposures, const SensorFrame &at, const Progress &progress) {
+  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress);
   Maps distances_m;
-  for (Return &of_frequency : measurement.returns)
+  for (Return &of_frequency : frame.measurement.returns)
     distances_m.push_back(std::move(of_frequency.distance_m));
   return distances_m;
 }
@@ -47,37 +51,51 @@ void write_profile_plot(OutputSet &outputs, const FrameToWrite &frame, const Cha
   });
 }
 
-void write_files(OutputSet &outputs, const Sensor &sensor, const Measurement &bistatic,
-                 const Maps &deformations, const std::set<Format> &formats) {
+void write_files(OutputSet &outputs, const Sensor &sensor, std::uint32_t frame_number,
+                 const Measurement &bistatic, const Maps &deformations, const std::set<Format> &formats) {
   ChannelSet set{bistatic.resolution, {}};
   for (std::size_t i = 0; i < deformations.size(); ++i)
     set.channels.push_back(
         {"deformation_mm", "mm", std::span(deformations[i]), frequency_of(i, deformations.size())});
   const ChannelSet measured = channels_of(bistatic);
   set.channels.insert(set.channels.end(), measured.channels.begin(), measured.channels.end());
-  const FrameToWrite frame{sensor, 0, set, {"deformation_mm"}};
+  const FrameToWrite frame{sensor, frame_number, set, {"deformation_mm"}};
   write_frame(outputs, frame, formats);
   if (formats.contains(Format::png))
     for (std::size_t i = 0; i < deformations.size(); ++i)
       write_profile_plot(outputs, frame, set.channels[i]);
 }
 
-DeformedFrame deform_frame(Camera &camera, const Setup &setup, const Sensor &sensor, OutputSet &outputs,
-                           const std::set<Format> &formats) {
-  const Maps monostatic_m = monostatic_distances_m(camera, setup, sensor);
-  camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
-  const Measurement bistatic =
-      camera.measure(fmt::format("measuring {}, light beside the lens", sensor.name));
+// Wrapped, a map each frequency.
+Maps deformations_mm(const TakenFrame &bistatic, const Maps &monostatic_m) {
   Maps deformations;
-  std::vector<DeformationStatistics> statistics;
-  for (std::size_t i = 0; i < bistatic.returns.size(); ++i) {
-    deformations.push_back(
-        deformation_mm(bistatic.returns[i].distance_m, monostatic_m[i], sensor.ambiguity_m(i)));
-    statistics.push_back(statistics_of(deformations.back(), bistatic.resolution));
-  }
-  const std::size_t first_output = outputs.names().size();
-  write_files(outputs, sensor, bistatic, deformations, formats);
-  return {{sensor, 0, bistatic.frame_ms, bistatic.passes, outputs.names_from(first_output)}, statistics};
+  for (std::size_t i = 0; i < monostatic_m.size(); ++i)
+    deformations.push_back(deformation_mm(bistatic.measurement.returns[i].distance_m, monostatic_m[i],
+                                          bistatic.sensor.ambiguity_m(i)));
+  return deformations;
+}
+
+std::vector<DeformedFrame> deform(const Setup &setup, const FrameRange &frames,
+                                  const std::set<Format> &formats, Exposures &exposures,
+                                  FrameSequence &sequence) {
+  ProgressBar bar(2.0 * frames.count() * samples_of_frame(setup));
+  const auto progress = interruptible_progress(bar);
+  std::vector<DeformedFrame> deformed;
+  sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
+    const double work = samples_of_frame(setup, setup.start.sensors[at.sensor]);
+    bar.begin(at.label + ", monostatic", work);
+    const Maps monostatic_m = monostatic_distances_m(exposures, at, progress);
+    bar.begin(at.label + ", bistatic", work);
+    const TakenFrame bistatic = exposures.take(at.sensor, at.time_s, Light::beside_lens, progress);
+    const auto &[sensor, measurement] = bistatic;
+    const Maps deformations = deformations_mm(bistatic, monostatic_m);
+    write_files(files, sensor, at.frame, measurement, deformations, formats);
+    deformed.push_back({at.frame, at.time_s, sensor.name, sensor.modulation_hz, {}});
+    for (const std::vector<float> &deformation : deformations)
+      deformed.back().statistics.push_back(statistics_of(deformation, measurement.resolution));
+    return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, {}};
+  });
+  return deformed;
 }
 
 ordered_json statistics_json(const DeformationStatistics &statistics) {
@@ -88,30 +106,31 @@ ordered_json statistics_json(const DeformationStatistics &statistics) {
           {"rms", statistics.rms_mm}};
 }
 
-ordered_json report_json(const std::vector<DeformedFrame> &frames, const OutputSet &outputs) {
+ordered_json report_json(const std::vector<DeformedFrame> &frames, const FrameSequence &sequence) {
   ordered_json list = ordered_json::array();
   for (const DeformedFrame &frame : frames) {
     ordered_json deformations = ordered_json::array();
     for (const DeformationStatistics &statistics : frame.statistics)
       deformations.push_back(statistics_json(statistics));
-    list.push_back({{"sensor", frame.record.sensor.name},
-                    {"frame", frame.record.frame},
-                    {"modulation_hz", frame.record.sensor.modulation_hz},
+    list.push_back({{"sensor", frame.sensor},
+                    {"frame", frame.frame},
+                    {"time_s", frame.time_s},
+                    {"modulation_hz", frame.modulation_hz},
                     {"deformation_mm", deformations}});
   }
   return {{"deformation_mm", statistics_json(frames.front().statistics.front())},
           {"frames", list},
-          {"outputs", outputs.paths()}};
+          {"outputs", sequence.paths()}};
 }
 
-// One row a sensor and frequency.
+// Of the first frame, one row a sensor and frequency.
 std::string table_text(const std::vector<DeformedFrame> &frames) {
   std::size_t width = 0;
   std::vector<std::pair<std::string, DeformationStatistics>> rows;
-  for (const auto &[record, statistics] : frames)
-    for (std::size_t i = 0; i < statistics.size(); ++i) {
-      const std::string frequency = frequency_text(record.sensor.modulation_hz[i]);
-      rows.emplace_back(fmt::format("{}, {}", record.sensor.name, frequency), statistics[i]);
+  for (const DeformedFrame &frame : frames)
+    for (std::size_t i = 0; frame.frame == frames.front().frame && i < frame.statistics.size(); ++i) {
+      rows.emplace_back(fmt::format("{}, {}", frame.sensor, frequency_text(frame.modulation_hz[i])),
+                        frame.statistics[i]);
       width = std::max(width, rows.back().first.size());
     }
   std::string text =
@@ -126,25 +145,29 @@ std::string table_text(const std::vector<DeformedFrame> &frames) {
   return text;
 }
 
+std::string report_text(const std::vector<DeformedFrame> &frames, const FrameSequence &sequence) {
+  std::string text = fmt::format("device    {} ({})\n\n", sequence.run().device, sequence.run().driver);
+  text += "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
+  if (frames.back().frame != frames.front().frame)
+    text += fmt::format("of frame {}; --json tells of all\n", frames.front().frame);
+  return text + "\n" + sequence.written_text();
+}
+
 } // namespace
 
 void run_deform(const Options &options) {
   const Setup setup = load_for_command(options);
+  const FrameRange frames = frames_of(options, setup);
   require_names_for_files(setup.start.sensors);
-  OutputSet outputs(options.output_directory);
-  Camera camera(options.device);
-  RunRecord run{"deform", camera.device(), camera.driver(), "exact", setup.as_used, {}};
-  std::vector<DeformedFrame> frames;
-  for (const Sensor &sensor : setup.start.sensors) {
-    frames.push_back(deform_frame(camera, setup, sensor, outputs, options.formats));
-    run.frames.push_back(frames.back().record);
-  }
-  publish_run(outputs, run);
+  Exposures exposures(setup, options.device, false);
+  const Camera &camera = exposures.camera();
+  FrameSequence sequence(setup, frames, options.output_directory,
+                         {"deform", camera.device(), camera.driver(), "exact", setup.as_used, {}});
+  const std::vector<DeformedFrame> deformed = deform(setup, frames, options.formats, exposures, sequence);
   if (options.json)
-    print(report_json(frames, outputs));
+    print(report_json(deformed, sequence));
   else
-    print(fmt::format("device    {} ({})\n\ndeformation (bistatic - monostatic distance), mm\n{}\n{}",
-                      camera.device(), camera.driver(), table_text(frames), written_text(outputs.paths())));
+    print(report_text(deformed, sequence));
 }
 
 } // namespace pmdsim

@@ -1,6 +1,7 @@
 #include "host/commands/findings.h"
 
 #include "engine/reference/reference.h"
+#include "engine/tap_sequence.h"
 #include "host/commands/coarser_sensor.h"
 #include "host/commands/report.h"
 
@@ -38,7 +39,12 @@ double share_beyond(const std::vector<double> &ranges_m, double ambiguity_m) {
 
 SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor) {
   const std::vector<double> ranges_m = visible_ranges_m(setup, sensor);
-  SensorFindings findings{sensor, field_of_view(sensor), {}, {}, common_ambiguity_m(sensor.modulation_hz)};
+  SensorFindings findings{sensor,
+                          field_of_view(sensor),
+                          {},
+                          {},
+                          common_ambiguity_m(sensor.modulation_hz),
+                          tap_sequence_s(sensor)};
   if (!ranges_m.empty())
     findings.visible = {std::ranges::min(ranges_m), std::ranges::max(ranges_m)};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
@@ -98,7 +104,7 @@ LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &k
 }
 
 void add_warnings(std::vector<std::string> &warnings, const SensorFindings &findings) {
-  const auto &[sensor, view, visible, frequencies, common] = findings;
+  const auto &[sensor, view, visible, frequencies, common, sequence_s] = findings;
   if (visible.is_empty())
     warnings.push_back(fmt::format("sensor {}: no ray of a coarse frame hits the scene; is the camera turned "
                                    "away, or are the scene's back faces culled?",
@@ -112,10 +118,21 @@ void add_warnings(std::vector<std::string> &warnings, const SensorFindings &find
                       ambiguity_m));
 }
 
+void add_tap_warning(std::vector<std::string> &warnings, const SensorFindings &findings,
+                     const FrameTimes &frames) {
+  constexpr double rounding = 1e-9;
+  const double frame_s = 1.0 / frames.rate_hz;
+  if (frames.count > 1 && findings.tap_sequence_s > frame_s * (1.0 + rounding))
+    warnings.push_back(
+        fmt::format("sensor {}: its taps take {:.6g} s, longer than the {:.6g} s from one frame "
+                    "to the next: frames overlap",
+                    findings.sensor.name, findings.tap_sequence_s, frame_s));
+}
+
 } // namespace
 
 Findings findings_of(const Setup &setup) {
-  Findings findings{setup.start.scene.triangles.size(), {}, {}, {}};
+  Findings findings{setup.start.scene.triangles.size(), {}, {}, {}, setup.frames, setup.motion != nullptr};
   DiagramAngles known_sr;
   for (const Illuminator &illuminator : setup.start.illuminators) {
     const LightFindings light = findings_of_light(illuminator, known_sr);
@@ -134,6 +151,8 @@ std::vector<std::string> warnings_of(const Findings &findings) {
   if (findings.triangles > 0)
     for (const SensorFindings &sensor : findings.sensors)
       add_warnings(warnings, sensor);
+  for (const SensorFindings &sensor : findings.sensors)
+    add_tap_warning(warnings, sensor, findings.frames);
   return warnings;
 }
 

@@ -33,6 +33,7 @@ struct SensorFindings {
   VisibleRange visible;
   std::vector<AmbiguityFinding> frequencies;
   std::optional<double> common_ambiguity_m; // of all frequencies together
+  double tap_sequence_s; // from a frame's first tap to the end of its last; 0 where all are taken at once
 };
 
 // Of all diodes of one illuminator together, or of all that there are.
@@ -47,6 +48,8 @@ struct Findings {
   LightFindings light;
   std::vector<std::pair<std::string, LightFindings>> illuminators; // with their names
   std::vector<SensorFindings> sensors;
+  FrameTimes frames;
+  bool moves; // anything does
 };
 
 Findings findings_of(const Setup &setup);

@@ -83,10 +83,4 @@ void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<F
   }
 }
 
-void publish_run(OutputSet &outputs, const RunRecord &run) {
-  outputs.add(manifest_name, [&](OutputFile &file) { file.write(json_text(manifest_json(run))); });
-  throw_if_interrupted();
-  outputs.publish();
-}
-
 } // namespace pmdsim

@@ -1,11 +1,10 @@
 #pragma once
 // The files of one frame: SENSOR_FRAME.exr, SENSOR_FRAME.CHANNEL.npy, SENSOR_FRAME.CHANNEL.png and
-// SENSOR_FRAME.profile.csv, as far as the command line asks for them; and the manifest of all.
+// SENSOR_FRAME.profile.csv, as far as the command line asks for them.
 
 #include "engine/sensor.h"
 #include "host/options.h"
 #include "host/output/channel.h"
-#include "host/output/manifest.h"
 #include "host/output/output_set.h"
 
 #include <cstdint>
@@ -35,10 +34,5 @@ std::string picture_title(const std::string &quantity, const FrameToWrite &frame
 
 // Adds the files to `outputs`. Throws Error, interrupted among others.
 void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats);
-
-inline constexpr const char *manifest_name = "manifest.json";
-
-// Adds the manifest and publishes. Throws Error, interrupted among others.
-void publish_run(OutputSet &outputs, const RunRecord &run);
 
 } // namespace pmdsim

@@ -14,14 +14,26 @@ namespace {
 constexpr auto least_interval = std::chrono::milliseconds(100);
 constexpr const char *clear_line = "\r\x1b[K";
 
+std::string time_text(double time_s) {
+  if (time_s <= 120.0)
+    return fmt::format("{:.0f} s", std::ceil(time_s));
+  return time_s <= 7200.0 ? fmt::format("{:.0f} min", std::ceil(time_s / 60.0))
+                          : fmt::format("{:.1f} h", time_s / 3600.0);
+}
+
 } // namespace
 
-ProgressBar::ProgressBar(std::string label)
-    : label_(std::move(label)), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(double work) : work_(work), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_)
     std::fputs(clear_line, stderr);
+}
+
+void ProgressBar::begin(std::string label, double work) {
+  label_ = std::move(label);
+  done_ += std::exchange(step_, work);
+  update(0.0);
 }
 
 void ProgressBar::update(double fraction) {
@@ -29,7 +41,10 @@ void ProgressBar::update(double fraction) {
   if (!on_terminal_ || (shown_ && now - last_shown_ < least_interval))
     return;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fputs(fmt::format("{}{} {}", clear_line, label_, progress_text(fraction, elapsed_s)).c_str(), stderr);
+  std::fputs(
+      fmt::format("{}{} {}", clear_line, label_, progress_text((done_ + fraction * step_) / work_, elapsed_s))
+          .c_str(),
+      stderr);
   std::fflush(stderr);
   last_shown_ = now;
   shown_ = true;
@@ -43,12 +58,12 @@ std::function<void(double)> interruptible_progress(ProgressBar &bar) {
 }
 
 std::string progress_text(double fraction, double elapsed_s) {
-  constexpr std::size_t width = 30;
+  constexpr std::size_t width = 20; // so that a line of a terminal holds label, bar and time
   const double done = std::clamp(fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(done * width);
-  std::string text = fmt::format("[{:#<{}}{:-<{}}] {:3.0f} %", "", filled, "", width - filled, 100.0 * done);
+  std::string text = fmt::format("[{:#<{}}{:-<{}}] {:.0f} %", "", filled, "", width - filled, 100.0 * done);
   if (done > 0.0)
-    text += fmt::format(", {:.0f} s left", std::ceil(elapsed_s * (1.0 - done) / done));
+    text += ", " + time_text(elapsed_s * (1.0 - done) / done) + " left";
   return text;
 }
 

@@ -7,21 +7,25 @@
 
 namespace pmdsim {
 
-// Shown from the first update on; cleared when it dies.
+// Of a command's steps, one after the other. Shown from the first update on; cleared when it dies.
 class ProgressBar {
 public:
-  explicit ProgressBar(std::string label);
+  // `work` is that of all steps together, in any unit.
+  explicit ProgressBar(double work);
   ~ProgressBar();
   ProgressBar(const ProgressBar &) = delete;
   ProgressBar &operator=(const ProgressBar &) = delete;
 
-  // `fraction` done, 0 to 1. Cheap enough to be called often.
+  // The next step, all before it are done.
+  void begin(std::string label, double work);
+  // `fraction` of the step done, 0 to 1. Cheap enough to be called often.
   void update(double fraction);
 
 private:
   using Clock = std::chrono::steady_clock;
 
   std::string label_;
+  double work_, done_ = 0.0, step_ = 0.0; // of all steps, of those before the current one, of that
   bool on_terminal_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
@@ -32,7 +36,7 @@ private:
 // must outlive it.
 std::function<void(double)> interruptible_progress(ProgressBar &bar);
 
-// "[##########----------]  50 %, 12 s left"; no time where nothing is done yet.
+// "[##########----------] 50 %, 12 s left"; no time where nothing is done yet.
 std::string progress_text(double fraction, double elapsed_s);
 
 } // namespace pmdsim

@@ -1,9 +1,10 @@
-#include "host/commands/camera.h"
 #include "host/commands/commands.h"
+#include "host/commands/exposure.h"
+#include "host/commands/frame_sequence.h"
 #include "host/commands/frame_writer.h"
 #include "host/commands/loaded_setup.h"
+#include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
-#include "host/output/manifest.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -29,8 +30,8 @@ std::string spread_line(const std::string &quantity, const std::vector<float> &v
                      table_number(max), unit);
 }
 
-std::string frame_text(const Sensor &sensor, const Measurement &measurement) {
-  std::string text = fmt::format("{}, frame 0, {:.3f} ms\n", sensor.name, measurement.frame_ms);
+std::string frame_text(const Sensor &sensor, std::uint32_t frame, const Measurement &measurement) {
+  std::string text = fmt::format("{}, frame {}, {:.3f} ms\n", sensor.name, frame, measurement.frame_ms);
   text += fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
   for (std::size_t i = 0; i < measurement.returns.size(); ++i) {
     const std::string at = frequency_of(i, sensor.modulation_hz.size())
@@ -43,32 +44,15 @@ std::string frame_text(const Sensor &sensor, const Measurement &measurement) {
                             100.0 * mean_coverage(measurement.coverage));
 }
 
-struct RenderedFrame {
-  FrameRecord record;
-  std::string text;
-};
-
-// The measurement lives no longer than its files need it: frames of several large sensors would not fit side
-// by side.
-RenderedFrame render_frame(Camera &camera, const Setup &setup, const Sensor &sensor, OutputSet &outputs,
-                           const std::set<Format> &formats) {
-  camera.prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter);
-  const Measurement measurement = camera.measure("measuring " + sensor.name);
-  const std::size_t first_output = outputs.names().size();
-  write_frame(outputs, {sensor, 0, channels_of(measurement), {"amplitude", "phase_rad", "distance_m"}},
-              formats);
-  return {{sensor, 0, measurement.frame_ms, measurement.passes, outputs.names_from(first_output)},
-          frame_text(sensor, measurement)};
-}
-
 // Beside its own files a frame names the manifest, which says how to read them.
-ordered_json frame_json(const FrameRecord &frame, const OutputSet &outputs) {
+ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence) {
   ordered_json paths = ordered_json::array();
   for (const std::string &name : frame.outputs)
-    paths.push_back(outputs.path_of(name));
-  paths.push_back(outputs.path_of(manifest_name));
+    paths.push_back(sequence.path_of(name));
+  paths.push_back(sequence.path_of(manifest_name));
   return {{"sensor", frame.sensor.name},
           {"frame", frame.frame},
+          {"time_s", frame.time_s},
           {"frame_ms", frame.frame_ms},
           {"passes_ms", passes_json(frame.passes)},
           {"error_claimed_m", nullptr},
@@ -76,32 +60,49 @@ ordered_json frame_json(const FrameRecord &frame, const OutputSet &outputs) {
           {"outputs", paths}};
 }
 
-ordered_json report_json(const RunRecord &run, const OutputSet &outputs) {
+ordered_json report_json(const FrameSequence &sequence) {
   ordered_json frames = ordered_json::array();
-  for (const FrameRecord &frame : run.frames)
-    frames.push_back(frame_json(frame, outputs));
-  return {{"device", run.device}, {"mode", run.mode}, {"frames", frames}};
+  for (const FrameRecord &frame : sequence.run().frames)
+    frames.push_back(frame_json(frame, sequence));
+  return {{"device", sequence.run().device}, {"mode", sequence.run().mode}, {"frames", frames}};
+}
+
+// Writes all frames and returns what is to be said of the first.
+std::string render(const Setup &setup, const FrameRange &frames, const std::set<Format> &formats,
+                   Exposures &exposures, FrameSequence &sequence) {
+  ProgressBar bar(frames.count() * samples_of_frame(setup));
+  std::string text;
+  // The measurement lives no longer than its files need it: frames of several large sensors would not fit
+  // side by side.
+  sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
+    bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
+    const auto [sensor, measurement] =
+        exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar));
+    const std::vector<std::string> previewed{"amplitude", "phase_rad", "distance_m"};
+    write_frame(files, {sensor, at.frame, channels_of(measurement), previewed}, formats);
+    if (at.frame == frames.first)
+      text += frame_text(sensor, at.frame, measurement);
+    return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, {}};
+  });
+  return text;
 }
 
 } // namespace
 
 void run_render(const Options &options) {
   const Setup setup = load_for_command(options);
+  const FrameRange frames = frames_of(options, setup);
   require_names_for_files(setup.start.sensors);
-  OutputSet outputs(options.output_directory);
-  Camera camera(options.device, {.taps = true});
-  RunRecord run{"render", camera.device(), camera.driver(), "exact", setup.as_used, {}};
-  std::string text = fmt::format("device    {} ({})\n\n", camera.device(), camera.driver());
-  for (const Sensor &sensor : setup.start.sensors) {
-    const RenderedFrame frame = render_frame(camera, setup, sensor, outputs, options.formats);
-    run.frames.push_back(frame.record);
-    text += frame.text;
-  }
-  publish_run(outputs, run);
+  Exposures exposures(setup, options.device, true);
+  const Camera &camera = exposures.camera();
+  FrameSequence sequence(setup, frames, options.output_directory,
+                         {"render", camera.device(), camera.driver(), "exact", setup.as_used, {}});
+  const std::string text = render(setup, frames, options.formats, exposures, sequence);
   if (options.json)
-    print(report_json(run, outputs));
+    print(report_json(sequence));
   else
-    print(text + written_text(outputs.paths()));
+    print(fmt::format("device    {} ({})\n\n{}{}", camera.device(), camera.driver(), text,
+                      sequence.written_text()));
 }
 
 } // namespace pmdsim

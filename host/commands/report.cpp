@@ -44,10 +44,6 @@ void print(const nlohmann::ordered_json &json) { print(json_text(json)); }
 
 std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
 
-std::string written_text(const std::vector<std::string> &paths) {
-  return fmt::format("written:\n  {}\n", fmt::join(paths, "\n  "));
-}
-
 std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value); }
 
 Spread spread_of(std::span<const float> values) { return spread(values); }

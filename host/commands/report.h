@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace pmdsim {
 
@@ -14,9 +13,6 @@ void print(const nlohmann::ordered_json &json);
 
 // "20 MHz".
 std::string frequency_text(double modulation_hz);
-
-// "written:" and the paths below it.
-std::string written_text(const std::vector<std::string> &paths);
 
 // A number for a table, six significant digits; "-" for NaN.
 std::string table_number(double value);

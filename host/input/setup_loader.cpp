@@ -57,6 +57,17 @@ ordered_json read_setup(const Place &root) {
   return setup;
 }
 
+FrameTimes frame_times_of(const ordered_json &frames, const Place &place) {
+  FrameTimes times;
+  times.start_s = frames.at("start_s");
+  times.count = frames.at("count");
+  if (frames.contains("rate_hz"))
+    times.rate_hz = frames.at("rate_hz");
+  else if (times.count > 1)
+    throw input_error(place, "missing key \"rate_hz\", expected beside a count of more than 1");
+  return times;
+}
+
 // `kind` says what the sensors or illuminators at `place` are.
 template <class Named>
 void refuse_doubled_names(const std::vector<Named> &all, const char *kind, const Place &place) {
@@ -95,6 +106,7 @@ Setup load_setup(const std::filesystem::path &file) {
   setup.as_used = read_setup(root);
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
+  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames");
 
   const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
   GltfFile gltf = load_gltf(scene_file, root / "scene");

@@ -89,6 +89,7 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   result.modulation_hz = sensor.at("modulation_hz").get<std::vector<double>>();
   result.waveform = waveform_of(sensor.at("waveform"), place / "waveform");
   result.taps = sensor.at("taps");
+  result.tap_interval_s = sensor.at("tap_interval_s");
   result.samples = sensor.at("samples");
   check_highest_harmonic(result, place);
   check_lens(result, place);

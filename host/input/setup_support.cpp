@@ -1,25 +1,12 @@
 #include "host/input/setup_support.h"
 
-#include <fmt/format.h>
-
 namespace pmdsim {
 
 using nlohmann::ordered_json;
 
 namespace {
 
-// Refuses the first value, however deep, that differs from the only one supported.
-void expect_only(const ordered_json &value, const ordered_json &supported, const Place &place) {
-  if (value.is_object() && supported.is_object()) {
-    for (const auto &[key, member] : supported.items())
-      expect_only(value.at(key), member, place / key);
-  } else if (value != supported) {
-    throw input_error(place, fmt::format("not supported yet (expected {})", supported.dump()));
-  }
-}
-
 void check_sensor(const ordered_json &sensor, const Place &place) {
-  expect_only(sensor, {{"tap_interval_s", 0}}, place);
   if (sensor.at("samples").is_string())
     throw input_error(place / "samples", "not supported yet (expected an integer from 1 to 16)");
 }
@@ -32,7 +19,6 @@ void refuse_unsupported(const ordered_json &setup, const Place &root) {
   const ordered_json &sensors = setup.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
     check_sensor(sensors[i], root / "sensors" / i);
-  expect_only(setup.at("frames"), {{"start_s", 0}, {"count", 1}}, root / "frames");
 }
 
 } // namespace pmdsim

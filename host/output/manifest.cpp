@@ -3,6 +3,7 @@
 #include "host/output/intrinsics.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -23,17 +24,30 @@ ordered_json matrix_json(const Pose &a_from_b) {
 ordered_json frame_json(const FrameRecord &record) {
   return {{"sensor", record.sensor.name},
           {"frame", record.frame},
+          {"time_s", record.time_s},
           {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
           {"modulation_hz", record.sensor.modulation_hz},
           {"ambiguity_m", ambiguities_m(record.sensor)},
           {"waveform", waveform_json(record.sensor.waveform)},
           {"taps", record.sensor.taps},
+          {"tap_interval_s", record.sensor.tap_interval_s},
           {"camera", camera_json(record.sensor)},
           {"frame_ms", record.frame_ms},
           {"passes_ms", passes_json(record.passes)},
           {"error_claimed_m", nullptr},
           {"error_found_m", nullptr},
           {"outputs", record.outputs}};
+}
+
+// All lines but the first begin with `spaces` more.
+std::string indented(const ordered_json &json, std::size_t spaces) {
+  std::string text;
+  for (const char character : json_text(json)) {
+    text += character;
+    if (character == '\n')
+      text.append(spaces, ' ');
+  }
+  return text.substr(0, text.find_last_not_of(" \n") + 1);
 }
 
 ordered_json how_to_make_points() {
@@ -95,13 +109,17 @@ ordered_json passes_json(const std::vector<PassTime> &passes) {
   return json;
 }
 
-ordered_json manifest_json(const RunRecord &run) {
-  ordered_json frames = ordered_json::array();
+void write_manifest(OutputFile &file, const RunRecord &run) {
+  const ordered_json head{{"program", "pmdsim"},  {"version", PMDSIM_VERSION},     {"command", run.command},
+                          {"device", run.device}, {"driver", run.driver},          {"mode", run.mode},
+                          {"setup", run.setup},   {"points", how_to_make_points()}};
+  std::string text = json_text(head);
+  text.erase(text.find_last_of('}') - 1); // the end of the object and its line
+  file.write(text + ",\n  \"frames\": [");
+  const char *separator = "\n    ";
   for (const FrameRecord &record : run.frames)
-    frames.push_back(frame_json(record));
-  return {{"program", "pmdsim"},  {"version", PMDSIM_VERSION},      {"command", run.command},
-          {"device", run.device}, {"driver", run.driver},           {"mode", run.mode},
-          {"setup", run.setup},   {"points", how_to_make_points()}, {"frames", frames}};
+    file.write(std::exchange(separator, ",\n    ") + indented(frame_json(record), 4));
+  file.write("\n  ]\n}\n");
 }
 
 std::string json_text(const ordered_json &json) {

@@ -12,6 +12,7 @@
 
 #include "engine/measurement.h"
 #include "engine/sensor.h"
+#include "host/output/output_file.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,8 +22,9 @@ namespace pmdsim {
 
 // One sensor's frame and the files that hold it.
 struct FrameRecord {
-  Sensor sensor;
+  Sensor sensor; // where it was when the frame began
   std::uint32_t frame = 0;
+  double time_s = 0.0; // when it began
   double frame_ms = 0.0;
   std::vector<PassTime> passes;
   std::vector<std::string> outputs; // file names without directory
@@ -50,7 +52,8 @@ std::vector<double> ambiguities_m(const Sensor &sensor);
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
-nlohmann::ordered_json manifest_json(const RunRecord &run);
+// As json_text() would, frame by frame: a long run's manifest is large. Throws Error (output).
+void write_manifest(OutputFile &file, const RunRecord &run);
 
 // Indented, with a final newline; a NaN becomes null.
 std::string json_text(const nlohmann::ordered_json &json);

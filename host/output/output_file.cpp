@@ -15,6 +15,10 @@ namespace {
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
+Error write_error(const std::filesystem::path &path, int error_number) {
+  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(), reason(error_number))};
+}
+
 // Hidden, and random because another run may write to the same directory.
 std::filesystem::path temporary_name(const std::filesystem::path &path) {
   std::random_device random;
@@ -44,10 +48,7 @@ OutputFile::~OutputFile() {
     ::unlink(temporary_.c_str());
 }
 
-void OutputFile::fail(int error_number) const {
-  throw Error(ExitCode::output,
-              fmt::format("{}: cannot be written: {}", path_.string(), reason(error_number)));
-}
+void OutputFile::fail(int error_number) const { throw write_error(path_, error_number); }
 
 void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
@@ -96,6 +97,11 @@ void OutputFile::publish() {
 }
 
 void OutputFile::withdraw() noexcept { ::unlink(path_.c_str()); }
+
+void remove_file(const std::filesystem::path &path) {
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT)
+    throw write_error(path, errno);
+}
 
 void sync_directory(const std::filesystem::path &directory) {
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -42,6 +42,9 @@ private:
   int first_error_ = 0;             // errno of the first write that failed
 };
 
+// Whatever is no directory; nothing is done where there is none. Throws Error (output) as an OutputFile does.
+void remove_file(const std::filesystem::path &path);
+
 // Makes renames and removals in a directory last through a power cut. Throws Error (output).
 void sync_directory(const std::filesystem::path &directory);
 

@@ -69,21 +69,16 @@ void OutputSet::add(const std::string &name, const std::function<void(OutputFile
   names_.push_back(name);
 }
 
-std::vector<std::string> OutputSet::paths() const {
-  std::vector<std::string> paths(names_.size());
-  std::transform(names_.begin(), names_.end(), paths.begin(),
-                 [&](const std::string &name) { return path_of(name); });
-  return paths;
-}
-
 std::vector<std::string> OutputSet::names_from(std::size_t first) const {
   return {names_.begin() + static_cast<std::ptrdiff_t>(first), names_.end()};
 }
 
-void OutputSet::publish() {
+void OutputSet::publish(const std::vector<std::string> &obsolete) {
   // A file that has replaced the user's cannot give it back: what can be foreseen must not come to that.
   for (const auto &file : files_)
     file->check_publishable();
+  for (const std::string &name : obsolete)
+    remove_file(directory_ / name);
   std::size_t renamed = 0;
   try {
     for (; renamed < files_.size(); ++renamed)

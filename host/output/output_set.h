@@ -1,5 +1,5 @@
 #pragma once
-// The files that one command leaves in a directory: all of them, or none.
+// Files that get their names in a directory together: all of them, or none.
 
 #include "host/output/output_file.h"
 
@@ -30,13 +30,11 @@ public:
   const std::vector<std::string> &names() const { return names_; }
   // Those from the one with the index `first` on.
   std::vector<std::string> names_from(std::size_t first) const;
-  // A name, and all of them, with the directory in front.
-  std::string path_of(const std::string &name) const { return (directory_ / name).string(); }
-  std::vector<std::string> paths() const;
 
-  // Renames all files to their names. Throws Error (output): where a directory has one of the names, before
+  // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the
+  // set to their names. Throws Error (output): where a directory has one of the names, before
   // anything is replaced; where a rename itself fails, none of the set's files stays.
-  void publish();
+  void publish(const std::vector<std::string> &obsolete = {});
 
 private:
   std::filesystem::path directory_;

@@ -100,8 +100,22 @@ TEST_CASE("cameras that cannot be") {
 
 TEST_CASE("what is not there yet is refused by name") {
   check_setup_refused("\"shadows\": \"off\",", "", {"/shadows", "not supported yet"});
-  check_setup_refused("0.0018,", "0.0018, \"tap_interval_s\": 0.001,",
-                      {"/sensors/0/tap_interval_s", "not supported yet"});
+  check_setup_refused("0.0018,", "0.0018, \"samples\": \"auto\",",
+                      {"/sensors/0/samples", "not supported yet"});
+}
+
+TEST_CASE("frames and taps at no time") {
+  const auto refuse_frames = [](const std::string &frames, const std::vector<std::string> &fragments) {
+    check_setup_refused("\"shadows\": \"off\",", "\"shadows\": \"off\", \"frames\": " + frames + ",",
+                        fragments);
+  };
+  refuse_frames(R"({"count": 2})", {"setup.json: /frames: ", "rate_hz"});
+  refuse_frames(R"({"count": 0})", {"/frames/count", "1 to 100000"});
+  refuse_frames(R"({"count": 100001, "rate_hz": 1})", {"/frames/count", "1 to 100000"});
+  refuse_frames(R"({"count": 2, "rate_hz": 0})", {"/frames/rate_hz", "1e-06 to 1000000000"});
+  refuse_frames(R"({"start_s": -1.1e9})", {"/frames/start_s", "-1000000000 to 1000000000"});
+  check_setup_refused("0.0018,", "0.0018, \"tap_interval_s\": -1,",
+                      {"/sensors/0/tap_interval_s", "0 to 1000000"});
 }
 
 TEST_CASE("a node that does not exist") {

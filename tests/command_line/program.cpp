@@ -51,6 +51,12 @@ void redirect(const fs::path &file, int to) {
   ::_exit(126);
 }
 
+void wait_for(const fs::path &file) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(longest_run_s);
+  while (!fs::exists(file) && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 } // namespace
 
 Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options) {
@@ -63,7 +69,10 @@ Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &opti
     become_program(arguments, options, output, errors);
   if (options.interrupt_after_ms > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
-    ::kill(child, SIGINT);
+    ::kill(child, options.signal);
+  } else if (!options.interrupt_when.empty()) {
+    wait_for(options.interrupt_when);
+    ::kill(child, options.signal);
   }
   int status = 0;
   rusage usage{};

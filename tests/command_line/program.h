@@ -3,6 +3,7 @@
 
 #include "tests/support/temporary_folder.h"
 
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -21,7 +22,9 @@ struct Run {
 struct RunOptions {
   std::map<std::string, std::string> environment{}; // beside the test's own
   std::filesystem::path directory = ".";            // the process's working directory
-  int interrupt_after_ms = 0;                       // SIGINT then; 0: never
+  int signal = SIGINT;                              // what interrupts it
+  int interrupt_after_ms = 0;                       // then; 0: never
+  std::filesystem::path interrupt_when{};           // as soon as this exists; empty: never
 };
 
 // Ends the program after a minute: a hang is an exit code of 128 + SIGALRM.

@@ -145,3 +145,19 @@ TEST_CASE("check warns of each frequency whose ambiguity range ends before what 
   CHECK_THAT(warnings[0],
              Catch::EndsWith(" m away, 50 % of it beyond the ambiguity range of 1.49896 m: distances wrap"));
 }
+
+TEST_CASE("check warns of taps that take longer than the frames leave them") {
+  Sensor sensor = wide_sensor();
+  sensor.modulation_hz = {20e6, 30e6};
+  sensor.tap_interval_s = 2.5e-3; // 8 of them are the 20 ms of a frame
+  Setup setup = setup_of(sensor, wall_at(2.0));
+  setup.frames = {0.0, 50.0, 2};
+  CHECK(warnings_of(findings_of(setup)).empty());
+  CHECK_FALSE(findings_of(setup).moves);
+  setup.frames.rate_hz = 51.0;
+  const std::vector<std::string> warnings = warnings_of(findings_of(setup));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::StartsWith("sensor pmd: its taps take 0.02 s, longer than the 0.0196078 s"));
+  setup.frames.count = 1;
+  CHECK(warnings_of(findings_of(setup)).empty());
+}

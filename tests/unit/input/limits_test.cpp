@@ -72,6 +72,7 @@ TEST_CASE("The ranges of a setup's numbers") {
   check_limits({"/sensors/0/focal_length_m", 1e-9, 1e3});
   check_limits({"/sensors/0/modulation_hz/0", 1, 1e12});
   check_limits({"/sensors/0/chip/rotation_deg/2", -3600, 3600});
+  check_limits({"/sensors/0/tap_interval_s", 0, 1e6});
   check_limits({"/sensors/0/pose/position_m/0", -1e9, 1e9});
   check_limits({"/sensors/0/pose/look_at_m/0", -1e9, 1e9});
   check_limits({"/illuminators/0/pose/position_m/0", -1e9, 1e9});
@@ -80,6 +81,8 @@ TEST_CASE("The ranges of a setup's numbers") {
   check_limits({"/illuminators/0/intensity_w_sr", 0, 1e30});
   check_limits({"/illuminators/0/pattern/order", 0, 1e6});
   check_limits({"/illuminators/0/modulation_phase_deg", -3.6e6, 3.6e6});
+  check_limits({"/frames/start_s", -1e9, 1e9});
+  check_limits({"/frames/rate_hz", 1e-6, 1e9});
 }
 
 // At their ends these make no image, which is another error.

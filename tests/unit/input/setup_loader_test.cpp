@@ -222,6 +222,30 @@ TEST_CASE("The setup as used states every default") {
   })"));
 }
 
+TEST_CASE("Frames follow one another at a rate") {
+  SetupFixture fixture;
+  fixture.sensor()["tap_interval_s"] = 1e-3;
+  fixture.setup["frames"] = {{"start_s", -2.0}, {"rate_hz", 50}, {"count", 10}};
+  const Setup setup = fixture.load();
+  CHECK(setup.frames.count == 10);
+  CHECK(setup.frames.time_s(0) == -2.0);
+  CHECK(setup.frames.time_s(9) == Approx(-1.82));
+  CHECK(setup.start.sensors[0].tap_interval_s == 1e-3);
+  CHECK(setup.at(7.0).sensors[0].tap_interval_s == 1e-3);
+}
+
+TEST_CASE("A single frame needs no rate, several do") {
+  SetupFixture fixture;
+  fixture.setup["frames"] = {{"start_s", 3}};
+  CHECK(fixture.load().frames.time_s(0) == 3.0);
+  fixture.setup["frames"]["count"] = 2;
+  CHECK_THAT(fixture.error(),
+             Catch::EndsWith(
+                 "setup.json: /frames: missing key \"rate_hz\", expected beside a count of more than 1"));
+  fixture.setup["frames"]["rate_hz"] = 0;
+  CHECK_THAT(fixture.error(), Catch::Contains("/frames/rate_hz: expected a number from 1e-06 to 1000000000"));
+}
+
 TEST_CASE("The setup as used is a setup") {
   SetupFixture fixture;
   const Setup first = fixture.load();

@@ -1,6 +1,8 @@
 #include "engine/lens.h"
 #include "host/output/manifest.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/output/directory_content.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -41,6 +43,15 @@ Sensor random_sensor(test::Random &random, int model, bool tilted, bool turned) 
     sensor.chip.rotation_rad.z = random.uniform(-3.0, 3.0);
   sensor.chip.translation_m = random.in_box(glm::dvec3(-1e-3), glm::dvec3(1e-3));
   return sensor;
+}
+
+nlohmann::json manifest_of(const RunRecord &run) {
+  const test::TemporaryFolder folder;
+  OutputFile file(folder.path() / "manifest.json");
+  write_manifest(file, run);
+  file.close();
+  file.publish();
+  return nlohmann::json::parse(content_of(file.path()));
 }
 
 // calib3d's documentation: x'', y'' from the slopes.
@@ -177,13 +188,18 @@ TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact 
                       "some driver",
                       "exact",
                       {{"scene", "wall.gltf"}},
-                      {{small_sensor(), 7, 1.5, {{"accumulate", 1.25}}, {"pmd_0007.exr"}}}};
-  const auto manifest = nlohmann::json::parse(json_text(manifest_json(run)));
+                      {{small_sensor(), 7, 0.35, 1.5, {{"accumulate", 1.25}}, {"pmd_0007.exr"}},
+                       {small_sensor(), 8, 0.40, 1.5, {}, {"pmd_0008.exr"}}}};
+  const auto manifest = manifest_of(run);
   CHECK(manifest["setup"]["scene"] == "wall.gltf");
   CHECK(manifest["device"] == "some device");
+  REQUIRE(manifest["frames"].size() == 2);
+  CHECK(manifest["frames"][1]["outputs"] == nlohmann::json{"pmd_0008.exr"});
   const auto &frame = manifest["frames"].at(0);
   CHECK(frame["sensor"] == "pmd");
   CHECK(frame["frame"] == 7);
+  CHECK(frame["time_s"] == 0.35);
+  CHECK(frame["tap_interval_s"] == 0.0);
   CHECK(frame["passes_ms"]["accumulate"] == 1.25);
   CHECK(frame["error_claimed_m"].is_null());
   CHECK(frame["outputs"] == nlohmann::json{"pmd_0007.exr"});
@@ -200,7 +216,7 @@ TEST_CASE(
   sensor.modulation_hz = {20e6, 30e6};
   sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.1}};
   const auto frame =
-      manifest_json({"render", "device", "driver", "exact", {}, {{sensor, 0, 1.0, {}, {}}}})["frames"][0];
+      manifest_of({"render", "device", "driver", "exact", {}, {{sensor, 0, 0.0, 1.0, {}, {}}}})["frames"][0];
   CHECK(frame["modulation_hz"] == nlohmann::json{20e6, 30e6});
   CHECK(frame["ambiguity_m"].at(1).get<double>() == Approx(299792458.0 / 60e6));
   CHECK(frame["waveform"]["harmonics"] == nlohmann::json{1.0, 0.1});

@@ -66,7 +66,7 @@ TEST_CASE("published files have their names and nothing else is left") {
   CHECK(names_in(outputs.directory()) == std::set<std::string>{"one.txt", "two.txt"});
   CHECK(content_of(outputs.directory() / "one.txt") == "hello");
   CHECK(content_of(outputs.directory() / "two.txt") == "0123XY6789");
-  CHECK(outputs.paths().back() == (temporary.path() / "a" / "b" / "two.txt").string());
+  CHECK(outputs.names() == std::vector<std::string>{"one.txt", "two.txt"});
 }
 
 TEST_CASE("an existing file is replaced by publish and not before") {
@@ -109,6 +109,33 @@ TEST_CASE("a directory in the way of one file leaves the earlier results of the 
   const std::string message = output_error([&] { outputs.publish(); });
   CHECK(message == (temporary.path() / "two.txt").string() + ": cannot be written: Is a directory");
   CHECK(content_of(temporary.path() / "one.txt") == "old");
+}
+
+TEST_CASE("what is obsolete goes, but not before it is known that the set can be published") {
+  const pmdsim::test::TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "old.txt") << "old";
+  std::filesystem::create_directory(temporary.path() / "one.txt");
+  const auto publish = [&](const std::string &obsolete) {
+    OutputSet outputs(temporary.path());
+    outputs.add("one.txt", write_hello);
+    outputs.publish({obsolete});
+  };
+  output_error([&] { publish("old.txt"); });
+  CHECK(content_of(temporary.path() / "old.txt") == "old");
+  std::filesystem::remove(temporary.path() / "one.txt");
+  publish("old.txt");
+  CHECK(names_in(temporary.path()) == std::set<std::string>{"one.txt"});
+  CHECK_NOTHROW(publish("never.txt"));
+}
+
+TEST_CASE("a directory in the place of what is obsolete is told before anything is replaced") {
+  const pmdsim::test::TemporaryFolder temporary;
+  std::filesystem::create_directory(temporary.path() / "old.txt");
+  OutputSet outputs(temporary.path());
+  outputs.add("one.txt", write_hello);
+  CHECK(output_error([&] { outputs.publish({"old.txt"}); }) ==
+        (temporary.path() / "old.txt").string() + ": cannot be written: Is a directory");
+  CHECK(names_in(temporary.path()).count("one.txt") == 0);
 }
 
 TEST_CASE("a link to a directory is replaced like any file") {

@@ -1,0 +1,121 @@
+#include "host/commands/exposure.h"
+
+#include "engine/tap_sequence.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
+  return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
+}
+
+bool exposes_any_tap_by_tap(const Setup &setup) {
+  return std::ranges::any_of(setup.start.sensors,
+                             [&](const Sensor &sensor) { return exposes_tap_by_tap(setup, sensor); });
+}
+
+void add_times(Measurement &sum, const Measurement &exposure) {
+  sum.frame_ms += exposure.frame_ms;
+  for (const PassTime &pass : exposure.passes) {
+    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
+    if (known == sum.passes.end())
+      sum.passes.push_back(pass);
+    else
+      known->ms += pass.ms;
+  }
+}
+
+} // namespace
+
+bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor) {
+  return setup.motion && sensor.tap_interval_s > 0.0;
+}
+
+double samples_of_frame(const Setup &setup, const Sensor &sensor) {
+  return static_cast<double>(exposures_of_frame(setup, sensor)) * static_cast<double>(sensor.pixel_count()) *
+         sensor.samples * sensor.samples;
+}
+
+double samples_of_frame(const Setup &setup) {
+  double samples = 0.0;
+  for (const Sensor &sensor : setup.start.sensors)
+    samples += samples_of_frame(setup, sensor);
+  return samples;
+}
+
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {
+  std::optional<Measurement> frame;
+  std::vector<Return> returns;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
+    std::vector<std::vector<float>> taps;
+    for (std::size_t k = 0; k < sensor.taps; ++k) {
+      Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
+      taps.push_back(std::move(exposure.returns.front().taps[k]));
+      if (frame)
+        add_times(*frame, exposure);
+      else
+        frame = std::move(exposure);
+    }
+    returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
+  }
+  frame->returns = std::move(returns);
+  return std::move(*frame);
+}
+
+Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps)
+    : setup_(setup), keep_taps_(keep_taps),
+      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}) {}
+
+const Instant &Exposures::instant_at(double time_s) {
+  if (!setup_.motion)
+    return setup_.start;
+  if (!moved_ || moved_->time_s != time_s) {
+    prepared_.reset(); // it looks at the scene that goes
+    moved_ = {time_s, setup_.at(time_s)};
+  }
+  return moved_->instant;
+}
+
+void Exposures::prepare(View view) {
+  if (!setup_.motion)
+    view.time_s = setup_.frames.start_s; // one time is like another
+  if (prepared_ == view)
+    return;
+  prepared_.reset();
+  const Instant &instant = instant_at(view.time_s);
+  Sensor sensor = instant.sensors[view.sensor];
+  if (view.frequency)
+    sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
+  camera_.prepare(instant.scene, sensor,
+                  view.light == Light::in_lens ? std::vector{monostatic_illuminator(sensor.world_from_camera)}
+                                               : instant.illuminators,
+                  setup_.backscatter);
+  prepared_ = view;
+}
+
+TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress) {
+  TakenFrame frame{instant_at(time_s).sensors[sensor], {}};
+  if (exposes_tap_by_tap(setup_, frame.sensor)) {
+    const auto count = static_cast<double>(exposures_of_frame(setup_, frame.sensor));
+    double done = 0.0;
+    const auto expose = [&](std::size_t frequency, double exposure_s) {
+      prepare({sensor, frequency, exposure_s, light});
+      Measurement exposure = camera_.measure([&](double fraction) { progress((done + fraction) / count); });
+      done += 1.0;
+      return exposure;
+    };
+    frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
+  } else {
+    prepare({sensor, std::nullopt, time_s, light});
+    frame.measurement = camera_.measure(progress);
+  }
+  if (!keep_taps_)
+    for (Return &of_frequency : frame.measurement.returns)
+      of_frequency.taps.clear();
+  return frame;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,75 @@
+#pragma once
+// A sensor's frame as its camera takes it: in one exposure, or, where the taps are taken one after the other
+// and something moves meanwhile, in one for each frequency and tap.
+
+#include "host/commands/camera.h"
+#include "host/input/setup.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace pmdsim {
+
+// The setup's illuminators, or light in the sensor's lens (eq. 2 and 3).
+enum class Light { beside_lens, in_lens };
+
+// Whether every tap of the sensor's frames is an exposure of its own.
+bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor);
+
+// Samples that are measured for one frame, in all its exposures; of one sensor, and of all.
+double samples_of_frame(const Setup &setup, const Sensor &sensor);
+double samples_of_frame(const Setup &setup);
+
+// Measures one frequency alone at a time, its taps kept.
+using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
+
+// The frame that begins at `frame_s`: from frequency i's tap k at tap_time_s() its tap k, and of these phase,
+// amplitude and distance. Ground truth is the first exposure's; times add up.
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose);
+
+// One sensor's frame.
+struct TakenFrame {
+  Sensor sensor; // where it was when the frame began
+  Measurement measurement;
+};
+
+// Takes frames of a setup, which must outlive it, on one device.
+class Exposures {
+public:
+  // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken.
+  Exposures(const Setup &setup, const std::string &device, bool keep_taps);
+
+  const Camera &camera() const { return camera_; }
+
+  // The frame that begins at `time_s`, of the sensor with the index `sensor`. Throws Error, interrupted among
+  // others.
+  TakenFrame take(std::size_t sensor, double time_s, Light light, const Progress &progress);
+
+private:
+  // What the camera is prepared for; a frequency alone, or all of them.
+  struct View {
+    std::size_t sensor;
+    std::optional<std::size_t> frequency;
+    double time_s;
+    Light light;
+
+    bool operator==(const View &) const = default;
+  };
+
+  struct Moved {
+    double time_s;
+    Instant instant;
+  };
+
+  const Instant &instant_at(double time_s);
+  void prepare(View view);
+
+  const Setup &setup_;
+  bool keep_taps_;
+  Camera camera_;
+  std::optional<View> prepared_;
+  std::optional<Moved> moved_; // the last instant; nothing where nothing moves
+};
+
+} // namespace pmdsim
