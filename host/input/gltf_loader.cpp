@@ -4,10 +4,12 @@
 #include "host/input/gltf_document.h"
 #include "host/input/gltf_material.h"
 #include "host/input/gltf_mesh.h"
+#include "host/input/gltf_meshopt.h"
 
 #include <fmt/format.h>
 #include <map>
 #include <tiny_gltf.h>
+#include <utility>
 
 namespace pmdsim {
 
@@ -19,11 +21,20 @@ namespace {
 // file.
 std::string without_files(const json &document) {
   json kept = json::object();
-  for (const char *key :
-       {"asset", "scene", "scenes", "nodes", "meshes", "materials", "accessors", "bufferViews"})
+  for (const char *key : {"asset", "extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes",
+                          "meshes", "materials", "accessors", "bufferViews"})
     if (document.contains(key))
       kept[key] = document.at(key);
   return kept.dump();
+}
+
+// Gives each decoded view a buffer of its own.
+void replace_views(std::vector<DecodedView> &decoded, tinygltf::Model &model) {
+  for (DecodedView &view : decoded) {
+    model.bufferViews[view.view].buffer = static_cast<int>(model.buffers.size());
+    model.bufferViews[view.view].byteOffset = 0;
+    model.buffers.emplace_back().data = std::move(view.bytes);
+  }
 }
 
 tinygltf::Model read_model(const std::filesystem::path &file, const Place &named_at) {
@@ -36,37 +47,49 @@ tinygltf::Model read_model(const std::filesystem::path &file, const Place &named
   if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
                                   ""))
     throw input_error(Place{file}, "no valid glTF 2.0: " + error);
-  for (Bytes &bytes : read_gltf_buffers(document, file))
+  std::vector<Bytes> buffers = read_gltf_buffers(document, file);
+  std::vector<DecodedView> decoded = decode_meshopt_views(document.json, buffers, Place{file});
+  for (Bytes &bytes : buffers)
     model.buffers.emplace_back().data = std::move(bytes);
+  replace_views(decoded, model);
   return model;
 }
 
-// The scene's surfaces, made as they are used: index -1 is glTF's default material, white and single-sided.
+struct UsedMaterial {
+  GltfMaterial material;
+  std::uint32_t surface; // index into Scene::surfaces
+};
+
+// The scene's surfaces, made as they are used. Where vertices have colours, a material is another surface.
 class Surfaces {
 public:
   Surfaces(const tinygltf::Model &model, const Place &root, Scene &scene)
       : model_(model), root_(root), scene_(scene) {}
 
-  std::uint32_t operator[](int material) {
-    const auto [known, is_new] =
-        ids_.try_emplace(material, static_cast<std::uint32_t>(scene_.surfaces.size()));
-    if (is_new)
-      scene_.surfaces.push_back(made(material));
-    return known->second;
+  const UsedMaterial &operator[](const tinygltf::Primitive &primitive) {
+    const std::pair key(primitive.material, primitive.attributes.contains("COLOR_0"));
+    const auto known = used_.find(key);
+    if (known != used_.end())
+      return known->second;
+    const UsedMaterial made{made_of(key.first, key.second),
+                            static_cast<std::uint32_t>(scene_.surfaces.size())};
+    scene_.surfaces.push_back(made.material.surface);
+    return used_.emplace(key, made).first->second;
   }
 
 private:
-  Surface made(int material) const {
+  // Index -1 is glTF's default material, white and single-sided.
+  GltfMaterial made_of(int material, bool vertex_colours) const {
     if (material < 0)
-      return {};
+      return material_of(tinygltf::Material{}, root_, vertex_colours);
     const auto index = static_cast<std::size_t>(material);
-    return surface_of(model_.materials[index], root_ / "materials" / index);
+    return material_of(model_.materials[index], root_ / "materials" / index, vertex_colours);
   }
 
   const tinygltf::Model &model_;
   const Place &root_;
   Scene &scene_;
-  std::map<int, std::uint32_t> ids_;
+  std::map<std::pair<int, bool>, UsedMaterial> used_;
 };
 
 void append_object(const tinygltf::Model &model, const SceneNode &scene_node, const Place &root,
@@ -78,9 +101,11 @@ void append_object(const tinygltf::Model &model, const SceneNode &scene_node, co
   scene.objects.push_back(node.name.empty() ? fmt::format("node {}", scene_node.index) : node.name);
   const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
-  for (std::size_t i = 0; i < primitives.size(); ++i)
-    append_primitive(model, primitives[i], scene_node.world_from_node, surfaces[primitives[i].material],
-                     object, root / "meshes" / mesh / "primitives" / i, scene);
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const UsedMaterial &used = surfaces[primitives[i]];
+    append_primitive(model, primitives[i], scene_node.world_from_node, used.material, used.surface, object,
+                     root / "meshes" / mesh / "primitives" / i, scene);
+  }
 }
 
 } // namespace

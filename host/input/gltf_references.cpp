@@ -1,5 +1,7 @@
 #include "host/input/gltf_references.h"
 
+#include "host/input/gltf_meshopt.h"
+
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -63,6 +65,16 @@ void check_nodes(const json &document, const Place &root) {
   });
 }
 
+// glTF allows indices that are all 0, and tinygltf refuses them without their place.
+void refuse_zero_indices(const json &document, const json &primitive, const Place &place) {
+  if (!primitive.contains("indices"))
+    return;
+  const auto accessor = primitive.at("indices").get<std::size_t>();
+  if (!document.at("accessors").at(accessor).contains("bufferView"))
+    throw input_error(Place{place.file} / "accessors" / accessor,
+                      "missing key \"bufferView\", which indices need");
+}
+
 void check_primitives(const json &document, const Place &root) {
   const Reference accessors(document, "accessors"), materials(document, "materials");
   for_each(document, "meshes", root, [&](const json &mesh, const Place &mesh_place) {
@@ -70,22 +82,30 @@ void check_primitives(const json &document, const Place &root) {
       for (const auto &[name, accessor] : primitive.at("attributes").items())
         accessors.check(accessor, place / "attributes" / name);
       accessors.check_member(primitive, "indices", place);
+      refuse_zero_indices(document, primitive, place);
       materials.check_member(primitive, "material", place);
     });
   });
 }
 
 void check_accessors(const json &document, const Place &root) {
-  const Reference views(document, "bufferViews"), buffers(document, "buffers");
+  const Reference views(document, "bufferViews");
   for_each(document, "accessors", root, [&](const json &accessor, const Place &place) {
-    if (accessor.contains("sparse"))
-      throw input_error(place / "sparse", "sparse accessors are not supported yet");
-    if (!accessor.contains("bufferView"))
-      throw input_error(place, "missing key \"bufferView\"");
     views.check_member(accessor, "bufferView", place);
+    if (!accessor.contains("sparse"))
+      return;
+    for (const char *part : {"indices", "values"})
+      views.check_member(accessor.at("sparse").at(part), "bufferView", place / "sparse" / part);
   });
-  for_each(document, "bufferViews", root,
-           [&](const json &view, const Place &place) { buffers.check_member(view, "buffer", place); });
+}
+
+void check_views(const json &document, const Place &root) {
+  const Reference buffers(document, "buffers");
+  for_each(document, "bufferViews", root, [&](const json &view, const Place &place) {
+    buffers.check_member(view, "buffer", place);
+    if (const json *compressed = meshopt_part(view))
+      buffers.check_member(*compressed, "buffer", place / "extensions" / meshopt_extension);
+  });
 }
 
 } // namespace
@@ -96,6 +116,7 @@ void check_references(const json &document, const Place &root) {
   check_nodes(document, root);
   check_primitives(document, root);
   check_accessors(document, root);
+  check_views(document, root);
 }
 
 } // namespace pmdsim
