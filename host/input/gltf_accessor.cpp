@@ -1,5 +1,7 @@
 #include "host/input/gltf_accessor.h"
 
+#include "host/input/gltf_elements.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,44 +16,6 @@ namespace pmdsim {
 namespace {
 
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4);
-
-// `count` elements of a known size, `stride_bytes` apart, all of them inside their buffer.
-struct Elements {
-  const unsigned char *first;
-  std::size_t stride_bytes;
-  std::size_t count;
-};
-
-// byteLength and byteOffset are below 2^53, count below 2^32 and the stride below 2^8: nothing overflows.
-Elements checked_elements(const tinygltf::Model &model, const tinygltf::Accessor &accessor,
-                          const Place &place) {
-  const auto view_index = static_cast<std::size_t>(accessor.bufferView);
-  const tinygltf::BufferView &view = model.bufferViews[view_index];
-  const auto &buffer = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  if (view.byteOffset + view.byteLength > buffer.size())
-    throw input_error(
-        Place{place.file} / "bufferViews" / view_index,
-        fmt::format("ends at byte {}, its buffer has {}", view.byteOffset + view.byteLength, buffer.size()));
-  const auto components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-  const auto component_bytes =
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-  const auto element_bytes = static_cast<std::size_t>(components) * static_cast<std::size_t>(component_bytes);
-  const std::size_t stride_bytes = view.byteStride == 0 ? element_bytes : view.byteStride;
-  if (stride_bytes < element_bytes)
-    throw input_error(place, fmt::format("elements of {} bytes lie {} apart", element_bytes, stride_bytes));
-  const std::size_t end = accessor.byteOffset + stride_bytes * (accessor.count - 1) + element_bytes;
-  if (end > view.byteLength)
-    throw input_error(place, fmt::format("{} elements end at byte {}, the bufferView has {}", accessor.count,
-                                         end, view.byteLength));
-  return {buffer.data() + view.byteOffset + accessor.byteOffset, stride_bytes, accessor.count};
-}
-
-template <class T>
-T element(const Elements &elements, std::size_t index) {
-  T value;
-  std::memcpy(&value, elements.first + index * elements.stride_bytes, sizeof value);
-  return value;
-}
 
 bool has_components(const tinygltf::Accessor &accessor, int components) {
   return accessor.type == (components == 1 ? TINYGLTF_TYPE_SCALAR : components);
@@ -74,9 +38,7 @@ double number(T value, bool normalized) {
 double component(const Elements &elements, std::size_t index, int c, const tinygltf::Accessor &accessor) {
   const auto read = [&]<class T>(T) {
     T value;
-    std::memcpy(&value,
-                elements.first + index * elements.stride_bytes + static_cast<std::size_t>(c) * sizeof(T),
-                sizeof(T));
+    std::memcpy(&value, elements.at(index) + static_cast<std::size_t>(c) * sizeof(T), sizeof(T));
     return number(value, accessor.normalized);
   };
   switch (accessor.componentType) {
@@ -98,9 +60,10 @@ double component(const Elements &elements, std::size_t index, int c, const tinyg
 template <class T>
 std::vector<std::uint32_t> checked_indices(const Elements &elements, std::size_t vertex_count,
                                            const Place &place) {
-  std::vector<std::uint32_t> indices(elements.count);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    const T index = element<T>(elements, i);
+  std::vector<std::uint32_t> indices(elements.count());
+  for (std::size_t i = 0; i < elements.count(); ++i) {
+    T index;
+    std::memcpy(&index, elements.at(i), sizeof index);
     if (index == std::numeric_limits<T>::max())
       throw input_error(place, fmt::format("element {} is {}, the primitive restart value", i, index));
     if (index >= vertex_count)
@@ -120,8 +83,8 @@ std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t i
   if (!has_components(accessor, components))
     throw input_error(place / "type", fmt::format("expected {}", vector_type(components)));
   const Elements elements = checked_elements(model, accessor, place);
-  std::vector<glm::dvec4> vectors(elements.count, glm::dvec4(0.0));
-  for (std::size_t i = 0; i < elements.count; ++i)
+  std::vector<glm::dvec4> vectors(elements.count(), glm::dvec4(0.0));
+  for (std::size_t i = 0; i < elements.count(); ++i)
     for (int c = 0; c < components; ++c) {
       const double value = component(elements, i, c, accessor);
       if (!std::isfinite(value))

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers behind a glTF accessor. Every range is checked; nothing is assumed of what a file states.
+// The numbers behind a glTF accessor, plain or sparse.
 
 #include "host/input/input_error.h"
 

@@ -9,9 +9,10 @@
 
 namespace pmdsim {
 
-// In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes.
-// Throws Error (input): also for a URI that leads out of the scene's folder, by "..", an absolute path or a
-// link, and for one with a scheme other than data:.
+// In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes. Those
+// that only stand in for compressed bufferViews (meshopt_fallbacks()) are not read and stay empty. Throws
+// Error (input): also for a URI that leads out of the scene's folder, by "..", an absolute path or a link,
+// and for one with a scheme other than data:.
 std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const std::filesystem::path &file);
 
 } // namespace pmdsim

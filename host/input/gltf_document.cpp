@@ -1,5 +1,6 @@
 #include "host/input/gltf_document.h"
 
+#include "host/input/gltf_extensions.h"
 #include "host/input/gltf_references.h"
 #include "host/input/json_file.h"
 #include "host/input/regular_file.h"
@@ -72,11 +73,6 @@ void refuse_other_versions(const json &document, const Place &root) {
   const std::string version = document.at("asset").at("version");
   if (!version.starts_with("2."))
     throw input_error(root / "asset" / "version", "expected \"2.0\", found " + in_quotes(version));
-  const json required = document.value("extensionsRequired", json::array());
-  if (!required.empty())
-    throw input_error(
-        root / "extensionsRequired" / 0,
-        fmt::format("extension {} is not supported", in_quotes(required[0].get<std::string>())));
 }
 
 } // namespace
@@ -91,6 +87,7 @@ GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &
   GltfDocument document{parse_json(text.json, file, Comments::refused), std::string(text.binary_chunk)};
   check_schema(document.json, schema, file);
   refuse_other_versions(document.json, root);
+  refuse_other_extensions(document.json, root);
   check_references(document.json, root);
   return document;
 }

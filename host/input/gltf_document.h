@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace pmdsim {
 
 // Of the scene's file, and of all its buffers together.
 inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1} << 30;
+
+using Bytes = std::vector<unsigned char>;
 
 struct GltfDocument {
   nlohmann::json json;      // every key that is read has the right type, every index exists

@@ -4,10 +4,12 @@
 #include "host/input/gltf_document.h"
 #include "host/input/gltf_material.h"
 #include "host/input/gltf_mesh.h"
+#include "host/input/gltf_meshopt.h"
 
 #include <fmt/format.h>
 #include <map>
 #include <tiny_gltf.h>
+#include <utility>
 
 namespace pmdsim {
 
@@ -19,11 +21,20 @@ namespace {
 // file.
 std::string without_files(const json &document) {
   json kept = json::object();
-  for (const char *key : {"asset", "scene", "scenes", "nodes", "meshes", "materials", "accessors",
-                          "bufferViews", "animations", "skins"})
+  for (const char *key : {"asset", "extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes",
+                          "meshes", "materials", "accessors", "bufferViews", "animations", "skins"})
     if (document.contains(key))
       kept[key] = document.at(key);
   return kept.dump();
+}
+
+// Gives each decoded view a buffer of its own.
+void replace_views(std::vector<DecodedView> &decoded, tinygltf::Model &model) {
+  for (DecodedView &view : decoded) {
+    model.bufferViews[view.view].buffer = static_cast<int>(model.buffers.size());
+    model.bufferViews[view.view].byteOffset = 0;
+    model.buffers.emplace_back().data = std::move(view.bytes);
+  }
 }
 
 tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::path &file) {
@@ -35,28 +46,39 @@ tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::pa
   if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
                                   ""))
     throw input_error(Place{file}, "no valid glTF 2.0: " + error);
-  for (Bytes &bytes : read_gltf_buffers(document, file))
+  std::vector<Bytes> buffers = read_gltf_buffers(document, file);
+  std::vector<DecodedView> decoded = decode_meshopt_views(document.json, buffers, Place{file});
+  for (Bytes &bytes : buffers)
     model.buffers.emplace_back().data = std::move(bytes);
+  replace_views(decoded, model);
   return model;
 }
 
-// The scene's surfaces, made as they are used.
+struct UsedMaterial {
+  GltfMaterial material;
+  std::uint32_t surface; // index into Scene::surfaces
+};
+
+// The scene's surfaces, made as they are used. Where vertices have colours, a material is another surface.
 class Surfaces {
 public:
   Surfaces(GltfMaterials &materials, Scene &scene) : materials_(materials), scene_(scene) {}
 
-  std::uint32_t operator[](int material) {
-    const auto [known, is_new] =
-        ids_.try_emplace(material, static_cast<std::uint32_t>(scene_.surfaces.size()));
-    if (is_new)
-      scene_.surfaces.push_back(materials_.material_of(material, false).surface);
-    return known->second;
+  const UsedMaterial &operator[](const tinygltf::Primitive &primitive) {
+    const std::pair key(primitive.material, primitive.attributes.contains("COLOR_0"));
+    const auto known = used_.find(key);
+    if (known != used_.end())
+      return known->second;
+    const UsedMaterial made{materials_.material_of(key.first, key.second),
+                            static_cast<std::uint32_t>(scene_.surfaces.size())};
+    scene_.surfaces.push_back(made.material.surface);
+    return used_.emplace(key, made).first->second;
   }
 
 private:
   GltfMaterials &materials_;
   Scene &scene_;
-  std::map<int, std::uint32_t> ids_;
+  std::map<std::pair<int, bool>, UsedMaterial> used_;
 };
 
 // `placement_of` gives that of each of the mesh's primitives.
@@ -68,9 +90,11 @@ void append_object(const tinygltf::Model &model, std::size_t index, PlacementOf 
   scene.objects.push_back(node.name.empty() ? fmt::format("node {}", index) : node.name);
   const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
-  for (std::size_t i = 0; i < primitives.size(); ++i)
-    append_primitive(model, primitives[i], placement_of(i), surfaces[primitives[i].material], object,
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const UsedMaterial &used = surfaces[primitives[i]];
+    append_primitive(model, primitives[i], placement_of(i), used.material, used.surface, object,
                      root / "meshes" / mesh / "primitives" / i, scene);
+  }
 }
 
 } // namespace

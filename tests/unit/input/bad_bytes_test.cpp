@@ -2,8 +2,11 @@
 // happens.
 
 #include "host/input/gltf_loader.h"
+#include "meshopt_builder.h"
 #include "setup_fixture.h"
 
+#include <fstream>
+#include <iterator>
 #include <random>
 
 using namespace pmdsim;
@@ -72,6 +75,34 @@ TEST_CASE("Damaged .glb files") {
     load_gltf(file, Place{file}).at(0);
   });
   CHECK(refused > trials);
+}
+
+TEST_CASE("Damaged .gltf files with sparse and compressed parts") {
+  json gltf = compressed_square();
+  const std::size_t indices = add_view(gltf, bytes_of<std::uint8_t>({1, 3}));
+  const std::size_t values = add_view(gltf, bytes_of<float>({2, 0, -1, 0, 2, -1}));
+  gltf["accessors"][0]["sparse"] = {{"count", 2},
+                                    {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                    {"values", {{"bufferView", values}}}};
+  const TemporaryFolder folder;
+  const int refused = refused_of(gltf.dump(), [&](const std::string &bytes) {
+    const auto file = folder.write("scene.gltf", bytes);
+    load_gltf(file, Place{file}).at(0);
+  });
+  CHECK(refused > trials);
+}
+
+TEST_CASE("Damaged .glb files as gltfpack writes them") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"compressed_more.glb", "floats.glb"}) {
+    std::ifstream stream(std::string(PMDSIM_TEST_FILES "/packed/") + name, std::ios::binary);
+    const std::string packed(std::istreambuf_iterator<char>(stream), {});
+    const int refused = refused_of(packed, [&](const std::string &bytes) {
+      const auto file = folder.write("scene.glb", bytes);
+      load_gltf(file, Place{file}).at(0);
+    });
+    CHECK(refused > trials);
+  }
 }
 
 TEST_CASE("Damaged setups") {

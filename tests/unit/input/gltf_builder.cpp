@@ -58,6 +58,21 @@ json document(const std::vector<float> &positions, const std::vector<std::uint16
 
 json one_triangle() { return document(triangle_positions(), {}, 4); }
 
+std::size_t add_view(json &document, std::string_view bytes) {
+  document["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+  document["bufferViews"].push_back(
+      {{"buffer", document["buffers"].size() - 1}, {"byteLength", bytes.size()}});
+  return document["bufferViews"].size() - 1;
+}
+
+std::size_t add_accessor(json &document, std::string_view bytes, int component_type, std::size_t count,
+                         const std::string &type) {
+  const std::size_t view = add_view(document, bytes);
+  document["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
+  return document["accessors"].size() - 1;
+}
+
 std::string glb(json gltf, std::string bin_chunk) {
   gltf["buffers"][0].erase("uri");
   const std::string text = padded(gltf.dump(), ' ');

@@ -25,6 +25,12 @@ nlohmann::json document(const std::vector<float> &positions, const std::vector<s
                         int mode);
 nlohmann::json one_triangle(); // plain, mode TRIANGLES
 
+// Adds a buffer of these bytes and a bufferView of all of it, or an accessor on such a view too. They return
+// the new bufferView's or accessor's index.
+std::size_t add_view(nlohmann::json &document, std::string_view bytes);
+std::size_t add_accessor(nlohmann::json &document, std::string_view bytes, int component_type,
+                         std::size_t count, const std::string &type);
+
 // A .glb of that document; its first buffer becomes the BIN chunk.
 std::string glb(nlohmann::json document, std::string bin_chunk);
 
