@@ -35,6 +35,7 @@ PMDSIM_CONSTANT constant_tones = 6;       // by moments: tones that one dispatch
 PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
 PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
 PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
+PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation phase
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -134,7 +135,7 @@ struct GroupDiode {
 struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
   float wavenumber; // 2 pi frequency / c, rad/m
-  float padding;
+  float harmonic;   // how many of its turns a turn of the fundamental is
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -203,6 +204,7 @@ struct AccumulateConstants {
   uint plane;   // elements of a plane of the sum
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
+  vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
 };
 
 struct ResolveConstants {
@@ -250,7 +252,7 @@ static_assert(sizeof(VisibilityConstants) == 32);
 static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 112 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(AccumulateConstants) == 104 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif

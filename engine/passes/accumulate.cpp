@@ -53,18 +53,26 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
            first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps}};
+           signal.distinct_taps, groups.phased ? 1u : 0u}};
+}
+
+template <typename Property>
+bool every_pattern(const std::vector<CameraIlluminator> &illuminators, const Property &holds) {
+  return std::ranges::all_of(illuminators, [&](const CameraIlluminator &illuminator) {
+    return std::ranges::all_of(illuminator.diodes, holds, &Diode::pattern);
+  });
 }
 
 } // namespace
 
-SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light) {
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light) {
   SumModel model{shader::backscatter_lambert, shader::pattern_general, 0};
   if (backscatter == Backscatter::constant)
     model.backscatter = all_face_the_light ? shader::backscatter_flat : shader::backscatter_facing;
-  const Pattern &first = diodes.front().pattern;
-  const bool alike = std::ranges::all_of(diodes, [&](const Diode &diode) {
-    return diode.pattern.kind == first.kind && diode.pattern.order == first.order;
+  const Pattern &first = illuminators.front().diodes.front().pattern;
+  const bool alike = every_pattern(illuminators, [&](const Pattern &pattern) {
+    return pattern.kind == first.kind && pattern.order == first.order;
   });
   if (alike && first.kind == Pattern::Kind::isotropic)
     model.pattern = shader::pattern_isotropic;
@@ -97,6 +105,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
     const DoublePair4 reference(runs_[run].reference_m, 0.0);
+    const DoublePair phase_turns(runs_[run].phase_turns);
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
           words(buffers.position_hi.address()),
@@ -109,7 +118,8 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           blocks_per_run_,
           plane,
           reference.hi,
-          reference.lo};
+          reference.lo,
+          {phase_turns.hi, phase_turns.lo}};
       (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
     }
   }

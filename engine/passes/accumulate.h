@@ -20,7 +20,8 @@ struct SumModel {
   bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
 };
 
-SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light);
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light);
 
 class AccumulatePass {
 public:

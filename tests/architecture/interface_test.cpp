@@ -68,7 +68,7 @@ const std::map<std::string, HostLayout> scene_and_light{
      {sizeof(GroupDiode),
       {MEMBER(GroupDiode, position), MEMBER(GroupDiode, axis), MEMBER(GroupDiode, intensity),
        MEMBER(GroupDiode, order), MEMBER(GroupDiode, padding)}}},
-    {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, padding)}}},
+    {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, harmonic)}}},
 };
 
 const std::map<std::string, HostLayout> constants_until_points{
@@ -106,7 +106,7 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, diodes),
        MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
-       MEMBER(AccumulateConstants, reference_lo)}}},
+       MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),
