@@ -42,7 +42,7 @@ vec2 weight_and_excess(Point point, GroupDiode diode) {
     weight *= backscatter_model == backscatter_lambert ? max(0.0, height * inverse_r) : (height > 0.0 ? 1.0 : 0.0);
   }
   if (pattern_model != pattern_isotropic)
-    weight *= radiation(point, diode, inverse_r, inverse_r2);
+    weight *= radiation(point, diode, r, inverse_r, inverse_r2);
   return vec2(weight, q * r2 * inverse);
 }
 

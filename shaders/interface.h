@@ -61,6 +61,8 @@ PMDSIM_CONSTANT backscatter_lambert = 2; // rho / pi * cosine
 PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
 PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
 PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
+PMDSIM_CONSTANT pattern_axial = 3;       // a diagram for every diode, the same all around its axis
+PMDSIM_CONSTANT pattern_any = 4;         // a diagram of any kind or an order of its own for every diode
 
 PMDSIM_CONSTANT waveform_sine = 0;
 PMDSIM_CONSTANT waveform_square = 1;
@@ -127,8 +129,13 @@ struct GroupDiode {
   vec4 position;   // -2 * position_m, |position_m|^2
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
-  float order;     // of the cosine; below 0: isotropic
+  float order;     // of the cosine; -1: isotropic; -2: a diagram
+  uint diagram;    // index of its first value in the table of all; those of a theta lie side by side
+  float theta_steps;
+  float first_theta; // rad
+  float theta_steps_per_rad;
   vec2 padding;
+  vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
 
 // A harmonic of a modulation frequency.
@@ -205,6 +212,7 @@ struct AccumulateConstants {
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
+  uvec2 diagrams;    // in: float[], the diagrams' values
 };
 
 struct ResolveConstants {
@@ -242,7 +250,7 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
-static_assert(sizeof(GroupDiode) == 48);
+static_assert(sizeof(GroupDiode) == 80);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
@@ -252,7 +260,7 @@ static_assert(sizeof(VisibilityConstants) == 32);
 static_assert(sizeof(PointsConstants) == 104 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 112 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(AccumulateConstants) == 104 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(AccumulateConstants) == 112 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif

@@ -42,6 +42,7 @@ private:
   std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
+  vulkan::Buffer diagrams_;
   vulkan::ComputePipeline first_; // of a frame's runs
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };

@@ -1,5 +1,7 @@
 #include "engine/passes/diode_groups.h"
 
+#include "engine/passes/diagram_tables.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,17 +90,41 @@ Group group_of(std::span<Diode> diodes, double phase_turns, const std::vector<Vi
   return group;
 }
 
-shader::GroupDiode dark_diode() { return {glm::vec4(0), glm::vec4(0, 0, 1, 0), 0.0f, -1.0f, glm::vec2(0)}; }
+// Of GroupDiode::order.
+constexpr float isotropic_order = -1.0f, diagram_order = -2.0f;
+
+shader::GroupDiode dark_diode() {
+  shader::GroupDiode diode{};
+  diode.axis = {0, 0, 1, 0};
+  diode.order = isotropic_order;
+  return diode;
+}
+
+void set_diagram(const Diode &diode, const DiagramGrid &grid, shader::GroupDiode &record) {
+  // Turned so that phi counts from the grid's first.
+  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
+                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
+  record.order = diagram_order;
+  record.diagram = grid.first_value;
+  record.theta_steps = static_cast<float>(grid.theta_steps);
+  record.first_theta = static_cast<float>(grid.first_theta_rad);
+  record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
+  record.across = glm::vec4(across, grid.phi_steps);
+}
 
 shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
-                               double largest_intensity_w_sr) {
+                               double largest_intensity_w_sr, DiagramTables &diagrams) {
   const glm::dvec3 position_m = diode.position_m - reference_m;
-  const bool isotropic = diode.pattern.kind == Pattern::Kind::isotropic;
-  return {glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m)),
-          glm::vec4(diode.axis, glm::dot(diode.axis, position_m)),
-          largest_intensity_w_sr > 0.0 ? static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr)
-                                       : 0.0f,
-          isotropic ? -1.0f : static_cast<float>(diode.pattern.order), glm::vec2(0)};
+  shader::GroupDiode record = dark_diode();
+  record.position = glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m));
+  record.axis = glm::vec4(diode.axis, glm::dot(diode.axis, position_m));
+  if (largest_intensity_w_sr > 0.0)
+    record.intensity = static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order = static_cast<float>(diode.pattern.order);
+  if (diode.pattern.kind == Pattern::Kind::diagram)
+    set_diagram(diode, diagrams.grid_of(diode.pattern.diagram), record);
+  return record;
 }
 
 class Grouping {
@@ -155,14 +181,14 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
   return cheapest;
 }
 
-void add_runs(const Group &group, DiodeGroups &result) {
+void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back(
         {group.reference_m, static_cast<std::uint32_t>(result.diodes.size()), group.phase_turns});
     for (std::size_t i = first; i < first + run_diodes; ++i)
       result.diodes.push_back(i < group.diodes.size() ? group_diode(group.diodes[i], group.reference_m,
-                                                                    result.largest_intensity_w_sr)
+                                                                    result.largest_intensity_w_sr, diagrams)
                                                       : dark_diode());
   }
 }
@@ -195,8 +221,10 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
     excess_m = std::max(excess_m, group.excess_m);
   result.moments = moments_needed(wavenumber_rad_m * excess_m);
   result.blocks_per_run = cheapest_run_blocks(grouping.groups());
+  DiagramTables diagrams;
   for (const Group &group : grouping.groups())
-    add_runs(group, result);
+    add_runs(group, result, diagrams);
+  result.diagrams = diagrams.values();
   return result;
 }
 
