@@ -14,18 +14,34 @@ float half_plane_angle(float x, float y, float length) {
   return x < 0.0 ? 3.14159265 - angle : angle;
 }
 
-// Where between two values of a table a place is; beyond 0 ... last (and not a number) at its beginning.
-struct Between {
-  uint lower, upper;
+// Tables hold each value with the next one of its row, for lavapipe fetches component by component and lane by lane: there a
+// double, which is one component, takes half the time of a vec2.
+#ifdef REAL_DOUBLE_FLOAT
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Pairs { vec2 at[]; };
+vec2 pair_at(uint i) { return Pairs(constants.diagrams).at[i]; }
+#else
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Pairs { double at[]; };
+vec2 pair_at(uint i) { return uintBitsToFloat(unpackDouble2x32(Pairs(constants.diagrams).at[i])); }
+#endif
+
+// The last value of a row at or before a place in it, and how far beyond that is; places outside 0 ... last (and what is
+// not a number) are at its beginning.
+struct Place {
+  uint lower;
   float fraction;
   bool inside;
 };
 
-Between between(float steps, float last) {
+Place place_at(float steps, float last) {
   bool inside = steps >= 0.0 && steps <= last;
   float within = inside ? steps : 0.0;
-  uint lower = uint(within);
-  return Between(lower, min(lower + 1, uint(last)), within - float(lower), inside);
+  int lower = int(within); // CPUs convert to int and back in one instruction, to uint in many
+  return Place(uint(lower), within - float(lower), inside);
+}
+
+float interpolated(uint row, Place place) {
+  vec2 pair = pair_at(row + place.lower);
+  return mix(pair.x, pair.y, place.fraction);
 }
 
 // The way from a diode to a point, m.
@@ -43,33 +59,31 @@ Way way_from(GroupDiode diode, Point point, float along_m, float r) {
   return Way(way, around, r, along_m, sqrt(dot(around, around)));
 }
 
-Between between_thetas(Way way, GroupDiode diode) {
+Place theta_place(Way way, GroupDiode diode) {
   float theta = half_plane_angle(way.along, way.off_axis, way.r);
-  return between((theta - diode.first_theta) * diode.theta_steps_per_rad, diode.theta_steps);
+  return place_at((theta - diode.first_theta) * diode.theta_steps_per_rad, diode.theta_steps);
 }
 
-Between between_phis(Way way, GroupDiode diode) {
+Place phi_place(Way way, GroupDiode diode) {
   float x = dot(diode.across.xyz, way.way);
   float y = -dot(diode.across.xyz, way.around); // along axis x across
   float turns = 0.159154943 * half_plane_angle(x, abs(y), way.off_axis);
-  return between((y < 0.0 ? 1.0 - turns : turns) * diode.across.w, diode.across.w);
+  return place_at((y < 0.0 ? 1.0 - turns : turns) * diode.across.w, diode.across.w);
 }
 
-// The same for all phi.
+// J where it is the same for all phi.
 float axial_diagram(Way way, GroupDiode diode) {
-  Between theta = between_thetas(way, diode);
-  Floats values = Floats(constants.diagrams);
-  float j = mix(values.at[diode.diagram + theta.lower], values.at[diode.diagram + theta.upper], theta.fraction);
+  Place theta = theta_place(way, diode);
+  float j = interpolated(diode.diagram, theta);
   return theta.inside ? j : 0.0;
 }
 
+// A row of thetas for each phi, the last of them the first again.
 float diagram(Way way, GroupDiode diode) {
-  Between theta = between_thetas(way, diode), phi = between_phis(way, diode);
-  uint values_of_theta = uint(diode.across.w) + 1;
-  uint lower = diode.diagram + theta.lower * values_of_theta, upper = diode.diagram + theta.upper * values_of_theta;
-  Floats values = Floats(constants.diagrams);
-  float j = mix(mix(values.at[lower + phi.lower], values.at[lower + phi.upper], phi.fraction),
-                mix(values.at[upper + phi.lower], values.at[upper + phi.upper], phi.fraction), theta.fraction);
+  Place theta = theta_place(way, diode), phi = phi_place(way, diode);
+  uint row_length = uint(diode.theta_steps) + 1, last_row = uint(diode.across.w);
+  float j = mix(interpolated(diode.diagram + phi.lower * row_length, theta),
+                interpolated(diode.diagram + min(phi.lower + 1, last_row) * row_length, theta), phi.fraction);
   return theta.inside ? j : 0.0;
 }
 

@@ -130,7 +130,7 @@ struct GroupDiode {
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
   float order;     // of the cosine; -1: isotropic; -2: a diagram
-  uint diagram;    // index of its first value in the table of all; those of a theta lie side by side
+  uint diagram;    // index of its first value in the table of all; those of a phi are a row
   float theta_steps;
   float first_theta; // rad
   float theta_steps_per_rad;
@@ -212,7 +212,7 @@ struct AccumulateConstants {
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
-  uvec2 diagrams;    // in: float[], the diagrams' values
+  uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
 };
 
 struct ResolveConstants {

@@ -92,18 +92,18 @@ double value_at(const Diagram &diagram, const Between &theta, const Between &phi
   return std::lerp(of_theta(theta.lower), of_theta(theta.upper), theta.fraction);
 }
 
-void append_values(const Diagram &diagram, const Steps &steps, std::vector<float> &values) {
-  std::vector<Between> phis;
-  for (std::uint32_t i = 0; i <= steps.phi; ++i) {
-    const double turns = steps.phi > 0 ? static_cast<double>(i % steps.phi) / steps.phi : 0.0;
-    phis.push_back(between_phis(diagram.phi_rad, diagram.phi_rad.front() + turns * turn_rad));
-  }
-  const double first_rad = diagram.theta_rad.front(), last_rad = diagram.theta_rad.back();
-  for (std::uint32_t i = 0; i <= steps.theta; ++i) {
-    const double part = steps.theta > 0 ? static_cast<double>(i) / steps.theta : 0.0;
-    const Between theta = between_thetas(diagram.theta_rad, std::lerp(first_rad, last_rad, part));
-    for (const Between &phi : phis)
-      values.push_back(static_cast<float>(value_at(diagram, theta, phi)));
+// The values for one phi, each with the next.
+void append_row(const Diagram &diagram, const DiagramGrid &grid, const Between &phi,
+                std::vector<glm::vec2> &values) {
+  const auto value_of = [&](std::uint32_t step) {
+    const double theta_rad = grid.first_theta_rad + step / grid.theta_steps_per_rad;
+    return static_cast<float>(value_at(diagram, between_thetas(diagram.theta_rad, theta_rad), phi));
+  };
+  float value = value_of(0);
+  for (std::uint32_t step = 0; step <= grid.theta_steps; ++step) {
+    const float next = value_of(step + 1); // after the last the same
+    values.emplace_back(value, next);
+    value = next;
   }
 }
 
@@ -114,19 +114,19 @@ DiagramGrid DiagramTables::grid_of(const std::shared_ptr<const Diagram> &diagram
   DiagramGrid &grid = found->second;
   if (!is_new)
     return grid;
-  const auto [theta_steps, phi_steps] = steps_of(*diagram);
+  const Steps steps = steps_of(*diagram);
   const double first_rad = diagram->theta_rad.front(), last_rad = diagram->theta_rad.back();
-  grid = {static_cast<std::uint32_t>(values_.size()),
-          first_rad,
-          theta_steps > 0 ? theta_steps / (last_rad - first_rad) : 1.0,
-          theta_steps,
-          diagram->phi_rad.front(),
-          phi_steps};
-  append_values(*diagram, {theta_steps, phi_steps}, values_);
+  grid.first_value = static_cast<std::uint32_t>(values_.size());
+  grid.first_theta_rad = first_rad;
+  grid.theta_steps_per_rad = steps.theta > 0 ? steps.theta / (last_rad - first_rad) : 1.0;
   // Straight behind the diode rounding must not lead beyond the last angle: a step more of the same.
-  if (std::abs(last_rad - std::numbers::pi) < 1e-9) {
-    values_.insert(values_.end(), values_.end() - (phi_steps + 1), values_.end());
-    ++grid.theta_steps;
+  grid.theta_steps = steps.theta + (std::abs(last_rad - std::numbers::pi) < 1e-9 ? 1 : 0);
+  grid.first_phi_rad = diagram->phi_rad.front();
+  grid.phi_steps = steps.phi;
+  for (std::uint32_t i = 0; i <= steps.phi; ++i) {
+    const double turns = steps.phi > 0 ? static_cast<double>(i % steps.phi) / steps.phi : 0.0;
+    append_row(*diagram, grid, between_phis(diagram->phi_rad, grid.first_phi_rad + turns * turn_rad),
+               values_);
   }
   return grid;
 }

@@ -25,7 +25,7 @@ struct DiodeGroups {
   bool phased = false;               // an illuminator has a modulation phase
   std::vector<DiodeRun> runs;
   std::vector<shader::GroupDiode> diodes;
-  std::vector<float> diagrams; // the values of all
+  std::vector<glm::vec2> diagrams; // the values of all, each with the next theta's
 };
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
