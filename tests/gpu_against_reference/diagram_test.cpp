@@ -37,10 +37,11 @@ Gain bilinear(double theta_step_rad, double phi_step_rad, const Gain &gain) {
   };
 }
 
+// Not the same when it is mirrored.
 double ellipse(const Angles &angles) {
   const double across = angles.theta_rad * std::cos(angles.phi_rad) / 0.5;
   const double upright = angles.theta_rad * std::sin(angles.phi_rad) / 0.2;
-  return std::exp(-0.5 * (across * across + upright * upright));
+  return std::exp(-0.5 * (across * across + upright * upright) - upright * (0.3 + 0.1 * across));
 }
 
 double cosine3(const Angles &angles) { return std::pow(std::max(0.0, std::cos(angles.theta_rad)), 3); }
@@ -98,7 +99,7 @@ TEST_CASE("an elliptical diagram is the ellipse, and wider across") {
 
 TEST_CASE("phi may begin anywhere") {
   const std::vector<double> phi_rad{40 * degree, 160 * degree, 280 * degree};
-  const Gain nodes = [](const Angles &angles) { return 1.0 + 0.5 * std::cos(angles.phi_rad - 40 * degree); };
+  const Gain nodes = [](const Angles &angles) { return 1.0 + 0.5 * std::cos(angles.phi_rad - 70 * degree); };
   const Gain gain = [&](const Angles &angles) {
     const double steps =
         std::fmod(angles.phi_rad - 40 * degree + full_turn_rad, full_turn_rad) / (120 * degree);
