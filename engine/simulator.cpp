@@ -60,7 +60,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
                         const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                         Backscatter backscatter) {
   const CameraScene camera = to_camera(scene, sensor);
-  const std::vector<Diode> diodes = to_camera(illuminators.front(), sensor);
+  const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
   const Signal signal = signal_of(sensor, options);
   const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t strip_samples =
@@ -71,8 +71,8 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const Projection projection =
       project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments)
                                               : chip_blocks(sensor, block_fragments));
-  const DiodeGroups groups = group_diodes(diodes, projection.visible, signal.largest_wavenumber_rad_m());
-  const SumModel model = sum_model(diodes, backscatter, all_face_the_light(camera, diodes));
+  const DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m());
+  const SumModel model = sum_model(lights, backscatter, all_face_the_light(camera, lights));
   const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
   const auto planes = triangle_planes(camera, scene, backscatter,
                                       sensor.has_distortion() ? AlongRay::range : AlongRay::depth);

@@ -45,7 +45,7 @@ vec2 return_of(float total[moments], float kappa) {
 // over the reference point is than that.
 void add_tone(uint t, uint i, float total[moments], Real detour, float backscatter) {
   Tone tone = Tones(constants.tones).at[t];
-  float turns = turn_fraction(multiply(detour, real(tone.turns_per_m.x, tone.turns_per_m.y)));
+  float turns = turn_fraction(phase_turns(detour, tone));
   add_to_plane(t, i, backscatter, complex_multiply(return_of(total, tone.wavenumber), unit_phasor(turns)));
 }
 

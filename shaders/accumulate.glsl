@@ -15,6 +15,7 @@ layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotro
 layout(constant_id = constant_order) const uint power = 1;
 layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
 layout(constant_id = constant_first) const uint is_first = 0;
+layout(constant_id = constant_phased) const uint phased = 0;
 
 // A sample's point as the group sees it.
 struct Point {
@@ -41,7 +42,7 @@ vec2 weight_and_excess(Point point, GroupDiode diode) {
     weight *= backscatter_model == backscatter_lambert ? max(0.0, height * inverse_r) : (height > 0.0 ? 1.0 : 0.0);
   }
   if (pattern_model != pattern_isotropic)
-    weight *= radiation(point, diode, inverse_r, inverse_r2);
+    weight *= radiation(point, diode, r, inverse_r, inverse_r2);
   return vec2(weight, q * r2 * inverse);
 }
 
@@ -62,6 +63,14 @@ ReferencePath load_point(uint i, out Point point) {
   point.normal = surface.xyz;
   point.height = surface.w + dot(surface.xyz, reference_hi.xyz);
   return path;
+}
+
+// The phase of a path at a tone, the illuminator's with it, in turns.
+Real phase_turns(Real path_m, Tone tone) {
+  Real turns = multiply(path_m, real(tone.turns_per_m.x, tone.turns_per_m.y));
+  if (phased != 0)
+    turns = add(turns, multiply(real(constants.phase_turns.x, constants.phase_turns.y), real(tone.harmonic)));
+  return turns;
 }
 
 // Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even

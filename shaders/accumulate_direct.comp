@@ -19,7 +19,7 @@ const uint tap_planes = (distinct_taps + 1) / 2;
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
 void find_tap_phases(ReferencePath path, Tone tone, out float phases[distinct_taps]) {
-  Real turns = multiply(add(path.rho, path.range), real(tone.turns_per_m.x, tone.turns_per_m.y));
+  Real turns = phase_turns(add(path.rho, path.range), tone);
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
@@ -88,7 +88,7 @@ void main() {
     add_taps(i, total, backscatter);
   } else {
     Real detour = add(path.rho, negate(path.range));
-    float turns = turn_fraction(multiply(detour, real(tone.turns_per_m.x, tone.turns_per_m.y)));
+    float turns = turn_fraction(phase_turns(detour, tone));
     add_to_plane(0, i, backscatter, complex_multiply(vec2(total[0], total[distinct_taps]), unit_phasor(turns)));
   }
 }

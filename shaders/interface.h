@@ -35,6 +35,7 @@ PMDSIM_CONSTANT constant_tones = 6;       // by moments: tones that one dispatch
 PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
 PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
 PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
+PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation phase
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -67,6 +68,8 @@ PMDSIM_CONSTANT backscatter_lambert = 2; // rho / pi * cosine
 PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
 PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
 PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
+PMDSIM_CONSTANT pattern_axial = 3;       // a diagram for every diode, the same all around its axis
+PMDSIM_CONSTANT pattern_any = 4;         // a diagram of any kind or an order of its own for every diode
 
 PMDSIM_CONSTANT waveform_sine = 0;
 PMDSIM_CONSTANT waveform_square = 1;
@@ -161,15 +164,20 @@ struct GroupDiode {
   vec4 position;   // -2 * position_m, |position_m|^2
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
-  float order;     // of the cosine; below 0: isotropic
+  float order;     // of the cosine; -1: isotropic; -2: a diagram
+  uint diagram;    // index of its first value in the table of all; those of a phi are a row
+  float theta_steps;
+  float first_theta; // rad
+  float theta_steps_per_rad;
   vec2 padding;
+  vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
 
 // A harmonic of a modulation frequency.
 struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
   float wavenumber; // 2 pi frequency / c, rad/m
-  float padding;
+  float harmonic;   // how many of its turns a turn of the fundamental is
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -249,6 +257,8 @@ struct AccumulateConstants {
   uint plane;   // elements of a plane of the sum
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
+  vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
+  uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
 };
 
 struct ResolveConstants {
@@ -286,7 +296,7 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
-static_assert(sizeof(GroupDiode) == 48);
+static_assert(sizeof(GroupDiode) == 80);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
@@ -297,7 +307,7 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(AccumulateConstants) == 96 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(AccumulateConstants) == 112 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif

@@ -1,6 +1,8 @@
-// J, the radiation diagram of a diode towards a point: max(0, cos theta)^n, or 1.
+// J, the radiation diagram of a diode towards a point: max(0, cos theta)^n, 1, or a table.
 #ifndef PMDSIM_RADIATION_GLSL
 #define PMDSIM_RADIATION_GLSL
+
+#include "diagram.glsl"
 
 float whole_power(float x) {
   float result = 1.0;
@@ -20,11 +22,16 @@ float real_power(Point point, GroupDiode diode, float along_m, float inverse_r2)
   return along_m > 0.0 ? j : 0.0;
 }
 
-float radiation(Point point, GroupDiode diode, float inverse_r, float inverse_r2) {
+float radiation(Point point, GroupDiode diode, float r, float inverse_r, float inverse_r2) {
   float along_m = dot(diode.axis.xyz, point.position) - diode.axis.w;
   if (pattern_model == pattern_power)
     return whole_power(max(0.0, along_m * inverse_r));
-  return diode.order < 0.0 ? 1.0 : real_power(point, diode, along_m, inverse_r2);
+  if (pattern_model == pattern_axial)
+    return axial_diagram(way_from(diode, point, along_m, r), diode);
+  float j = diode.order < 0.0 ? 1.0 : real_power(point, diode, along_m, inverse_r2);
+  if (pattern_model == pattern_any)
+    j = diode.order < -1.0 ? diagram(way_from(diode, point, along_m, r), diode) : j;
+  return j;
 }
 
 #endif

@@ -53,26 +53,45 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
            first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps}};
+           signal.distinct_taps, groups.phased ? 1u : 0u}};
+}
+
+template <typename Property>
+bool every_pattern(const std::vector<CameraIlluminator> &illuminators, const Property &holds) {
+  return std::ranges::all_of(illuminators, [&](const CameraIlluminator &illuminator) {
+    return std::ranges::all_of(illuminator.diodes, holds, &Diode::pattern);
+  });
+}
+
+// The plainest of shader::pattern_* that holds all patterns.
+std::uint32_t pattern_of(const std::vector<CameraIlluminator> &illuminators) {
+  const auto every = [&](const auto &holds) { return every_pattern(illuminators, holds); };
+  const Pattern &first = illuminators.front().diodes.front().pattern;
+  if (every([](const Pattern &pattern) { return pattern.kind == Pattern::Kind::isotropic; }))
+    return shader::pattern_isotropic;
+  if (first.order >= 1.0 && first.order <= largest_whole_power && first.order == std::floor(first.order) &&
+      every([&](const Pattern &pattern) {
+        return pattern.kind == Pattern::Kind::cosine && pattern.order == first.order;
+      }))
+    return shader::pattern_power;
+  if (every([](const Pattern &pattern) { return pattern.kind != Pattern::Kind::diagram; }))
+    return shader::pattern_general;
+  if (every([](const Pattern &pattern) {
+        return pattern.kind == Pattern::Kind::diagram && pattern.diagram->phi_rad.size() == 1;
+      }))
+    return shader::pattern_axial;
+  return shader::pattern_any;
 }
 
 } // namespace
 
-SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light) {
-  SumModel model{shader::backscatter_lambert, shader::pattern_general, 0};
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light) {
+  SumModel model{shader::backscatter_lambert, pattern_of(illuminators), 0};
   if (backscatter == Backscatter::constant)
     model.backscatter = all_face_the_light ? shader::backscatter_flat : shader::backscatter_facing;
-  const Pattern &first = diodes.front().pattern;
-  const bool alike = std::ranges::all_of(diodes, [&](const Diode &diode) {
-    return diode.pattern.kind == first.kind && diode.pattern.order == first.order;
-  });
-  if (alike && first.kind == Pattern::Kind::isotropic)
-    model.pattern = shader::pattern_isotropic;
-  else if (alike && first.order >= 1.0 && first.order <= largest_whole_power &&
-           first.order == std::floor(first.order)) {
-    model.pattern = shader::pattern_power;
-    model.order = static_cast<std::uint32_t>(first.order);
-  }
+  if (model.pattern == shader::pattern_power)
+    model.order = static_cast<std::uint32_t>(illuminators.front().diodes.front().pattern.order);
   return model;
 }
 
@@ -82,6 +101,7 @@ AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &
       dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
       tones_(upload_tones(device, signal)),
       diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
+      diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
       first_(make_pipeline(device, groups, model, signal, options, true)) {
   if (runs_.size() > 1)
     later_ = make_pipeline(device, groups, model, signal, options, false);
@@ -97,6 +117,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
     const DoublePair4 reference(runs_[run].reference_m, 0.0);
+    const DoublePair phase_turns(runs_[run].phase_turns);
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
           words(buffers.position_hi.address()),
@@ -109,7 +130,9 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           blocks_per_run_,
           plane,
           reference.hi,
-          reference.lo};
+          reference.lo,
+          {phase_turns.hi, phase_turns.lo},
+          words(diagrams_.address())};
       (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
     }
   }

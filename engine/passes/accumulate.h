@@ -20,7 +20,8 @@ struct SumModel {
   bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
 };
 
-SumModel sum_model(const std::vector<Diode> &diodes, Backscatter backscatter, bool all_face_the_light);
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light);
 
 class AccumulatePass {
 public:
@@ -41,6 +42,7 @@ private:
   std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
+  vulkan::Buffer diagrams_;
   vulkan::ComputePipeline first_; // of a frame's runs
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };

@@ -32,8 +32,13 @@ struct CameraScene {
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);
 
-// The illuminator's diodes with positions and axes in the camera frame.
-std::vector<Diode> to_camera(const Illuminator &illuminator, const Sensor &sensor);
+// An illuminator as the lens sees it.
+struct CameraIlluminator {
+  std::vector<Diode> diodes; // places and directions in the camera frame
+  double modulation_phase_rad = 0.0;
+};
+
+std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor);
 
 // What TrianglePlane::along_* bound: the ray's depth, or its range.
 enum class AlongRay { depth, range };
@@ -46,6 +51,6 @@ std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, co
                                                    Backscatter backscatter, AlongRay along);
 
 // True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
-bool all_face_the_light(const CameraScene &camera, const std::vector<Diode> &camera_diodes);
+bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators);
 
 } // namespace pmdsim

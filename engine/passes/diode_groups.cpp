@@ -1,8 +1,11 @@
 #include "engine/passes/diode_groups.h"
 
+#include "engine/passes/diagram_tables.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 namespace pmdsim {
@@ -29,6 +32,8 @@ Box box_of(std::span<const Diode> diodes) {
 }
 
 struct Group {
+  std::span<Diode> diodes;
+  double phase_turns; // the illuminator's
   glm::dvec3 reference_m;
   double radius_m = 0.0; // of the sphere around the reference point that holds all its diodes
   double range_m =
@@ -67,10 +72,10 @@ double excess_at_most_m(const Group &group, const Reach &reach, const VisibleBox
   return sum_m > 0.0 ? std::min(group.radius_m, q_m2 / sum_m) : group.radius_m;
 }
 
-Group group_of(std::span<const Diode> diodes, const std::vector<VisibleBox> &visible) {
+Group group_of(std::span<Diode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
   const Box box = box_of(diodes);
   // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
-  Group group{diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
+  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
   Reach reach;
   for (const Diode &diode : diodes) {
     group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
@@ -85,17 +90,41 @@ Group group_of(std::span<const Diode> diodes, const std::vector<VisibleBox> &vis
   return group;
 }
 
-shader::GroupDiode dark_diode() { return {glm::vec4(0), glm::vec4(0, 0, 1, 0), 0.0f, -1.0f, glm::vec2(0)}; }
+// Of GroupDiode::order.
+constexpr float isotropic_order = -1.0f, diagram_order = -2.0f;
+
+shader::GroupDiode dark_diode() {
+  shader::GroupDiode diode{};
+  diode.axis = {0, 0, 1, 0};
+  diode.order = isotropic_order;
+  return diode;
+}
+
+void set_diagram(const Diode &diode, const DiagramGrid &grid, shader::GroupDiode &record) {
+  // Turned so that phi counts from the grid's first.
+  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
+                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
+  record.order = diagram_order;
+  record.diagram = grid.first_value;
+  record.theta_steps = static_cast<float>(grid.theta_steps);
+  record.first_theta = static_cast<float>(grid.first_theta_rad);
+  record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
+  record.across = glm::vec4(across, grid.phi_steps);
+}
 
 shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
-                               double largest_intensity_w_sr) {
+                               double largest_intensity_w_sr, DiagramTables &diagrams) {
   const glm::dvec3 position_m = diode.position_m - reference_m;
-  const bool isotropic = diode.pattern.kind == Pattern::Kind::isotropic;
-  return {glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m)),
-          glm::vec4(diode.axis, glm::dot(diode.axis, position_m)),
-          largest_intensity_w_sr > 0.0 ? static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr)
-                                       : 0.0f,
-          isotropic ? -1.0f : static_cast<float>(diode.pattern.order), glm::vec2(0)};
+  shader::GroupDiode record = dark_diode();
+  record.position = glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m));
+  record.axis = glm::vec4(diode.axis, glm::dot(diode.axis, position_m));
+  if (largest_intensity_w_sr > 0.0)
+    record.intensity = static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order = static_cast<float>(diode.pattern.order);
+  if (diode.pattern.kind == Pattern::Kind::diagram)
+    set_diagram(diode, diagrams.grid_of(diode.pattern.diagram), record);
+  return record;
 }
 
 class Grouping {
@@ -104,10 +133,10 @@ public:
       : visible_(visible), wavenumber_rad_m_(wavenumber_rad_m) {}
 
   // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
-  void split(std::span<Diode> diodes) {
-    const Group group = group_of(diodes, visible_);
+  void split(std::span<Diode> diodes, double phase_turns) {
+    const Group group = group_of(diodes, phase_turns, visible_);
     if (is_small_enough(group)) {
-      groups_.emplace_back(group, diodes);
+      groups_.push_back(group);
       return;
     }
     const Box box = box_of(diodes);
@@ -116,11 +145,11 @@ public:
     const auto middle = diodes.begin() + static_cast<std::ptrdiff_t>(diodes.size() / 2);
     std::ranges::nth_element(diodes, middle, {},
                              [axis](const Diode &diode) { return diode.position_m[axis]; });
-    split(diodes.first(diodes.size() / 2));
-    split(diodes.subspan(diodes.size() / 2));
+    split(diodes.first(diodes.size() / 2), phase_turns);
+    split(diodes.subspan(diodes.size() / 2), phase_turns);
   }
 
-  const std::vector<std::pair<Group, std::span<Diode>>> &groups() const { return groups_; }
+  const std::vector<Group> &groups() const { return groups_; }
 
 private:
   bool is_small_enough(const Group &group) const {
@@ -130,7 +159,7 @@ private:
 
   const std::vector<VisibleBox> &visible_;
   double wavenumber_rad_m_;
-  std::vector<std::pair<Group, std::span<Diode>>> groups_;
+  std::vector<Group> groups_;
 };
 
 std::uint32_t blocks_for(std::size_t diodes) {
@@ -138,11 +167,11 @@ std::uint32_t blocks_for(std::size_t diodes) {
 }
 
 // All runs have the same length, so short groups are padded and long ones cut: the length that costs least.
-std::uint32_t cheapest_run_blocks(const std::vector<std::uint32_t> &group_blocks) {
+std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
   const auto cost = [&](std::uint32_t run_blocks) {
     std::uint64_t runs = 0;
-    for (const std::uint32_t blocks : group_blocks)
-      runs += (blocks + run_blocks - 1) / run_blocks;
+    for (const Group &group : groups)
+      runs += (blocks_for(group.diodes.size()) + run_blocks - 1) / run_blocks;
     return runs * (run_blocks + run_overhead_blocks);
   };
   std::uint32_t cheapest = 1;
@@ -150,6 +179,18 @@ std::uint32_t cheapest_run_blocks(const std::vector<std::uint32_t> &group_blocks
     if (cost(run_blocks) < cost(cheapest))
       cheapest = run_blocks;
   return cheapest;
+}
+
+void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) {
+  const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
+  for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
+    result.runs.push_back(
+        {group.reference_m, static_cast<std::uint32_t>(result.diodes.size()), group.phase_turns});
+    for (std::size_t i = first; i < first + run_diodes; ++i)
+      result.diodes.push_back(i < group.diodes.size() ? group_diode(group.diodes[i], group.reference_m,
+                                                                    result.largest_intensity_w_sr, diagrams)
+                                                      : dark_diode());
+  }
 }
 
 } // namespace
@@ -162,33 +203,28 @@ std::uint32_t moments_needed(double phase_rad) {
   return k;
 }
 
-DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<VisibleBox> &visible,
-                         double wavenumber_rad_m) {
-  std::vector<Diode> ordered = diodes;
+DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
+  std::vector<CameraIlluminator> ordered = illuminators;
   Grouping grouping(visible, wavenumber_rad_m);
-  grouping.split(ordered);
-
   DiodeGroups result;
-  std::vector<std::uint32_t> group_blocks;
-  double excess_m = 0.0;
-  for (const auto &[group, members] : grouping.groups()) {
-    group_blocks.push_back(blocks_for(members.size()));
-    excess_m = std::max(excess_m, group.excess_m);
+  for (auto &[diodes, phase_rad] : ordered) {
+    const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);
+    result.phased = result.phased || phase_turns != 0.0;
+    for (const Diode &diode : diodes)
+      result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
+    grouping.split(diodes, phase_turns);
   }
-  result.blocks_per_run = cheapest_run_blocks(group_blocks);
-  result.moments = moments_needed(wavenumber_rad_m * excess_m);
-  for (const Diode &diode : diodes)
-    result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
 
-  const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
-  for (const auto &[group, members] : grouping.groups())
-    for (std::size_t first = 0; first < members.size(); first += run_diodes) {
-      result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size())});
-      for (std::size_t i = first; i < first + run_diodes; ++i)
-        result.diodes.push_back(
-            i < members.size() ? group_diode(members[i], group.reference_m, result.largest_intensity_w_sr)
-                               : dark_diode());
-    }
+  double excess_m = 0.0;
+  for (const Group &group : grouping.groups())
+    excess_m = std::max(excess_m, group.excess_m);
+  result.moments = moments_needed(wavenumber_rad_m * excess_m);
+  result.blocks_per_run = cheapest_run_blocks(grouping.groups());
+  DiagramTables diagrams;
+  for (const Group &group : grouping.groups())
+    add_runs(group, result, diagrams);
+  result.diagrams = diagrams.values();
   return result;
 }
 

@@ -2,7 +2,7 @@
 // The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
 // fast and nothing cancels, and laid out as the accumulate pass reads them.
 
-#include "engine/illuminator.h"
+#include "engine/passes/camera_scene.h"
 #include "engine/passes/projection.h"
 #include "shaders/interface.h"
 
@@ -14,6 +14,7 @@ namespace pmdsim {
 struct DiodeRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into DiodeGroups::diodes
+  double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
 };
 
 struct DiodeGroups {
@@ -21,13 +22,16 @@ struct DiodeGroups {
   std::uint32_t blocks_per_run =
       1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
   double largest_intensity_w_sr = 0; // what GroupDiode::intensity is relative to
+  bool phased = false;               // an illuminator has a modulation phase
   std::vector<DiodeRun> runs;
   std::vector<shader::GroupDiode> diodes;
+  std::vector<glm::vec2> diagrams; // the values of all, each with the next theta's
 };
 
-// `diodes` in the camera frame; `visible` bounds the points that they light; wavenumber = 2 pi f / c, rad/m.
-DiodeGroups group_diodes(const std::vector<Diode> &diodes, const std::vector<VisibleBox> &visible,
-                         double wavenumber_rad_m);
+// A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
+// that they light; wavenumber = 2 pi f / c, rad/m.
+DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m);
 
 // The smallest K whose remainder (kappa * e)^K / K! is below float32's rounding (DESIGN section 4).
 std::uint32_t moments_needed(double phase_rad);

@@ -23,8 +23,9 @@ std::vector<shader::Tone> Signal::all_tones() const {
   for (const double frequency_hz : modulation_hz)
     for (std::uint32_t h = 1; h <= tones; ++h) {
       const DoublePair turns_per_m(h * frequency_hz / speed_of_light_m_s);
-      result.push_back(
-          {{turns_per_m.hi, turns_per_m.lo}, static_cast<float>(wavenumber_rad_m(h * frequency_hz)), 0.0f});
+      result.push_back({{turns_per_m.hi, turns_per_m.lo},
+                        static_cast<float>(wavenumber_rad_m(h * frequency_hz)),
+                        static_cast<float>(h)});
     }
   return result;
 }

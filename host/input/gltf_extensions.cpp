@@ -15,12 +15,13 @@ constexpr std::array<std::string_view, 3> implemented = {"KHR_mesh_quantization"
                                                          "KHR_texture_transform"};
 
 // What these add is nothing that is simulated: lights for pictures (ours come from the setup), shading that
-// leaves the base colour as it is, glow and gloss upon it. They move and hide no geometry. Transmission,
-// volumes and variants are not among them, as they change what is seen and its colour.
-constexpr std::array<std::string_view, 9> without_effect = {
-    "KHR_lights_punctual", "KHR_materials_anisotropy",  "KHR_materials_clearcoat",
-    "KHR_materials_ior",   "KHR_materials_iridescence", "KHR_materials_emissive_strength",
-    "KHR_materials_sheen", "KHR_materials_specular",    "KHR_materials_unlit"};
+// leaves the base colour as it is, glow and gloss upon it, other materials to choose from. They move and hide
+// no geometry. Transmission and volumes are not among them, as they change what is seen.
+constexpr std::array<std::string_view, 10> without_effect = {
+    "KHR_lights_punctual",   "KHR_materials_anisotropy",  "KHR_materials_clearcoat",
+    "KHR_materials_ior",     "KHR_materials_iridescence", "KHR_materials_emissive_strength",
+    "KHR_materials_sheen",   "KHR_materials_specular",    "KHR_materials_unlit",
+    "KHR_materials_variants"};
 
 template <class List>
 bool holds(const List &list, std::string_view name) {

@@ -86,8 +86,10 @@ const std::map<std::string, HostLayout> scene_and_light{
     {"GroupDiode",
      {sizeof(GroupDiode),
       {MEMBER(GroupDiode, position), MEMBER(GroupDiode, axis), MEMBER(GroupDiode, intensity),
-       MEMBER(GroupDiode, order), MEMBER(GroupDiode, padding)}}},
-    {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, padding)}}},
+       MEMBER(GroupDiode, order), MEMBER(GroupDiode, diagram), MEMBER(GroupDiode, theta_steps),
+       MEMBER(GroupDiode, first_theta), MEMBER(GroupDiode, theta_steps_per_rad), MEMBER(GroupDiode, padding),
+       MEMBER(GroupDiode, across)}}},
+    {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, harmonic)}}},
 };
 
 const std::map<std::string, HostLayout> constants_until_points{
@@ -130,7 +132,8 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, diodes),
        MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
-       MEMBER(AccumulateConstants, reference_lo)}}},
+       MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns),
+       MEMBER(AccumulateConstants, diagrams)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),

@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"
 #include "host/input/setup.h"
+#include "tests/bench/accumulate_times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,24 +51,11 @@ double largest_error_m(const Variant &variant, const Setup &setup, Sensor sensor
   return error_m;
 }
 
-double accumulate_ms(const Measurement &measurement) {
-  for (const PassTime &pass : measurement.passes)
-    if (pass.name == "accumulate")
-      return pass.ms;
-  return std::nan("");
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + rounds / 2, values.end());
-  return values[rounds / 2];
-}
-
 } // namespace
 
 int main() {
   const Setup setup = load_setup(PMDSIM_SCENES "/paper_ring.json");
   std::vector<Simulator> simulators;
-  std::vector<std::vector<double>> times_ms(variants.size());
   std::vector<double> errors_m;
   for (const Variant &variant : variants) {
     Sensor sensor = setup.start.sensors[0];
@@ -77,17 +65,14 @@ int main() {
     simulators.emplace_back(SimulatorOptions{.device = {}, .sum = variant.sum})
         .prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   }
-  for (int round = -1; round < rounds; ++round) // the first is for warming up
-    for (std::size_t i = 0; i < variants.size(); ++i)
-      if (const double ms = accumulate_ms(simulators[i].measure()); round >= 0)
-        times_ms[i].push_back(ms);
+  const std::vector<bench::Times> times = bench::accumulate_times(simulators, rounds);
   fmt::print("{}, {} x {} pixels, {} diodes, {} rounds\n", simulators[0].device().name,
              setup.start.sensors[0].resolution.x, setup.start.sensors[0].resolution.y,
              setup.start.illuminators[0].diodes.size(), rounds);
   fmt::print("{:<42}{:>10}{:>10}{:>10}{:>10}{:>12}\n", "accumulate pass, ms", "median", "min", "max", "times",
              "error um");
   for (std::size_t i = 0; i < variants.size(); ++i)
-    fmt::print("{:<42}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>12.3f}\n", variants[i].name, median(times_ms[i]),
-               *std::ranges::min_element(times_ms[i]), *std::ranges::max_element(times_ms[i]),
-               median(times_ms[i]) / median(times_ms[variants[i].base]), 1e6 * errors_m[i]);
+    fmt::print("{:<42}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>12.3f}\n", variants[i].name, times[i].median_ms,
+               times[i].min_ms, times[i].max_ms, times[i].median_ms / times[variants[i].base].median_ms,
+               1e6 * errors_m[i]);
 }

@@ -107,3 +107,33 @@ TEST_CASE("what the lens cannot see is left out") {
   CHECK(camera.triangles[0].id == 0);
   CHECK(camera.triangles[1].id == 2);
 }
+
+TEST_CASE("an illuminator's diodes come into the camera frame with their axes and what lies across them") {
+  Random random(33);
+  Sensor sensor;
+  sensor.world_from_camera = random.pose(10.0);
+  Illuminator light{"light", random.pose(10.0), {diode_at({0.1, 0.2, 0.3})}, 0.5};
+  light.diodes[0].axis = {0, 0, 1};
+  light.diodes[0].across = {0, 1, 0};
+  const auto seen = to_camera({light, light}, sensor);
+  REQUIRE(seen.size() == 2);
+  CHECK(seen[1].modulation_phase_rad == 0.5);
+  const Diode &diode = seen[1].diodes[0];
+  const auto same = [](const glm::dvec3 &a, const glm::dvec3 &b) { return glm::distance(a, b) < 1e-12; };
+  const Pose &camera = sensor.world_from_camera, &frame = light.world_from_illuminator;
+  CHECK(same(camera.point(diode.position_m), frame.point({0.1, 0.2, 0.3})));
+  CHECK(same(camera.direction(diode.axis), frame.direction({0, 0, 1})));
+  CHECK(same(camera.direction(diode.across), frame.direction({0, 1, 0})));
+}
+
+TEST_CASE("lights far apart do not make each other's surfaces ask which way they face") {
+  const CameraScene camera = to_camera(wall_at(2), Sensor());
+  const auto lit_by = [&](const std::vector<glm::dvec3> &places) {
+    std::vector<CameraIlluminator> lights;
+    for (const glm::dvec3 &place : places)
+      lights.push_back({{diode_at(place)}});
+    return all_face_the_light(camera, lights);
+  };
+  CHECK(lit_by({{-5, 0, 0}, {5, 0, 0}})); // a sphere around both would reach behind the wall
+  CHECK_FALSE(lit_by({{-5, 0, 0}, {5, 0, 2.5}}));
+}

@@ -22,6 +22,8 @@ std::vector<Diode> ring(int count, double radius_m) {
   return diodes;
 }
 
+std::vector<CameraIlluminator> one(const std::vector<Diode> &diodes) { return {{diodes}}; }
+
 // The diodes of a run with light, put back to where they stand in the camera frame.
 std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
   std::vector<glm::dvec3> positions;
@@ -45,7 +47,7 @@ TEST_CASE("moments are as many as the remainder asks for") {
 }
 
 TEST_CASE("the paper's ring is one group around the lens, summed in one run") {
-  const auto groups = group_diodes(ring(240, 0.166), wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(ring(240, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m);
   REQUIRE(groups.runs.size() == 1);
   CHECK(glm::length(groups.runs[0].reference_m) < 1e-15);
   CHECK(groups.blocks_per_run == 15);
@@ -68,7 +70,7 @@ TEST_CASE("the remainder is within its bound over everything visible") {
     std::vector<Diode> diodes(40);
     for (Diode &diode : diodes)
       diode.position_m = 0.2 * somewhere();
-    const auto groups = group_diodes(diodes, visible, wavenumber_rad_m);
+    const auto groups = group_diodes(one(diodes), visible, wavenumber_rad_m);
     double largest_phase_rad = 0.0;
     for (const DiodeRun &run : groups.runs)
       for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
@@ -93,7 +95,7 @@ TEST_CASE("every diode is in exactly one group, wherever the groups are cut") {
     std::vector<Diode> diodes(static_cast<std::size_t>(count));
     for (Diode &diode : diodes)
       diode.position_m = {place(random), place(random), 0.1 * place(random)};
-    const auto groups = group_diodes(diodes, wall_at_2m, 100 * wavenumber_20mhz_rad_m);
+    const auto groups = group_diodes(one(diodes), wall_at_2m, 100 * wavenumber_20mhz_rad_m);
     auto found = lit_positions(groups);
     REQUIRE(found.size() == diodes.size());
     for (const Diode &diode : diodes) {
@@ -107,9 +109,9 @@ TEST_CASE("every diode is in exactly one group, wherever the groups are cut") {
 
 TEST_CASE("groups shrink with the wavelength and with what is near") {
   const auto diodes = ring(240, 0.166);
-  const auto far = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
-  const auto fast = group_diodes(diodes, wall_at_2m, 100 * wavenumber_20mhz_rad_m);
-  const auto near = group_diodes(diodes, {{{-0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}}}, wavenumber_20mhz_rad_m);
+  const auto far = group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto fast = group_diodes(one(diodes), wall_at_2m, 100 * wavenumber_20mhz_rad_m);
+  const auto near = group_diodes(one(diodes), {{{-0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}}}, wavenumber_20mhz_rad_m);
   CHECK(fast.runs.size() > far.runs.size());
   CHECK(near.runs.size() > far.runs.size());
   CHECK(fast.moments <= moments_needed(0.5));
@@ -123,13 +125,13 @@ TEST_CASE("many lonely diodes beside a cluster are not padded to the cluster's s
     const double reach_m = i < 60000 ? 0.005 : 0.2; // the others stand on the wall itself
     diodes[i].position_m = {reach_m * place(random), reach_m * place(random), i < 60000 ? 0.0 : 2.0};
   }
-  const auto groups = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(lit_positions(groups).size() == diodes.size());
   CHECK(groups.diodes.size() < 20 * diodes.size());
 }
 
 TEST_CASE("a diode on its own needs no correction of its path") {
-  const auto groups = group_diodes(ring(1, 3.0), wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(ring(1, 3.0)), wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(groups.moments == 1);
   CHECK(groups.diodes[0].position == glm::vec4(0.0f));
 }
@@ -138,9 +140,34 @@ TEST_CASE("intensities are relative to the largest; dark light stays finite") {
   auto diodes = ring(2, 0.1);
   diodes[0].intensity_w_sr = 1e30;
   diodes[1].intensity_w_sr = 5e29;
-  const auto groups = group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(groups.largest_intensity_w_sr == 1e30);
   CHECK(groups.diodes[0].intensity + groups.diodes[1].intensity == Approx(1.5f));
   diodes[0].intensity_w_sr = diodes[1].intensity_w_sr = 0.0;
-  CHECK(group_diodes(diodes, wall_at_2m, wavenumber_20mhz_rad_m).diodes[0].intensity == 0.0f);
+  CHECK(group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m).diodes[0].intensity == 0.0f);
+}
+
+TEST_CASE("groups never mix illuminators, and each has its illuminator's phase") {
+  // Two rings on top of each other, which as one illuminator are one group.
+  const auto both = [](double phase_rad) {
+    return std::vector<CameraIlluminator>{{ring(20, 0.1), 0.0}, {ring(20, 0.1), phase_rad}};
+  };
+  const auto groups = group_diodes(both(0.75 * std::numbers::pi), wall_at_2m, wavenumber_20mhz_rad_m);
+  REQUIRE(groups.runs.size() == 2);
+  CHECK(groups.phased);
+  CHECK(groups.runs[0].phase_turns == 0.0);
+  CHECK(groups.runs[1].phase_turns == Approx(0.375));
+  CHECK(lit_positions(groups).size() == 40);
+  const auto far_turns = group_diodes(both(-601.5 * std::numbers::pi), wall_at_2m, wavenumber_20mhz_rad_m);
+  CHECK(far_turns.runs[1].phase_turns == Approx(0.25).epsilon(1e-12));
+  CHECK_FALSE(group_diodes(both(0.0), wall_at_2m, wavenumber_20mhz_rad_m).phased);
+}
+
+TEST_CASE("intensities are relative to the largest of all illuminators") {
+  std::vector<CameraIlluminator> lights{{ring(1, 0.1), 0.0}, {ring(1, 0.2), 0.0}};
+  lights[1].diodes[0].intensity_w_sr = 4.0;
+  const auto groups = group_diodes(lights, wall_at_2m, wavenumber_20mhz_rad_m);
+  CHECK(groups.largest_intensity_w_sr == 4.0);
+  CHECK(groups.diodes[groups.runs[0].first].intensity == 0.25f);
+  CHECK(groups.diodes[groups.runs[1].first].intensity == 1.0f);
 }

@@ -50,6 +50,7 @@ TEST_CASE("harmonics take a plane and a tone each, of each frequency in turn") {
   for (std::size_t i = 0; i < tones.size(); ++i) {
     CHECK(tones[i].wavenumber == Approx(2 * std::numbers::pi * expected_hz[i] / 299792458.0));
     CHECK(turns_per_m(tones[i]) == Approx(expected_hz[i] / 299792458.0).epsilon(1e-14));
+    CHECK(tones[i].harmonic == float(i % 3 + 1));
   }
   CHECK(signal.largest_wavenumber_rad_m() == Approx(2 * std::numbers::pi * 90e6 / 299792458.0));
 }
