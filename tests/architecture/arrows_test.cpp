@@ -32,7 +32,7 @@ const std::vector<Rule> rules{
       "vulkan/.*"}},
     {"engine/reference/", {"engine/reference/.*", plain_engine}},
     {"engine/simulator.cpp", {"engine/passes/.*", "engine/vulkan/.*", public_engine}},
-    {"engine/", {plain_engine, lens}}, // the public headers: plain data, no Vulkan
+    {"engine/", {plain_engine, lens, "engine/tap_sequence\\.h"}}, // the public headers: plain data, no Vulkan
     {"host/input/", {"host/input/.*", public_engine}},
     {"host/output/", {"host/output/.*", public_engine}},
     {"host/", {"host/.*", public_engine}}, // never Vulkan, never the engine's inside
