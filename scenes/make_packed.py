@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes packed/: a scene with texture, vertex colours and holes, and what gltfpack makes of it and of others.
 
-Needs Python 3 and gltfpack 0.18 on the PATH. packed/packed.json says how each file was made and how exact it is.
+Needs Python 3 and gltfpack 0.18 on the PATH. tests/gpu_against_reference/expected/packed.json says how each file was made and how exact it is.
 """
 
 import json
@@ -199,7 +199,7 @@ def main():
     entries = [pack(*packing) for packing in PACKINGS]
     lines = ",\n".join("  " + json.dumps(entry) for entry in entries)
     text = f'{{\n "gltfpack": "{gltfpack_version()}",\n "files": [\n{lines}\n ]\n}}\n'
-    (HERE / "packed/packed.json").write_text(text)
+    (HERE.parent / "tests/gpu_against_reference/expected/packed.json").write_text(text)
     for entry in entries:
         print(f"{entry['file']:34} {(HERE / entry['file']).stat().st_size:6} B", end="  ")
         print(f"step {entry['position_step_m'] * 1e6:8.3f} um  {' '.join(entry['options'])}  {entry['bits']}")

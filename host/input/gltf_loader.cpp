@@ -81,13 +81,20 @@ private:
   std::map<std::pair<int, bool>, UsedMaterial> used_;
 };
 
+// The node's own name or that of the nearest one above that has one: packers hang meshes on children without.
+std::string object_name(const tinygltf::Model &model, const std::vector<SceneNode> &nodes, std::size_t at) {
+  for (std::optional<std::size_t> above = at; above; above = nodes[*above].parent)
+    if (const std::string &name = model.nodes[nodes[*above].index].name; !name.empty())
+      return name;
+  return fmt::format("node {}", nodes[at].index);
+}
+
 // `placement_of` gives that of each of the mesh's primitives.
 template <class PlacementOf>
-void append_object(const tinygltf::Model &model, std::size_t index, PlacementOf placement_of,
-                   const Place &root, Surfaces &surfaces, Scene &scene) {
-  const tinygltf::Node &node = model.nodes[index];
+void append_object(const tinygltf::Model &model, const tinygltf::Node &node, const std::string &name,
+                   PlacementOf placement_of, const Place &root, Surfaces &surfaces, Scene &scene) {
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
-  scene.objects.push_back(node.name.empty() ? fmt::format("node {}", index) : node.name);
+  scene.objects.push_back(name);
   const auto mesh = static_cast<std::size_t>(node.mesh);
   const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -128,7 +135,8 @@ GltfScene GltfFile::at(double time_s) const {
     if (!node.name.empty())
       result.nodes.push_back({node.name, world_from[i]});
     if (node.mesh >= 0)
-      append_object(*model_, nodes[i].index, placement_of, root, surfaces, result.scene);
+      append_object(*model_, node, object_name(*model_, nodes, i), placement_of, root, surfaces,
+                    result.scene);
   }
   return result;
 }

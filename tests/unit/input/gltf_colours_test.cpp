@@ -57,7 +57,7 @@ struct TexturedTriangle {
   }
 
   void append_to(Scene &scene) const {
-    append_primitive(model, primitive, {}, material, 0, 0,
+    append_primitive(model, primitive, Placement(AffineTransform{}), material, 0, 0,
                      Place{"scene.gltf"} / "meshes" / 0 / "primitives" / 0, scene);
   }
   std::vector<glm::dvec2> coordinates() const {

@@ -28,6 +28,10 @@ TEST_CASE("Every setup that ships loads without a warning") {
       {"sensor.json", {9950, 1}},
       {"signal.json", {9950, 1}},
       {"light.json", {9950, 17}},
+      {"motion.json", {14, 25}},
+      {"blender/moving.json", {112, 30}},
+      {"packed/grid.json", {3200, 24}},
+      {"light.json", {9950, 17}},
       {"analytic/wrap_10mhz.json", {6, 1}},
       {"analytic/on_axis_baseline.json", {8, 1}},
       {"analytic/inverse_square.json", {10, 1}},
@@ -59,7 +63,7 @@ TEST_CASE("The README shows the examples that ship") {
   };
   const std::filesystem::path folder = PMDSIM_SCENES;
   const std::string readme = text_of(folder / ".." / "README.md");
-  for (const char *name : {"sensor.json", "signal.json"}) {
+  for (const char *name : {"sensor.json", "signal.json", "light.json", "motion.json"}) {
     const std::string text = text_of(folder / name);
     std::istringstream setup(text.substr(text.find("\n{") + 1));
     std::string shown;
