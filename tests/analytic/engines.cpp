@@ -28,17 +28,23 @@ void print_row(Engine engine, const std::string &name, double expected, double g
 
 } // namespace
 
-Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
-                    Backscatter backscatter, const SimulatorOptions &options) {
+Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor,
+                    const std::vector<Illuminator> &illuminators, Backscatter backscatter,
+                    const SimulatorOptions &options) {
   if (engine == Engine::reference) {
-    const auto frame = reference::simulate(scene, sensor, {illuminator}, backscatter);
+    const auto frame = reference::simulate(scene, sensor, illuminators, backscatter);
     Measurement measured = reference::to_measurement(frame);
     measured.sample_triangle_id = frame.sample_triangle_id;
     return measured;
   }
   Simulator simulator = make_simulator(options);
-  simulator.prepare(scene, sensor, {illuminator}, backscatter);
+  simulator.prepare(scene, sensor, illuminators, backscatter);
   return simulator.measure();
+}
+
+Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
+                    Backscatter backscatter, const SimulatorOptions &options) {
+  return measure(engine, scene, sensor, std::vector{illuminator}, backscatter, options);
 }
 
 Measurement measure_monostatic(Engine engine, const Scene &scene, const Sensor &sensor,

@@ -23,6 +23,10 @@ Engine both_engines();
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
                     Backscatter backscatter, const SimulatorOptions &options = {});
 
+Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor,
+                    const std::vector<Illuminator> &illuminators, Backscatter backscatter,
+                    const SimulatorOptions &options = {});
+
 // Under light in the lens.
 Measurement measure_monostatic(Engine engine, const Scene &scene, const Sensor &sensor,
                                Backscatter backscatter = Backscatter::constant,
