@@ -50,15 +50,15 @@ struct Prepared {
 std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, const Sensor &sensor,
                                                  const CameraScene &camera, const Scene &scene,
                                                  const std::vector<RasterBlock> &blocks, bool surfaces,
-                                                 bool painted, SamplePrecision precision) {
+                                                 const PaintBuffers &paint, SamplePrecision precision) {
   if (sensor.has_distortion())
-    return SearchPass(device, sensor, camera, scene, blocks, surfaces, painted, precision);
-  return PointsPass(device, sensor, surfaces, painted, precision);
+    return SearchPass(device, sensor, camera, scene, blocks, surfaces, paint, precision);
+  return PointsPass(device, sensor, surfaces, paint.painted, precision);
 }
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
                         const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                        Backscatter backscatter) {
+                        Backscatter backscatter, TextureCache &textures) {
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
   const Signal signal = signal_of(sensor, options);
@@ -77,16 +77,17 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto planes = triangle_planes(camera, scene, backscatter,
                                       sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
   SceneBuffers buffers{vulkan::upload(device, std::as_bytes(std::span(planes))),
-                       upload_paint(device, camera, scene, backscatter)};
-  const bool painted = buffers.paint.painted, masked = buffers.paint.masked;
+                       upload_paint(device, camera, scene, backscatter, textures)};
+  VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
+  auto points = points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
+                            buffers.paint, options.precision);
   return {sensor,
           signal,
           strips,
           std::move(buffers),
           make_strip_buffers(device, strips, projection.blocks, signal, options.keep_sample_tags),
-          VisibilityPass(device, projection, sensor, strips, masked, options.precision),
-          points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(), painted,
-                      options.precision),
+          std::move(visibility),
+          std::move(points),
           AccumulatePass(device, groups, model, signal, options),
           ResolvePass(device, signal, groups.largest_intensity_w_sr, is_tiled(sensor), options.precision)};
 }
@@ -96,7 +97,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
-        device(instance, std::move(instance.devices()[info.index])), recorder(device) {}
+        device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void warm_up();
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
@@ -109,6 +110,7 @@ struct Simulator::State {
   DeviceInfo info;
   vulkan::Device device;
   vulkan::PassRecorder recorder;
+  TextureCache textures;
   std::optional<Prepared> prepared;
 };
 
@@ -183,8 +185,9 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
   state_->prepared.reset(); // its memory first
-  state_->prepared.emplace(
-      prepare_passes(state_->device, state_->options, scene, sensor, illuminators, backscatter));
+  state_->prepared.emplace(prepare_passes(state_->device, state_->options, scene, sensor, illuminators,
+                                          backscatter, state_->textures));
+  state_->textures.drop_unused();
   state_->warm_up();
 }
 

@@ -61,7 +61,9 @@ ReferencePath load_point(uint i, out Point point) {
   point.position = high3(from_reference);
   point.rho = high(path.rho);
   point.normal = surface.xyz;
-  point.height = surface.w + dot(surface.xyz, reference_hi.xyz);
+  // By the way that is shorter, which cancels less: over the lens's height, or from the sample.
+  point.height = point.rho < length(reference_hi.xyz) ? -dot(surface.xyz, point.position)
+                                                      : surface.w + dot(surface.xyz, reference_hi.xyz);
   return path;
 }
 

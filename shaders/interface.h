@@ -52,6 +52,7 @@ PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or
 PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
 PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
+PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;

@@ -54,7 +54,7 @@ Bounds ranges_m(const std::array<glm::dvec3, 3> &corners_m, const Plane &plane) 
 }
 
 // An equilateral triangle around the disc, which faces the lens; a little wider, so that the raster's
-// snapping takes nothing of the disc.
+// snapping takes nothing of a disc that is not much smaller than a sample.
 std::array<glm::dvec3, 3> around_disc(const glm::dvec3 &centre_m, double radius_m) {
   const glm::dvec3 view = glm::normalize(centre_m);
   const glm::dvec3 aside =

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 namespace pmdsim {
@@ -13,24 +12,32 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Linear interpolation on an even grid that has a node at every angle of a diagram is the diagram itself.
 // Where that takes more steps than these (of theta on its own, and of theta times phi), or no grid does it,
 // the finest within them stands in: beside an angle where the slope of J changes by s, it is off by s / 4 of
-// a step at most. Of 180 degrees in 2^16 steps that is 1.2e-5 rad * s.
-constexpr std::uint32_t most_theta_steps = 1u << 16;
+// a step at most. Of 180 degrees in 2^22 steps that is 1.9e-7 rad * s, in 2^11 steps 3.8e-4 rad * s.
+constexpr std::uint32_t most_theta_steps = 1u << 22;
 constexpr std::uint32_t most_steps = 1u << 22;
 constexpr std::uint32_t most_steps_each = 1u << 11; // of theta and of phi, where neither has few
 
-// The fewest even steps of `span_rad` from the first angle that meet all the others: of their greatest common
-// divisor in units of 1e-6 degree. None where angles are no multiples of that.
-std::optional<std::uint64_t> exact_steps(const std::vector<double> &angles_rad, double span_rad) {
-  constexpr double units_per_rad = 180e6 / std::numbers::pi, slack = 1e-3;
-  const auto span = static_cast<std::uint64_t>(std::llround(span_rad * units_per_rad));
-  std::uint64_t common = span;
-  for (const double angle_rad : angles_rad) {
-    const double units = (angle_rad - angles_rad.front()) * units_per_rad;
-    if (std::abs(units - std::round(units)) > slack)
-      return std::nullopt;
-    common = std::gcd(common, static_cast<std::uint64_t>(std::llround(units)));
+// The fewest even steps of `span_rad` from the first angle, up to `most`, that meet all the others to 1e-4 of
+// a step: a bend of J is then off by 1e-4 of itself at most, and angles that a file has rounded are met too.
+std::optional<std::uint32_t> even_steps(const std::vector<double> &angles_rad, double span_rad,
+                                        std::uint32_t most) {
+  constexpr double slack = 1e-4;
+  double narrowest_rad = span_rad;
+  for (std::size_t i = 1; i < angles_rad.size(); ++i)
+    narrowest_rad = std::min(narrowest_rad, angles_rad[i] - angles_rad[i - 1]);
+  if (!(narrowest_rad > 0.0))
+    return 0; // a single angle
+  const double fewest = span_rad / narrowest_rad;
+  for (double steps = std::max(1.0, std::floor(fewest)); steps <= most; ++steps) {
+    const double per_rad = steps / span_rad;
+    const bool meets_all = std::ranges::all_of(angles_rad, [&](double angle_rad) {
+      const double place = (angle_rad - angles_rad.front()) * per_rad;
+      return std::abs(place - std::round(place)) <= slack;
+    });
+    if (meets_all)
+      return static_cast<std::uint32_t>(steps);
   }
-  return common > 0 ? span / common : 0;
+  return std::nullopt;
 }
 
 struct Steps {
@@ -38,15 +45,11 @@ struct Steps {
 };
 
 Steps steps_of(const Diagram &diagram) {
-  constexpr auto few = [](const std::optional<std::uint64_t> &exact, std::uint32_t most) {
-    return exact ? static_cast<std::uint32_t>(std::min<std::uint64_t>(*exact, most)) : most;
-  };
-  const auto theta = exact_steps(diagram.theta_rad, diagram.theta_rad.back() - diagram.theta_rad.front());
-  Steps steps{few(theta, most_theta_steps), 0};
+  const double span_rad = diagram.theta_rad.back() - diagram.theta_rad.front();
+  Steps steps{even_steps(diagram.theta_rad, span_rad, most_theta_steps).value_or(most_theta_steps), 0};
   if (diagram.phi_rad.size() == 1)
     return steps;
-  const auto phi = exact_steps(diagram.phi_rad, turn_rad);
-  steps.phi = few(phi, most_steps);
+  steps.phi = even_steps(diagram.phi_rad, turn_rad, most_theta_steps).value_or(most_theta_steps);
   if (std::uint64_t{steps.theta} * steps.phi <= most_steps)
     return steps;
   if (steps.theta <= most_steps_each)

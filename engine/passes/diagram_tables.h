@@ -4,7 +4,9 @@
 #include "engine/illuminator.h"
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace pmdsim {

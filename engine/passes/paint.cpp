@@ -4,7 +4,6 @@
 #include "engine/passes/strip_buffers.h"
 
 #include <algorithm>
-#include <map>
 #include <span>
 
 namespace pmdsim {
@@ -99,36 +98,22 @@ shader::uint wrap_of(Wrap wrap) {
                                          : shader::wrap_clamp;
 }
 
-// Uploads each texture once.
-class Textures {
-public:
-  explicit Textures(const vulkan::Device &device) : device_(device) {}
-
-  shader::uvec2 address_of(const Texture &texture) {
-    const auto [known, is_new] = indices_.try_emplace(&texture, buffers_.size());
-    if (is_new)
-      buffers_.push_back(vulkan::upload(device_, std::as_bytes(std::span(texture.texels))));
-    return words(buffers_[known->second].address());
-  }
-
-  std::vector<vulkan::Buffer> take() { return std::move(buffers_); }
-
-private:
-  const vulkan::Device &device_;
-  std::map<const Texture *, std::size_t> indices_;
-  std::vector<vulkan::Buffer> buffers_;
-};
-
-const Texture &white() {
-  static const Texture texture{{1, 1}, {glm::vec4(1.0f)}};
+const std::shared_ptr<const Texture> &white() {
+  static const auto texture = std::make_shared<const Texture>(Texture{{1, 1}, {glm::vec4(1.0f)}});
   return texture;
 }
 
-shader::SurfacePaint surface_paint(const Surface &surface, Textures &textures, double per_reflectivity) {
+const std::shared_ptr<const Texture> &texture_of(const Surface &surface, const Scene &scene) {
+  return surface.paint && surface.paint->texture && !scene.texture_coordinates.empty()
+             ? surface.paint->texture
+             : white();
+}
+
+shader::SurfacePaint surface_paint(const Surface &surface, const Texture &texture,
+                                   const vulkan::Buffer &texels, double per_reflectivity) {
   const Paint paint = surface.paint.value_or(Paint{});
-  const Texture &texture = paint.texture ? *paint.texture : white();
   return {glm::vec4(per_reflectivity * glm::dvec4(paint.reflectivity_rgb, surface.reflectivity)),
-          textures.address_of(texture),
+          words(texels.address()),
           texture.size.x,
           texture.size.y,
           wrap_of(paint.wrap_u),
@@ -150,8 +135,20 @@ std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Sc
   return records;
 }
 
+std::shared_ptr<const vulkan::Buffer> TextureCache::buffer_of(const std::shared_ptr<const Texture> &texture) {
+  std::shared_ptr<const vulkan::Buffer> &buffer = buffers_[texture];
+  if (!buffer)
+    buffer = std::make_shared<const vulkan::Buffer>(
+        vulkan::upload(device_, std::as_bytes(std::span(texture->texels))));
+  return buffer;
+}
+
+void TextureCache::drop_unused() {
+  std::erase_if(buffers_, [](const auto &entry) { return entry.second.use_count() == 1; });
+}
+
 PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
-                          Backscatter backscatter) {
+                          Backscatter backscatter, TextureCache &textures) {
   PaintBuffers buffers;
   for (const CameraTriangle &shape : camera.triangles) {
     const auto &paint = scene.surfaces[scene.surface_of(shape.id)].paint;
@@ -163,12 +160,14 @@ PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camer
     return buffers;
   const std::vector<shader::ShapePaint> shapes = shape_paints(camera, scene);
   buffers.shapes = vulkan::upload(device, std::as_bytes(std::span(shapes)));
-  Textures textures(device);
   std::vector<shader::SurfacePaint> surfaces;
-  for (const Surface &surface : scene.surfaces)
-    surfaces.push_back(surface_paint(surface, textures, backscatter_per_reflectivity(backscatter)));
+  for (const Surface &surface : scene.surfaces) {
+    const std::shared_ptr<const Texture> &texture = texture_of(surface, scene);
+    buffers.textures.push_back(textures.buffer_of(texture));
+    surfaces.push_back(surface_paint(surface, *texture, *buffers.textures.back(),
+                                     backscatter_per_reflectivity(backscatter)));
+  }
   buffers.surfaces = vulkan::upload(device, std::as_bytes(std::span(surfaces)));
-  buffers.textures = textures.take();
   return buffers;
 }
 

@@ -87,7 +87,7 @@ vulkan::Buffer upload_corners(const vulkan::Device &device, const CameraScene &c
 
 SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
                        const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
-                       bool painted, SamplePrecision precision)
+                       const PaintBuffers &paint, SamplePrecision precision)
     : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
       corners_(upload_corners(device, camera, scene)),
       pipeline_(device,
@@ -96,7 +96,7 @@ SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const
                 {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
                  std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
                                                                     : shader::distortion_brown,
-                 0u, painted ? 1u : 0u}) {}
+                 paint.masked ? 1u : 0u, paint.painted ? 1u : 0u}) {}
 
 void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                         const StripBuffers &buffers, const SceneBuffers &scene) const {

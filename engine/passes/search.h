@@ -14,10 +14,10 @@ namespace pmdsim {
 
 class SearchPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights; `painted`: whether shapes have paint.
+  // `surfaces`: whether the sum asks for normals and heights; `paint` tells whether shapes have any.
   SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
-             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces, bool painted,
-             SamplePrecision precision);
+             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
+             const PaintBuffers &paint, SamplePrecision precision);
 
   // `scene.planes` holds the TrianglePlane of each of the scene's triangles, with ranges along the ray.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,

@@ -9,6 +9,7 @@
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/image.h"
 
+#include <memory>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim {

@@ -39,7 +39,9 @@ glm::dvec4 colour(const Scene &scene, const Paint &paint, std::uint32_t id, cons
 
 bool is_there(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights) {
   const Paint &paint = *scene.surfaces[scene.surface_of(id)].paint;
-  return paint.alpha * colour(scene, paint, id, weights).a >= paint.alpha_cutoff;
+  // Files state alpha and cutoff as floats, to which "at least" has to hold: 0.7 is not below 0.7.
+  const auto alpha = static_cast<float>(paint.alpha * colour(scene, paint, id, weights).a);
+  return alpha >= static_cast<float>(paint.alpha_cutoff);
 }
 
 double painted_reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights) {

@@ -68,7 +68,7 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   ordered_json sensors = ordered_json::array();
   for (const SensorFindings &sensor : findings.sensors)
     sensors.push_back(sensor_json(sensor));
-  ordered_json report{{"triangles", findings.triangles}};
+  ordered_json report{{"triangles", findings.triangles}, {"points", findings.points}};
   report.update(light_json(findings.light));
   report["frames"] = frames_json(findings.frames);
   report["moves"] = findings.moves;
@@ -149,11 +149,17 @@ std::string illuminators_text(const Findings &findings) {
   return text;
 }
 
+std::string points_text(std::size_t points) {
+  return points == 0 ? std::string() : line("points", fmt::format("{}", points));
+}
+
 std::string report_text(const Setup &setup, const Findings &findings) {
-  std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
-                     line("triangles", fmt::format("{}", findings.triangles)) + illuminators_text(findings) +
-                     line("frames", frames_text(findings.frames)) +
-                     line("motion", findings.moves ? "the scene moves" : "nothing moves");
+  std::string text =
+      fmt::format("{} is valid\n\n", setup.file.string()) +
+      line("triangles", fmt::format("{}", findings.triangles)) + points_text(findings.points) +
+      illuminators_text(findings) + line("frames", frames_text(findings.frames)) +
+      line("motion",
+           findings.moves ? "the scene moves; what is visible is told of the first frame" : "nothing moves");
   for (const SensorFindings &sensor : findings.sensors)
     text += sensor_text(sensor);
   return text;

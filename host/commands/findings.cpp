@@ -132,7 +132,13 @@ void add_tap_warning(std::vector<std::string> &warnings, const SensorFindings &f
 } // namespace
 
 Findings findings_of(const Setup &setup) {
-  Findings findings{setup.start.scene.triangles.size(), {}, {}, {}, setup.frames, setup.motion != nullptr};
+  Findings findings{setup.start.scene.triangles.size(),
+                    setup.start.scene.discs.size(),
+                    {},
+                    {},
+                    {},
+                    setup.frames,
+                    setup.motion != nullptr};
   DiagramAngles known_sr;
   for (const Illuminator &illuminator : setup.start.illuminators) {
     const LightFindings light = findings_of_light(illuminator, known_sr);
@@ -148,7 +154,7 @@ Findings findings_of(const Setup &setup) {
 
 std::vector<std::string> warnings_of(const Findings &findings) {
   std::vector<std::string> warnings;
-  if (findings.triangles > 0)
+  if (findings.triangles + findings.points > 0)
     for (const SensorFindings &sensor : findings.sensors)
       add_warnings(warnings, sensor);
   for (const SensorFindings &sensor : findings.sensors)

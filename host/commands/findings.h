@@ -44,7 +44,7 @@ struct LightFindings {
 };
 
 struct Findings {
-  std::size_t triangles;
+  std::size_t triangles, points;
   LightFindings light;
   std::vector<std::pair<std::string, LightFindings>> illuminators; // with their names
   std::vector<SensorFindings> sensors;

@@ -14,6 +14,12 @@ void add_manifest(OutputSet &files, const RunRecord &run) {
   files.add(manifest_name, [&](OutputFile &file) { write_manifest(file, run); });
 }
 
+std::string whole_text(const std::vector<FrameRecord> &frames) {
+  const std::uint32_t first = frames.front().frame, last = frames.back().frame;
+  return first == last ? fmt::format("frame {} is whole and stays", first)
+                       : fmt::format("frames {} to {} are whole and stay", first, last);
+}
+
 } // namespace
 
 FrameRange frames_of(const Options &options, const Setup &setup) {
@@ -41,8 +47,7 @@ void FrameSequence::write(const Write &write_sensor) {
     const bool has_manifest = keep_whole_frames();
     if (run_.frames.empty())
       throw;
-    throw Error(error.code(), fmt::format("{}; frames {} to {} are whole and stay in {}{}", error.what(),
-                                          run_.frames.front().frame, run_.frames.back().frame,
+    throw Error(error.code(), fmt::format("{}; {} in {}{}", error.what(), whole_text(run_.frames),
                                           directory_.string(), has_manifest ? "" : ", without a manifest"));
   } catch (...) {
     keep_whole_frames();

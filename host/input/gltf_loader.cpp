@@ -81,12 +81,18 @@ private:
   std::map<std::pair<int, bool>, UsedMaterial> used_;
 };
 
-// The node's own name or that of the nearest one above that has one: packers hang meshes on children without.
-std::string object_name(const tinygltf::Model &model, const std::vector<SceneNode> &nodes, std::size_t at) {
-  for (std::optional<std::size_t> above = at; above; above = nodes[*above].parent)
-    if (const std::string &name = model.nodes[nodes[*above].index].name; !name.empty())
-      return name;
-  return fmt::format("node {}", nodes[at].index);
+// The node that names each of `nodes`, parents first: itself or the nearest one above that has a name, for
+// packers hang meshes on children without.
+std::vector<std::size_t> naming_nodes(const tinygltf::Model &model, const std::vector<SceneNode> &nodes) {
+  std::vector<std::size_t> naming(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    naming[i] = model.nodes[nodes[i].index].name.empty() && nodes[i].parent ? naming[*nodes[i].parent] : i;
+  return naming;
+}
+
+std::string object_name(const tinygltf::Model &model, const SceneNode &naming) {
+  const std::string &name = model.nodes[naming.index].name;
+  return name.empty() ? fmt::format("node {}", naming.index) : name;
 }
 
 // `placement_of` gives that of each of the mesh's primitives.
@@ -124,6 +130,7 @@ GltfScene GltfFile::at(double time_s) const {
     world_from_skin[skin] = world_from_mesh_by_joint(joints, world_from);
 
   GltfScene result{file_, {}, {}};
+  const std::vector<std::size_t> naming = naming_nodes(*model_, nodes);
   Surfaces surfaces(*materials_, result.scene);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const tinygltf::Node &node = model_->nodes[nodes[i].index];
@@ -135,7 +142,7 @@ GltfScene GltfFile::at(double time_s) const {
     if (!node.name.empty())
       result.nodes.push_back({node.name, world_from[i]});
     if (node.mesh >= 0)
-      append_object(*model_, node, object_name(*model_, nodes, i), placement_of, root, surfaces,
+      append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
                     result.scene);
   }
   return result;

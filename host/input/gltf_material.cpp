@@ -89,6 +89,7 @@ GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
   const bool is_blended = stated.alpha_mode == "BLEND";
 
   GltfMaterial result;
+  result.blended = is_blended;
   Paint paint;
   double least_alpha = stated.factor.a;
   if (stated.base.contains(texture_key) && (!stated.reflectivity || is_blended || stated.alpha_cutoff > 0.0))

@@ -12,6 +12,7 @@ struct GltfMaterial {
   // Where the surface's paint has a texture: which TEXCOORD_n, and the texture's (u, v, 1) from them.
   std::uint32_t texture_coordinates = 0;
   glm::dmat3 texture_from_coordinates{1.0};
+  bool blended = false; // alphaMode BLEND: vertex colours with an alpha below 1 would be translucent
 };
 
 // A file's materials. Textures are opened when a material first needs them.

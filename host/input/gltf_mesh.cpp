@@ -5,6 +5,7 @@
 #include "host/input/gltf_points.h"
 #include "host/input/limits.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <numeric>
@@ -98,6 +99,19 @@ std::vector<glm::dvec2> texture_coordinates(const tinygltf::Model &model,
   return coordinates;
 }
 
+std::vector<glm::vec4> colours(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                               const GltfMaterial &material, std::size_t vertex_count, const Place &place) {
+  std::vector<glm::vec4> result = read_colours(model, primitive, vertex_count, place);
+  const bool translucent =
+      material.blended &&
+      std::any_of(result.begin(), result.end(), [](const glm::vec4 &rgba) { return rgba.a < 1.0f; });
+  if (translucent)
+    throw input_error(
+        place / "attributes" / "COLOR_0",
+        "an alpha below 1 is not supported under alphaMode BLEND (expected \"MASK\" or \"OPAQUE\")");
+  return result;
+}
+
 void append_triangles(const std::vector<Corners> &triangles, const std::vector<std::uint32_t> &indices,
                       const Placement &placement, std::uint32_t first_vertex, std::uint32_t surface,
                       std::uint32_t object, Scene &scene) {
@@ -130,7 +144,7 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
   else
     append_triangles(triangle_corners(primitive.mode, static_cast<std::uint32_t>(indices.size()), place),
                      indices, placement, first_vertex, surface, object, scene);
-  extend(scene.colours, read_colours(model, primitive, count, place), glm::vec4(1.0f), before, count);
+  extend(scene.colours, colours(model, primitive, material, count, place), glm::vec4(1.0f), before, count);
   extend(scene.texture_coordinates, texture_coordinates(model, primitive, material, count, place),
          glm::dvec2(0.0), before, count);
   scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());

@@ -123,64 +123,64 @@ void check_animations(const json &document, const Place &root) {
 }
 
 // glTF allows indices that are all 0, and tinygltf refuses them without their place.
-  void refuse_zero_indices(const json &document, const json &primitive, const Place &place) {
-    if (!primitive.contains("indices"))
+void refuse_zero_indices(const json &document, const json &primitive, const Place &place) {
+  if (!primitive.contains("indices"))
+    return;
+  const auto accessor = primitive.at("indices").get<std::size_t>();
+  if (!document.at("accessors").at(accessor).contains("bufferView"))
+    throw input_error(Place{place.file} / "accessors" / accessor,
+                      "missing key \"bufferView\", which indices need");
+}
+
+void check_primitives(const json &document, const Place &root) {
+  const Reference accessors(document, "accessors"), materials(document, "materials");
+  for_each(document, "meshes", root, [&](const json &mesh, const Place &mesh_place) {
+    for_each(mesh, "primitives", mesh_place, [&](const json &primitive, const Place &place) {
+      for (const auto &[name, accessor] : primitive.at("attributes").items())
+        accessors.check(accessor, place / "attributes" / name);
+      accessors.check_member(primitive, "indices", place);
+      refuse_zero_indices(document, primitive, place);
+      materials.check_member(primitive, "material", place);
+    });
+  });
+}
+
+void check_accessors(const json &document, const Place &root) {
+  const Reference views(document, "bufferViews");
+  for_each(document, "accessors", root, [&](const json &accessor, const Place &place) {
+    views.check_member(accessor, "bufferView", place);
+    if (!accessor.contains("sparse"))
       return;
-    const auto accessor = primitive.at("indices").get<std::size_t>();
-    if (!document.at("accessors").at(accessor).contains("bufferView"))
-      throw input_error(Place{place.file} / "accessors" / accessor,
-                        "missing key \"bufferView\", which indices need");
-  }
+    for (const char *part : {"indices", "values"})
+      views.check_member(accessor.at("sparse").at(part), "bufferView", place / "sparse" / part);
+  });
+}
 
-  void check_primitives(const json &document, const Place &root) {
-    const Reference accessors(document, "accessors"), materials(document, "materials");
-    for_each(document, "meshes", root, [&](const json &mesh, const Place &mesh_place) {
-      for_each(mesh, "primitives", mesh_place, [&](const json &primitive, const Place &place) {
-        for (const auto &[name, accessor] : primitive.at("attributes").items())
-          accessors.check(accessor, place / "attributes" / name);
-        accessors.check_member(primitive, "indices", place);
-        refuse_zero_indices(document, primitive, place);
-        materials.check_member(primitive, "material", place);
-      });
-    });
-  }
+void check_views(const json &document, const Place &root) {
+  const Reference buffers(document, "buffers");
+  for_each(document, "bufferViews", root, [&](const json &view, const Place &place) {
+    buffers.check_member(view, "buffer", place);
+    if (const json *compressed = meshopt_part(view))
+      buffers.check_member(*compressed, "buffer", place / "extensions" / meshopt_extension);
+  });
+}
 
-  void check_accessors(const json &document, const Place &root) {
-    const Reference views(document, "bufferViews");
-    for_each(document, "accessors", root, [&](const json &accessor, const Place &place) {
-      views.check_member(accessor, "bufferView", place);
-      if (!accessor.contains("sparse"))
-        return;
-      for (const char *part : {"indices", "values"})
-        views.check_member(accessor.at("sparse").at(part), "bufferView", place / "sparse" / part);
-    });
-  }
-
-  void check_views(const json &document, const Place &root) {
-    const Reference buffers(document, "buffers");
-    for_each(document, "bufferViews", root, [&](const json &view, const Place &place) {
-      buffers.check_member(view, "buffer", place);
-      if (const json *compressed = meshopt_part(view))
-        buffers.check_member(*compressed, "buffer", place / "extensions" / meshopt_extension);
-    });
-  }
-
-  void check_textures(const json &document, const Place &root) {
-    const Reference textures(document, "textures"), images(document, "images"),
-        samplers(document, "samplers"), views(document, "bufferViews");
-    const json::json_pointer base_texture("/pbrMetallicRoughness/baseColorTexture");
-    for_each(document, "materials", root, [&](const json &material, const Place &place) {
-      if (material.contains(base_texture))
-        textures.check_member(material.at(base_texture), "index",
-                              place / "pbrMetallicRoughness" / "baseColorTexture");
-    });
-    for_each(document, "textures", root, [&](const json &texture, const Place &place) {
-      images.check_member(texture, "source", place);
-      samplers.check_member(texture, "sampler", place);
-    });
-    for_each(document, "images", root,
-             [&](const json &image, const Place &place) { views.check_member(image, "bufferView", place); });
-  }
+void check_textures(const json &document, const Place &root) {
+  const Reference textures(document, "textures"), images(document, "images"), samplers(document, "samplers"),
+      views(document, "bufferViews");
+  const json::json_pointer base_texture("/pbrMetallicRoughness/baseColorTexture");
+  for_each(document, "materials", root, [&](const json &material, const Place &place) {
+    if (material.contains(base_texture))
+      textures.check_member(material.at(base_texture), "index",
+                            place / "pbrMetallicRoughness" / "baseColorTexture");
+  });
+  for_each(document, "textures", root, [&](const json &texture, const Place &place) {
+    images.check_member(texture, "source", place);
+    samplers.check_member(texture, "sampler", place);
+  });
+  for_each(document, "images", root,
+           [&](const json &image, const Place &place) { views.check_member(image, "bufferView", place); });
+}
 
 } // namespace
 

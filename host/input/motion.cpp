@@ -2,6 +2,7 @@
 
 #include "host/input/setup_pose.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace pmdsim {
@@ -9,7 +10,16 @@ namespace pmdsim {
 Motion::Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root)
     : gltf_(std::move(gltf)), setup_(std::move(setup)), root_(std::move(root)) {}
 
+// What is right at rest may go wrong in motion: such an error tells when.
 Instant Motion::at(double time_s, const Instant &start) const {
+  try {
+    return placed_at(time_s, start);
+  } catch (const Error &error) {
+    throw Error(error.code(), fmt::format("{}, at {:.6g} s", error.what(), time_s));
+  }
+}
+
+Instant Motion::placed_at(double time_s, const Instant &start) const {
   GltfScene moved = gltf_.at(time_s);
   Instant instant{{}, start.sensors, start.illuminators};
   const auto pose_of = [&](const char *list, std::size_t i) {

@@ -17,6 +17,8 @@ public:
   Instant at(double time_s, const Instant &start) const;
 
 private:
+  Instant placed_at(double time_s, const Instant &start) const;
+
   GltfFile gltf_;
   nlohmann::ordered_json setup_;
   Place root_;

@@ -52,12 +52,19 @@ Error refused(const std::filesystem::path &file, const std::string &why, const A
   return input_error(named_at, named_in == file ? why : in_quotes(file.string()) + ": " + why);
 }
 
+// The system takes a NUL for the end of a name.
+const std::filesystem::path &without_nul(const std::filesystem::path &file, const AnyPlace &named_at) {
+  if (file.native().find('\0') != std::string::npos)
+    throw refused(file, "expected a file's name without NUL", named_at);
+  return file;
+}
+
 // A regular file, open for reading.
 class RegularFile {
 public:
   RegularFile(const std::filesystem::path &file, const AnyPlace &named_at)
       // Without O_NONBLOCK, opening a FIFO waits for a writer.
-      : descriptor_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
+      : descriptor_(open(without_nul(file, named_at).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
     struct stat status {};
     if (descriptor_.get() < 0 || fstat(descriptor_.get(), &status) != 0)
       throw refused(file, reason(errno), named_at);

@@ -120,9 +120,9 @@ Setup load_setup(const std::filesystem::path &file) {
   refuse_doubled_names(setup.start.illuminators, "illuminator", root / "illuminators");
 
   warn_of_unseen_harmonics(setup);
-  if (scene.scene.triangles.empty())
-    setup.warnings.push_back(
-        fmt::format("{}: the scene has no triangles, nothing will be seen", scene_file.string()));
+  if (scene.scene.shape_count() == 0)
+    setup.warnings.push_back(fmt::format(
+        "{}: the scene has neither triangles nor points, nothing will be seen", scene_file.string()));
   setup.start.scene = std::move(scene.scene);
   if (gltf.moves())
     setup.motion = std::make_shared<const Motion>(std::move(gltf), setup.as_used, root);

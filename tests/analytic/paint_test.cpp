@@ -137,7 +137,8 @@ TEST_CASE("a texture is the reflectivity") {
   const auto rho = [&](const glm::dvec2 &p_m) { return stairs_at(uv_of(p_m), *surface.paint); };
   check_wall(engine, name, scene, rho);
   if (engine == Engine::vulkan)
-    check_wall(engine, name + ", pairs", scene, rho, {.device = {}, .precision = SamplePrecision::double_float});
+    check_wall(engine, name + ", pairs", scene, rho,
+               {.device = {}, .precision = SamplePrecision::double_float});
 }
 
 TEST_CASE("colours are weighed, and texel and vertex colour multiply") {

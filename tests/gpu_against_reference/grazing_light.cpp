@@ -26,8 +26,9 @@ Plane plane_of(std::uint32_t id, const Scene &scene, const Sensor &sensor,
 
 bool grazes(const glm::dvec3 &point_m, const glm::dvec3 &normal, const Diode &diode) {
   const glm::dvec3 to_diode = glm::normalize(diode.position_m - point_m);
+  // Of the tests' diagrams too, which end at 90 degrees.
   const bool at_rim =
-      diode.pattern.kind == Pattern::Kind::cosine && std::abs(glm::dot(diode.axis, to_diode)) < 0.01;
+      diode.pattern.kind != Pattern::Kind::isotropic && std::abs(glm::dot(diode.axis, to_diode)) < 0.01;
   return at_rim || std::abs(glm::dot(normal, to_diode)) < 0.01;
 }
 

@@ -1,6 +1,9 @@
 // Several illuminators, with a phase each.
 
+#include "tests/gpu_against_reference/comparison.h"
 #include "tests/gpu_against_reference/light_formula.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -70,6 +73,26 @@ TEST_CASE("a whole turn of phase is none, to the bit") {
   const Measurement expected = measure(none, {}), measured = measure(whole, {});
   CHECK(measured.returns[0].distance_m == expected.returns[0].distance_m);
   CHECK(measured.returns[0].amplitude == expected.returns[0].amplitude);
+}
+
+TEST_CASE("a light close to a far wall") {
+  const double z_m = 1000.0;
+  SceneBuilder builder; // tilted, so that nothing cancels by symmetry
+  builder.add_mesh(
+      {{-600, -600, z_m - 200}, {-600, 600, z_m - 200}, {600, 600, z_m + 200}, {600, -600, z_m + 200}},
+      {{0, 1, 2}, {0, 2, 3}});
+  Sensor sensor;
+  sensor.resolution = {32, 32};
+  sensor.pixel_pitch_m = glm::dvec2(45e-6);
+  const std::vector<Illuminator> lights{diode_beside_lens(sensor, diode_at({0.3, -0.2, z_m - 0.5}))};
+  const auto expected = reference::simulate(builder.scene(), sensor, lights, Backscatter::lambert);
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  simulator.prepare(builder.scene(), sensor, lights, Backscatter::lambert);
+  const Comparison comparison = compare(simulator.measure(), expected, builder.scene(), sensor);
+  fmt::print("{}{}", comparison_heading(),
+             comparison_row("light half a metre before a wall at 1 km", comparison));
+  CHECK(comparison.pixels >= 500);
+  CHECK(comparison.amplitude_max_relative <= 1e-5);
 }
 
 TEST_CASE("lights ten metres apart") {

@@ -5,6 +5,7 @@
 #include "tests/gpu_against_reference/grazing_light.h"
 #include "tests/support/painted_scenes.h"
 #include "tests/support/random_cameras.h"
+#include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
 #include <catch2/catch.hpp>
@@ -67,4 +68,23 @@ TEST_CASE("random paint and points agree with the reference") {
   fmt::print("of all cameras with distortion, {:.5f} % of the samples see another shape\n",
              100 * distorted.differing_fraction());
   CHECK(distorted.differing_fraction() <= 1e-3);
+}
+
+TEST_CASE("an alpha that equals its cutoff is no hole") {
+  SceneBuilder builder;
+  Paint paint;
+  paint.reflectivity_rgb = glm::dvec3(0.3);
+  paint.alpha_cutoff = 0.7; // which no float is
+  builder.add_wall({2.0, {0.0, true, paint}, {-10.0, -7.0}, {9.0, 10.0}});
+  Scene scene = builder.scene();
+  scene.colours.assign(scene.positions_m.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.7f));
+  Sensor sensor;
+  sensor.resolution = {32, 32};
+  const std::vector<Illuminator> light{monostatic_illuminator(sensor.world_from_camera)};
+  const auto expected = reference::simulate(scene, sensor, light, Backscatter::lambert);
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  simulator.prepare(scene, sensor, light, Backscatter::lambert);
+  const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
+  CHECK(comparison.pixels == sensor.pixel_count());
+  CHECK(comparison.differing_samples == 0);
 }

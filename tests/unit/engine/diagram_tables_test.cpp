@@ -142,6 +142,17 @@ TEST_CASE("a single angle has light nowhere beside it") {
   CHECK(from_table(tables, grid, 1e-6, 0.0) == 0.0);
 }
 
+TEST_CASE("angles that a file has rounded are met by even steps") {
+  DiagramTables tables;
+  std::vector<double> theta_deg;
+  for (int i = 0; i <= 55; ++i) // 90 / 55 degrees, to four digits
+    theta_deg.push_back(std::round(i * 90.0 / 55.0 * 1e4) / 1e4);
+  const auto rounded = diagram_of(theta_deg, {0}, values_for(theta_deg.size()));
+  const DiagramGrid grid = tables.grid_of(rounded);
+  CHECK(grid.theta_steps == 55);
+  CHECK(largest_difference(*rounded, tables, grid) < 2e-4); // 1e-4 of the bends, which are 2 at most
+}
+
 TEST_CASE("angles that no grid meets take the finest, which is off by a quarter step of their bends") {
   DiagramTables tables;
   std::vector<double> theta_deg{0};
@@ -149,9 +160,9 @@ TEST_CASE("angles that no grid meets take the finest, which is off by a quarter 
     theta_deg.push_back(theta_deg.back() + 1 + 0.1 * std::sin(theta_deg.back()));
   const auto odd = diagram_of(theta_deg, {0}, values_for(theta_deg.size()));
   const DiagramGrid grid = tables.grid_of(odd);
-  CHECK(grid.theta_steps == 1u << 16);
+  CHECK(grid.theta_steps == 1u << 22);
   const double steepest = 2.0 / (0.9 * degree); // values are 0 to 1: the slope changes by twice that at most
-  CHECK(largest_difference(*odd, tables, grid) < 0.25 * steepest * 90 * degree / (1u << 16) + 1e-7);
+  CHECK(largest_difference(*odd, tables, grid) < 0.25 * steepest * 90 * degree / (1u << 22) + 1e-7);
 }
 
 TEST_CASE("grids of both angles are kept within 2^22 steps, and exact along the one that can be") {
@@ -162,11 +173,12 @@ TEST_CASE("grids of both angles are kept within 2^22 steps, and exact along the 
     CHECK(tables.values().size() == (grid.theta_steps + 1) * (grid.phi_steps + 1));
     return std::pair(grid.theta_steps, grid.phi_steps);
   };
-  const double odd_deg = 100.0 / 3.0;
+  const std::vector<double> odd_deg{0, 7.1234567, 13.98765, 33.3219, 61.0123457, 90};
   CHECK(steps({0, 1, 90}, {0, 1}) == std::pair(90u, 360u));
-  CHECK(steps({0, 1, 90}, {0, odd_deg}) == std::pair(90u, (1u << 22) / 90));
-  CHECK(steps({0, odd_deg, 90}, {0, 1}) == std::pair((1u << 22) / 360, 360u));
-  CHECK(steps({0, odd_deg, 90}, {0, odd_deg}) == std::pair(1u << 11, 1u << 11));
+  CHECK(steps({0, 100.0 / 3.0, 90}, {0, 100.0 / 3.0}) == std::pair(27u, 54u));
+  CHECK(steps({0, 1, 90}, odd_deg) == std::pair(90u, (1u << 22) / 90));
+  CHECK(steps(odd_deg, {0, 1}) == std::pair((1u << 22) / 360, 360u));
+  CHECK(steps(odd_deg, odd_deg) == std::pair(1u << 11, 1u << 11));
 }
 
 TEST_CASE("diodes with the same diagram share its values") {

@@ -107,6 +107,18 @@ TEST_CASE("What has no vertex colours is white beside what has, and another surf
   CHECK(scene.texture_coordinates.empty());
 }
 
+TEST_CASE("Translucent vertex colours are refused under BLEND") {
+  const auto blended = [](float alpha) {
+    json gltf = coloured(bytes_of<float>({1, 1, 1, 1, 1, 1, 1, alpha, 1, 1, 1, 1}), 5126, "VEC4");
+    gltf["materials"] = {{{"alphaMode", "BLEND"}}};
+    gltf["meshes"][0]["primitives"][0]["material"] = 0;
+    return gltf;
+  };
+  CHECK_NOTHROW(scene_of(blended(1.0f)));
+  CHECK_THAT(input_error_of([&] { scene_of(blended(0.9f)); }),
+             Catch::Contains("/meshes/0/primitives/0/attributes/COLOR_0: an alpha below 1 is not supported"));
+}
+
 TEST_CASE("A scene without vertex colours holds none") { CHECK(scene_of(one_triangle()).colours.empty()); }
 
 TEST_CASE("Points have colours too") {

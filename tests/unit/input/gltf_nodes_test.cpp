@@ -120,3 +120,9 @@ TEST_CASE("Transforms that are none are refused") {
                  {{{"scale", {1, 1, 1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})),
              EndsWith("/nodes/0: expected a matrix or translation, rotation and scale, found both"));
 }
+
+TEST_CASE("An object without a name takes that of the nearest node above that has one") {
+  json gltf = with_nodes({{{"name", "above"}, {"children", {1}}}, {{"children", {2}}}, {{"mesh", 0}}});
+  gltf["scenes"][0]["nodes"] = {0};
+  CHECK(load(gltf).scene.objects == std::vector<std::string>{"above"});
+}

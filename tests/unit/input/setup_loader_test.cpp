@@ -252,11 +252,11 @@ TEST_CASE("The setup as used is a setup") {
   CHECK(fixture.load_text(first.as_used.dump()).as_used == first.as_used);
 }
 
-TEST_CASE("A scene without triangles is a warning") {
+TEST_CASE("A scene without triangles and points is a warning") {
   SetupFixture fixture;
   fixture.scene = {{"asset", {{"version", "2.0"}}}};
   const Setup setup = fixture.load();
   CHECK(setup.start.scene.triangles.empty());
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0], Catch::Contains("scene.gltf: the scene has no triangles"));
+  CHECK_THAT(setup.warnings[0], Catch::Contains("scene.gltf: the scene has neither triangles nor points"));
 }

@@ -1,0 +1,138 @@
+// Lights that nobody thought of: several illuminators with phases, orders and measured diagrams mixed, any
+// waveform; the device against the reference.
+
+#include "tests/gpu_against_reference/comparison.h"
+#include "tests/gpu_against_reference/grazing_light.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/simulator.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <numbers>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// Even steps of both angles, smooth enough that a sample at an angle's edge does not jump; 0 beyond 90
+// degrees.
+std::shared_ptr<const Diagram> random_diagram(Random &random, bool axial) {
+  const auto thetas = static_cast<std::uint32_t>(random.uniform(10, 91));
+  const auto phis = axial ? 1 : static_cast<std::uint32_t>(random.uniform(2, 25));
+  const double squeeze = random.uniform(0.5, 2.0), turn = random.uniform(0.0, 3.0);
+  Diagram diagram;
+  for (std::uint32_t i = 0; i < phis; ++i)
+    diagram.phi_rad.push_back(2.0 * std::numbers::pi * i / phis);
+  for (std::uint32_t i = 0; i < thetas; ++i) {
+    const double theta_rad = 0.5 * std::numbers::pi * i / (thetas - 1);
+    diagram.theta_rad.push_back(theta_rad);
+    for (const double phi_rad : diagram.phi_rad)
+      diagram.relative.push_back(
+          std::pow(std::cos(theta_rad), squeeze) *
+          (axial ? 1.0 : 1.0 + 0.5 * std::sin(theta_rad) * std::cos(2 * phi_rad + turn)));
+  }
+  return std::make_shared<const Diagram>(diagram);
+}
+
+Illuminator with_diagrams(Random &random, Illuminator illuminator, bool all) {
+  const auto diagram = random_diagram(random, random.flip());
+  for (Diode &diode : illuminator.diodes) {
+    const glm::dvec3 aside = std::abs(diode.axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    diode.across = glm::normalize(glm::cross(diode.axis, aside));
+    if (all || random.flip())
+      diode.pattern = {Pattern::Kind::diagram, 0.0, diagram};
+  }
+  return illuminator;
+}
+
+std::vector<Illuminator> random_lights(Random &random, std::uint32_t seed, const Pose &world_from_camera) {
+  std::vector<Illuminator> lights;
+  for (std::uint32_t i = 0; i < 1 + seed % 3; ++i) {
+    const Pose place{glm::dmat3(1.0), random.in_box(glm::dvec3(-0.5), glm::dvec3(0.5, 0.5, 0.2))};
+    lights.push_back(with_diagrams(
+        random, random_illuminator(random, 1 + 5 * (seed % 4), compose(world_from_camera, place)),
+        random.flip()));
+    lights.back().modulation_phase_rad = random.flip() ? 0.0 : random.uniform(-1.0, 1.0);
+  }
+  return lights;
+}
+
+Sensor sensor_for(Random &random, std::uint32_t seed) {
+  Sensor sensor;
+  sensor.resolution = {72, 48};
+  sensor.pixel_pitch_m = {1e-3, 1.2e-3};
+  sensor.focal_length_m = 0.1;
+  sensor.world_from_camera = random.pose(30.0);
+  sensor.modulation_hz = {random.uniform(10e6, 40e6)};
+  if (seed % 3 == 1)
+    sensor.waveform = {Waveform::Kind::square, {}};
+  if (seed % 3 == 2)
+    sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, -0.1}};
+  return sensor;
+}
+
+SimulatorOptions options_for(Random &random) {
+  SimulatorOptions options;
+  options.keep_sample_tags = true;
+  options.keep_taps = random.flip();
+  options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
+  options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
+  options.sum = random.flip() ? DiodeSum::automatic : DiodeSum::direct;
+  return options;
+}
+
+// Where the illuminators' returns cancel to less than half, what is left is known that much worse.
+std::vector<bool> where_returns_cancel(const reference::Frame &frame, const Scene &scene,
+                                       const Sensor &sensor, const std::vector<Illuminator> &lights,
+                                       Backscatter backscatter) {
+  std::vector<double> together(sensor.pixel_count(), 0.0);
+  for (const Illuminator &light : lights) {
+    const auto alone = reference::simulate(scene, sensor, {light}, backscatter);
+    for (std::size_t i = 0; i < together.size(); ++i)
+      together[i] += alone.returns[0].amplitude[i];
+  }
+  std::vector<bool> cancel(sensor.pixel_count());
+  for (std::size_t i = 0; i < cancel.size(); ++i)
+    cancel[i] = frame.returns[0].amplitude[i] < 0.5 * together[i];
+  return cancel;
+}
+
+// Near an end of a diagram or a diode's horizon light ends abruptly.
+std::vector<bool> in_grazing_light(const reference::Frame &frame, const Scene &scene, const Sensor &sensor,
+                                   const std::vector<Illuminator> &lights, std::vector<bool> grazing) {
+  for (const Illuminator &light : lights) {
+    const std::vector<bool> of_light = pixels_in_grazing_light(frame, scene, sensor, light);
+    for (std::size_t i = 0; i < grazing.size(); ++i)
+      grazing[i] = grazing[i] || of_light[i];
+  }
+  return grazing;
+}
+
+} // namespace
+
+TEST_CASE("random lights agree with the reference") {
+  fmt::print("{}", comparison_heading());
+  for (std::uint32_t seed = 500; seed < 518; ++seed) {
+    Random random(seed);
+    const Sensor sensor = sensor_for(random, seed);
+    const Scene scene = random_triangles(random, 60, sensor.world_from_camera);
+    const std::vector<Illuminator> lights = random_lights(random, seed, sensor.world_from_camera);
+    const Backscatter backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
+    const auto expected = reference::simulate(scene, sensor, lights, backscatter);
+    Simulator simulator = make_simulator(options_for(random));
+    simulator.prepare(scene, sensor, lights, backscatter);
+    const std::vector<bool> left_out = in_grazing_light(
+        expected, scene, sensor, lights, where_returns_cancel(expected, scene, sensor, lights, backscatter));
+    const Comparison comparison = compare(simulator.measure(), expected, scene, sensor, left_out);
+    fmt::print("{}", comparison_row(fmt::format("seed {}, {} illuminators, {} diodes", seed, lights.size(),
+                                                diode_count(lights)),
+                                    comparison));
+    INFO("seed " << seed);
+    CHECK(comparison.pixels >= sensor.pixel_count() / 10);
+    CHECK(comparison.distance_max_m <= 2e-6);
+    CHECK(comparison.distance_rms_m <= 0.3e-6);
+    CHECK(comparison.amplitude_max_relative <= 1e-4); // tabulated
+    CHECK(comparison.disagreements == 0);
+  }
+}
