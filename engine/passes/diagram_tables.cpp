@@ -27,15 +27,15 @@ std::optional<std::uint32_t> even_steps(const std::vector<double> &angles_rad, d
     narrowest_rad = std::min(narrowest_rad, angles_rad[i] - angles_rad[i - 1]);
   if (!(narrowest_rad > 0.0))
     return 0; // a single angle
-  const double fewest = span_rad / narrowest_rad;
-  for (double steps = std::max(1.0, std::floor(fewest)); steps <= most; ++steps) {
+  const double fewest = std::clamp(span_rad / narrowest_rad, 1.0, 1.0 + most); // more: there are none
+  for (auto steps = static_cast<std::uint32_t>(fewest); steps <= most; ++steps) {
     const double per_rad = steps / span_rad;
     const bool meets_all = std::ranges::all_of(angles_rad, [&](double angle_rad) {
       const double place = (angle_rad - angles_rad.front()) * per_rad;
       return std::abs(place - std::round(place)) <= slack;
     });
     if (meets_all)
-      return static_cast<std::uint32_t>(steps);
+      return steps;
   }
   return std::nullopt;
 }
