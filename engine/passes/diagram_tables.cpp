@@ -26,7 +26,7 @@ std::optional<std::uint32_t> even_steps(const std::vector<double> &angles_rad, d
   for (std::size_t i = 1; i < angles_rad.size(); ++i)
     narrowest_rad = std::min(narrowest_rad, angles_rad[i] - angles_rad[i - 1]);
   if (!(narrowest_rad > 0.0))
-    return 0; // a single angle
+    return 0;                                                                  // a single angle
   const double fewest = std::clamp(span_rad / narrowest_rad, 1.0, 1.0 + most); // more: there are none
   for (auto steps = static_cast<std::uint32_t>(fewest); steps <= most; ++steps) {
     const double per_rad = steps / span_rad;
