@@ -78,13 +78,19 @@ float axial_diagram(Way way, GroupDiode diode) {
   return theta.inside ? j : 0.0;
 }
 
-// A row of thetas for each phi, the last of them the first again.
+// Of any kind. One that is not the same for all phi is kept at its own angles, and the even grids tell which of them lie
+// around: first that of theta, then that of phi, then a row of thetas for each phi.
 float diagram(Way way, GroupDiode diode) {
   Place theta = theta_place(way, diode), phi = phi_place(way, diode);
-  uint row_length = uint(diode.theta_steps) + 1, last_row = uint(diode.across.w);
-  float j = mix(interpolated(diode.diagram + phi.lower * row_length, theta),
-                interpolated(diode.diagram + min(phi.lower + 1, last_row) * row_length, theta), phi.fraction);
-  return theta.inside ? j : 0.0;
+  bool axial = diode.row_length == 0u;
+  uint of_phi = axial ? diode.diagram : diode.diagram + uint(diode.theta_steps) + 1u;
+  uint rows = axial ? diode.diagram : of_phi + uint(diode.across.w) + 1u;
+  float of_theta = interpolated(diode.diagram, theta);
+  Place column = place_at(axial ? 0.0 : of_theta, float(diode.row_length));
+  Place row = place_at(axial ? 0.0 : interpolated(of_phi, phi), 1e9);
+  uint upper = rows + row.lower * diode.row_length;
+  float j = mix(interpolated(upper, column), interpolated(upper + diode.row_length, column), row.fraction);
+  return theta.inside ? (axial ? of_theta : j) : 0.0;
 }
 
 #endif

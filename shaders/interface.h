@@ -166,11 +166,12 @@ struct GroupDiode {
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
   float order;     // of the cosine; -1: isotropic; -2: a diagram
-  uint diagram;    // index of its first value in the table of all; those of a phi are a row
+  uint diagram;    // index of its first value in the table of all (diagram_tables.h)
   float theta_steps;
   float first_theta; // rad
   float theta_steps_per_rad;
-  vec2 padding;
+  uint row_length;   // angles to the axis of a diagram that is not the same for all phi, else 0
+  float padding;
   vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
 

@@ -4,6 +4,7 @@
 #include "engine/illuminator.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -11,15 +12,18 @@
 
 namespace pmdsim {
 
-// A diagram on an even grid: linear in the steps of both angles, 0 below the first theta and beyond the last.
+// A diagram's part of the table; J is 0 below the first theta and beyond the last. Where it is the same for
+// all phi: J on an even grid of theta, linear between. Else three parts, one behind the other: on an even
+// grid of theta which of the diagram's own angles (a fraction between two) it is, likewise of phi, and J at
+// its own angles, a row of thetas for each phi, the first two again at the end.
 struct DiagramGrid {
-  std::uint32_t first_value = 0; // index into the table; the values of a phi are a row
+  std::uint32_t first_value = 0; // index into the table
   double first_theta_rad = 0.0;
   double theta_steps_per_rad = 0.0;
   std::uint32_t theta_steps = 0; // one more value than these
   double first_phi_rad = 0.0;
-  // That a turn has; the row after the last is the first again. 0: one row for all phi.
-  std::uint32_t phi_steps = 0;
+  std::uint32_t phi_steps = 0;  // that a turn has
+  std::uint32_t row_length = 0; // angles to the axis; 0: the same for all phi
 };
 
 class DiagramTables {
@@ -27,10 +31,14 @@ public:
   // The same grid for the same diagram.
   DiagramGrid grid_of(const std::shared_ptr<const Diagram> &diagram);
 
-  // Each value with the next theta's.
+  // Each value with the next one.
   const std::vector<glm::vec2> &values() const { return values_; }
 
 private:
+  // `theta_place`: which of the diagram's angles a step of theta is.
+  void append_both(const Diagram &diagram, const std::function<double(std::uint32_t)> &theta_place,
+                   DiagramGrid &grid);
+
   std::map<std::shared_ptr<const Diagram>, DiagramGrid> grids_;
   std::vector<glm::vec2> values_;
 };

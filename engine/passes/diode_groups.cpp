@@ -109,6 +109,7 @@ void set_diagram(const Diode &diode, const DiagramGrid &grid, shader::GroupDiode
   record.theta_steps = static_cast<float>(grid.theta_steps);
   record.first_theta = static_cast<float>(grid.first_theta_rad);
   record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
+  record.row_length = grid.row_length;
   record.across = glm::vec4(across, grid.phi_steps);
 }
 

@@ -87,8 +87,8 @@ const std::map<std::string, HostLayout> scene_and_light{
      {sizeof(GroupDiode),
       {MEMBER(GroupDiode, position), MEMBER(GroupDiode, axis), MEMBER(GroupDiode, intensity),
        MEMBER(GroupDiode, order), MEMBER(GroupDiode, diagram), MEMBER(GroupDiode, theta_steps),
-       MEMBER(GroupDiode, first_theta), MEMBER(GroupDiode, theta_steps_per_rad), MEMBER(GroupDiode, padding),
-       MEMBER(GroupDiode, across)}}},
+       MEMBER(GroupDiode, first_theta), MEMBER(GroupDiode, theta_steps_per_rad),
+       MEMBER(GroupDiode, row_length), MEMBER(GroupDiode, padding), MEMBER(GroupDiode, across)}}},
     {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, harmonic)}}},
 };
 
