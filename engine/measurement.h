@@ -28,6 +28,9 @@ struct Measurement {
   std::vector<float> range_m;  // mean distance point - lens
   std::vector<float> z_m;      // mean depth along the optical axis
   std::vector<float> coverage; // samples hit / samples, 0 to 1
+  // The fraction of the diodes that reach the pixel, mean over its samples that hit something, 0 where none
+  // does; empty with Shadows::off.
+  std::vector<float> lit;
   // Of the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;
@@ -36,6 +39,9 @@ struct Measurement {
   std::vector<std::uint32_t> sample_triangle_id;
   // The tag's pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
   std::vector<std::uint32_t> sample_pixel_id;
+  // Which diodes reach it, Shadows::automatic only: ceil(diodes / 32) words a sample, diode m (counted
+  // through all illuminators) in bit m % 32 of word m / 32.
+  std::vector<std::uint32_t> sample_reached;
 
   double frame_ms = 0.0;        // first pass to results in host memory, by the clock
   std::vector<PassTime> passes; // the same by pass

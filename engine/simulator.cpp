@@ -180,7 +180,8 @@ Simulator &Simulator::operator=(Simulator &&) noexcept = default;
 const DeviceInfo &Simulator::device() const { return state_->info; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
-                        const std::vector<Illuminator> &illuminators, Backscatter backscatter) {
+                        const std::vector<Illuminator> &illuminators, Backscatter backscatter,
+                        Shadows /*shadows*/) {
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");

@@ -6,6 +6,7 @@
 #include "engine/measurement.h"
 #include "engine/scene.h"
 #include "engine/sensor.h"
+#include "engine/shadows.h"
 #include "engine/simulator_options.h"
 
 #include <functional>
@@ -28,7 +29,7 @@ public:
 
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter);
+               Backscatter backscatter, Shadows shadows = Shadows::off);
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost.
   Measurement measure(const Progress &progress = {});
 

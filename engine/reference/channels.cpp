@@ -97,6 +97,7 @@ Measurement to_measurement(const Frame &frame) {
   measurement.range_m = rounded(frame.range_m);
   measurement.z_m = rounded(frame.z_m);
   measurement.coverage = rounded(frame.coverage);
+  measurement.lit = rounded(frame.lit);
   measurement.triangle_id = frame.triangle_id;
   measurement.object_id = frame.object_id;
   measurement.frame_ms = frame.frame_ms;

@@ -109,7 +109,8 @@ private:
 } // namespace
 
 Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, const std::function<void(double)> &progress) {
+               Backscatter backscatter, const Options & /*options*/,
+               const std::function<void(double)> &progress) {
   const auto start = Clock::now();
   FrameJob job(scene, sensor, illuminators, backscatter);
   for_each_row(

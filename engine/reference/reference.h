@@ -6,6 +6,7 @@
 #include "engine/measurement.h"
 #include "engine/scene.h"
 #include "engine/sensor.h"
+#include "engine/shadows.h"
 
 #include <complex>
 #include <functional>
@@ -26,15 +27,23 @@ struct Frame {
   glm::uvec2 resolution{0, 0};
   std::vector<FrameReturn> returns; // beside Sensor::modulation_hz
   std::vector<double> range_m, z_m, coverage;
+  std::vector<double> lit;                           // as in Measurement
   std::vector<std::uint32_t> triangle_id, object_id; // a disc's id is as Scene::surface_of takes it
   std::vector<std::uint32_t> sample_triangle_id;     // (S*rows) x (S*columns)
+  std::vector<std::uint32_t> sample_reached;         // as in Measurement, only filled on request
   double frame_ms = 0.0;
+};
+
+struct Options {
+  Shadows shadows = Shadows::off;
+  bool keep_reached = false; // fill Frame::sample_reached
 };
 
 // Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,
 // from one thread only; may throw to stop.
 Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, const std::function<void(double)> &progress = {});
+               Backscatter backscatter, const Options &options = {},
+               const std::function<void(double)> &progress = {});
 
 // Rounded to the float channels that the simulator gives.
 Measurement to_measurement(const Frame &frame);

@@ -123,8 +123,8 @@ std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string 
     bar.begin("measuring what is checked", 1.0);
     const Measurement found = camera.measure(progress);
     bar.begin("checking against the reference", 1.0);
-    const reference::Frame truth =
-        reference::simulate(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter, progress);
+    const reference::Frame truth = reference::simulate(setup.start.scene, sensor, setup.start.illuminators,
+                                                       setup.backscatter, {}, progress);
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
       checks.push_back(compare(found, truth, sensor, i));
   }

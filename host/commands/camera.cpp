@@ -54,7 +54,7 @@ Measurement Camera::measure(const Progress &progress) {
   if (simulator_)
     return simulator_->measure(progress);
   Measurement measurement = reference::to_measurement(reference::simulate(
-      *prepared_.scene, prepared_.sensor, prepared_.illuminators, prepared_.backscatter, progress));
+      *prepared_.scene, prepared_.sensor, prepared_.illuminators, prepared_.backscatter, {}, progress));
   if (!extras_.taps)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();

@@ -138,11 +138,12 @@ TEST_CASE("progress is reported and can stop a frame") {
   const Sensor sensor = axial_sensor({2, 400});
   const Illuminator light = monostatic_illuminator(sensor.world_from_camera);
   double last = -1;
-  reference::simulate(wall_at(2), sensor, {light}, Backscatter::constant, [&](double fraction) {
+  reference::simulate(wall_at(2), sensor, {light}, Backscatter::constant, {}, [&](double fraction) {
     CHECK(fraction > last);
     last = fraction;
   });
   CHECK(last == 1);
   const auto stop = [](double) { throw std::runtime_error("stop"); };
-  CHECK_THROWS_WITH(reference::simulate(wall_at(2), sensor, {light}, Backscatter::constant, stop), "stop");
+  CHECK_THROWS_WITH(reference::simulate(wall_at(2), sensor, {light}, Backscatter::constant, {}, stop),
+                    "stop");
 }
