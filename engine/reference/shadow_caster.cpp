@@ -51,9 +51,9 @@ std::vector<Place> places_of(const std::vector<Light> &lights) {
   return places;
 }
 
-double farthest_m(const std::vector<Light> &lights) {
+double farthest_m(const std::vector<Place> &places) {
   double range_m = 0.0;
-  for (const Place &place : places_of(lights))
+  for (const Place &place : places)
     range_m = std::max(range_m, place.range_m);
   return range_m;
 }
@@ -75,8 +75,6 @@ std::optional<glm::dvec3> crossing(const DiscBlocker &disc, const glm::dvec3 &fr
   return from_centre_m <= disc.radius_m ? std::optional(disc_weights) : std::nullopt;
 }
 
-constexpr unsigned packet_size = 16;
-
 } // namespace
 
 int ShapePlane::side_of(const Place &place) const {
@@ -85,105 +83,73 @@ int ShapePlane::side_of(const Place &place) const {
   return int{height > bound} - int{height < -bound};
 }
 
-// The ways from one point to the diodes.
+// The way between a point and a diode.
 struct ShadowQuery {
   RTCIntersectContext context; // first: Embree hands back a pointer to it
   const ShadowCaster *caster;
-  Place point;
+  Place point, diode;
   std::uint32_t own_id;
 
   template <class Blocker>
-  void block(const Blocker &blocker, std::uint32_t id, const RTCOccludedFunctionNArguments *args) const {
-    const int point_side = id == own_id ? 0 : blocker.plane.side_of(point);
-    if (point_side == 0)
-      return;
-    for (unsigned lane = 0; lane < args->N; ++lane)
-      if (args->valid[lane] != 0) {
-        const Place &diode = caster->diodes_[RTCRayN_id(args->ray, args->N, lane)];
-        if (blocker.plane.side_of(diode) == -point_side && stops_light(blocker, id, diode))
-          RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
-      }
+  void ask(const Blocker &blocker, std::uint32_t id, const RTCOccludedFunctionNArguments *args) const {
+    if (id != own_id && blocks(blocker, id))
+      RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
   }
 
   template <class Blocker>
-  bool stops_light(const Blocker &blocker, std::uint32_t id, const Place &diode) const {
+  bool blocks(const Blocker &blocker, std::uint32_t id) const {
+    const int point_side = blocker.plane.side_of(point);
+    if (point_side == 0 || blocker.plane.side_of(diode) != -point_side)
+      return false;
     const auto weights = crossing(blocker, point.position_m, diode.position_m);
     return weights && (!blocker.masked || caster->is_there_(id, *weights));
   }
 
   static void ask_triangle(const RTCOccludedFunctionNArguments *args) {
     const auto &query = *reinterpret_cast<const ShadowQuery *>(args->context);
-    query.block(query.caster->triangles_[args->primID], args->primID, args);
+    query.ask(query.caster->triangles_[args->primID], args->primID, args);
   }
 
   static void ask_disc(const RTCOccludedFunctionNArguments *args) {
     const auto &query = *reinterpret_cast<const ShadowQuery *>(args->context);
     const auto first_disc = static_cast<std::uint32_t>(query.caster->triangles_.size());
-    query.block(query.caster->discs_[args->primID], first_disc + args->primID, args);
+    query.ask(query.caster->discs_[args->primID], first_disc + args->primID, args);
   }
 };
-
-namespace {
-
-// Rays that Embree traces together.
-class Packet {
-public:
-  bool is_full() const { return size_ == packet_size; }
-
-  void add(std::size_t diode, const glm::dvec3 &from_m, const glm::dvec3 &to_m) {
-    const glm::vec3 origin(from_m), direction(to_m - from_m);
-    rays_.org_x[size_] = origin.x, rays_.org_y[size_] = origin.y, rays_.org_z[size_] = origin.z;
-    rays_.dir_x[size_] = direction.x, rays_.dir_y[size_] = direction.y, rays_.dir_z[size_] = direction.z;
-    rays_.tnear[size_] = 0.0f, rays_.tfar[size_] = 1.0f + static_cast<float>(tree_margin);
-    rays_.time[size_] = 0.0f;
-    rays_.mask[size_] = ~0U;
-    rays_.flags[size_] = 0;
-    rays_.id[size_] = static_cast<unsigned>(diode);
-    valid_[size_++] = -1;
-  }
-
-  // Adds the diodes whose rays nothing blocks, and empties the packet.
-  void trace(const ShapeTree &tree, ShadowQuery &query, DiodeSet &reached) {
-    rtcOccluded16(valid_, tree.get(), &query.context, &rays_);
-    for (; size_ > 0; valid_[size_] = 0)
-      if (rays_.tfar[--size_] >= 0)
-        reached.add(rays_.id[size_]);
-  }
-
-private:
-  alignas(64) int valid_[packet_size] = {};
-  RTCRay16 rays_{};
-  unsigned size_ = 0;
-};
-
-} // namespace
 
 ShadowCaster::ShadowCaster(const std::vector<CameraTriangle> &triangles, const std::vector<CameraDisc> &discs,
                            const std::vector<Light> &lights, double origin_range_m, IsThere is_there)
     : triangles_(blockers_of<TriangleBlocker>(triangles, origin_range_m)),
       discs_(blockers_of<DiscBlocker>(discs, origin_range_m)), diodes_(places_of(lights)),
       is_there_(std::move(is_there)), tree_(triangles, discs, {.occluded = ShadowQuery::ask_triangle},
-                                            {.occluded = ShadowQuery::ask_disc}, farthest_m(lights)) {}
+                                            {.occluded = ShadowQuery::ask_disc}, farthest_m(diodes_)) {}
 
 DiodeSet ShadowCaster::reached(const SurfacePoint &point, std::uint32_t id) const {
   ShadowQuery query{};
   rtcInitIntersectContext(&query.context);
-  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   query.caster = this;
   query.point = place_of(point.position_m);
   query.own_id = id;
 
   DiodeSet reached(diodes_.size());
-  Packet packet;
   for (std::size_t diode = 0; diode < diodes_.size(); ++diode) {
-    const glm::dvec3 &from_m = diodes_[diode].position_m;
-    if (glm::dot(point.normal, from_m - point.position_m) > 0)
-      packet.add(diode, from_m, point.position_m);
-    if (packet.is_full())
-      packet.trace(tree_, query, reached);
+    query.diode = diodes_[diode];
+    if (glm::dot(point.normal, query.diode.position_m - point.position_m) > 0 && !is_blocked(query))
+      reached.add(diode);
   }
-  packet.trace(tree_, query, reached);
   return reached;
+}
+
+// From the diode to the point: see ShapeTree about where rays start.
+bool ShadowCaster::is_blocked(ShadowQuery &query) const {
+  const glm::vec3 origin(query.diode.position_m), way(query.point.position_m - query.diode.position_m);
+  RTCRay ray{};
+  ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+  ray.dir_x = way.x, ray.dir_y = way.y, ray.dir_z = way.z;
+  ray.tfar = 1.0f + static_cast<float>(tree_margin);
+  ray.mask = ~0U;
+  rtcOccluded1(tree_.get(), &query.context, &ray);
+  return ray.tfar < 0;
 }
 
 } // namespace pmdsim::reference

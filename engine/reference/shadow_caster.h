@@ -42,6 +42,8 @@ struct DiscBlocker {
   bool masked;
 };
 
+struct ShadowQuery;
+
 class ShadowCaster {
 public:
   // Positions have been rounded where the world's origin is `origin_range_m` away. `is_there` is asked about
@@ -55,7 +57,8 @@ public:
   DiodeSet reached(const SurfacePoint &point, std::uint32_t id) const;
 
 private:
-  friend struct ShadowQuery;
+  friend ShadowQuery;
+  bool is_blocked(ShadowQuery &query) const;
 
   std::vector<TriangleBlocker> triangles_;
   std::vector<DiscBlocker> discs_;
