@@ -96,6 +96,7 @@ TEST_CASE("the manifest lets anyone turn distances into points") {
   std::ifstream in(work / "out/manifest.json");
   const json manifest = json::parse(in);
   CHECK(manifest["setup"]["sensors"][0]["samples"] == 1); // a default, filled in
+  CHECK(manifest["setup"]["shadows"] == "auto");          // another
   const json &camera = manifest["frames"].at(0)["camera"];
   CHECK(camera["fx"].get<double>() == Approx(0.0018 / 45e-6));
   CHECK(camera["cx"].get<double>() == Approx(3.5));
