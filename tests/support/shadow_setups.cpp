@@ -38,6 +38,14 @@ void add_sliver(Random &random, SceneBuilder &builder) {
   builder.add_triangle(from_m, to_m, from_m + width_m * random.unit_vector(), random_surface(random));
 }
 
+// Fills most of the view, across it or slanting.
+void add_background(Random &random, SceneBuilder &builder) {
+  const double slant = random.flip() ? 0.0 : random.uniform(-0.4, 0.4);
+  const glm::dvec3 centre_m(0, 0, 3.2), u_m(4, 0, 4 * slant), v_m(0, 4, -2 * slant);
+  builder.add_mesh({centre_m - u_m - v_m, centre_m - u_m + v_m, centre_m + u_m + v_m, centre_m + u_m - v_m},
+                   {{0, 1, 2}, {0, 2, 3}}, random_surface(random));
+}
+
 // Columns and rows of squares of two triangles each, in one plane or bumpy.
 void add_grid(Random &random, SceneBuilder &builder, std::uint32_t columns, std::uint32_t rows) {
   const glm::dvec3 corner_m = place_in_view(random);
@@ -72,6 +80,8 @@ void add_stack(Random &random, SceneBuilder &builder, std::size_t count) {
 
 Scene random_scene(Random &random, std::size_t triangles, const Pose &world_from_camera) {
   SceneBuilder builder(world_from_camera);
+  if (triangles > 2 && random.uniform(0, 1) < 0.8)
+    add_background(random, builder);
   while (builder.scene().triangles.size() < triangles) {
     const std::size_t left = triangles - builder.scene().triangles.size();
     const double kind = random.uniform(0, 1);
