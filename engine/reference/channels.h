@@ -18,6 +18,7 @@ struct PixelSums {
   std::vector<ReturnSum> returns; // beside Sensor::modulation_hz
   CompensatedSum range_m, z_m;    // distance to the lens, depth along the optical axis
   std::uint32_t hits = 0;
+  std::size_t reached = 0; // diodes that reach each of them, added up
 };
 
 // A frame of pixels that see nothing.

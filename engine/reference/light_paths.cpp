@@ -34,15 +34,15 @@ double pattern_gain(const Diode &diode, const glm::dvec3 &to_diode_m, double dio
 } // namespace
 
 std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
-                                   Backscatter backscatter) {
-  std::size_t diodes = 0;
-  for (const Light &light : lights)
-    diodes += light.diodes.size();
+                                   const DiodeSet &reached, Backscatter backscatter) {
   std::vector<LightPath> paths;
-  paths.reserve(diodes);
+  paths.reserve(reached.count());
   const double lens_range_m = glm::length(point.position_m);
+  std::size_t index = 0;
   for (const Light &light : lights)
     for (const Diode &diode : light.diodes) {
+      if (!reached.has(index++))
+        continue;
       const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
       const double diode_range_m = glm::length(to_diode_m);
       const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;

@@ -3,6 +3,7 @@
 // scene to the lens.
 
 #include "engine/illuminator.h"
+#include "engine/reference/diode_set.h"
 #include "engine/scene.h"
 
 #include <vector>
@@ -29,8 +30,8 @@ struct Light {
   double phase_turns; // -1/2 to 1/2
 };
 
-// Of every diode whose light returns through `point`.
+// Of every diode of `reached` whose light returns through `point`.
 std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
-                                   Backscatter backscatter);
+                                   const DiodeSet &reached, Backscatter backscatter);
 
 } // namespace pmdsim::reference

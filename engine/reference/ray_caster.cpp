@@ -1,8 +1,7 @@
 #include "engine/reference/ray_caster.h"
 
-#include "engine/error.h"
+#include "engine/reference/seen_triangle.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -10,146 +9,64 @@ namespace pmdsim::reference {
 
 namespace {
 
-// Float rounding of rays, boxes and distances is below 1e-6 of the distance from the lens.
-constexpr double margin = 1e-5;
-
-// Rounding keeps order, so the sign is right or the result is zero, and swapping p and q negates it exactly.
-double cross(const glm::dvec2 &p, const glm::dvec2 &q) { return p.x * q.y - p.y * q.x; }
-
-// z where several are equally long.
-glm::length_t longest_component(const glm::dvec3 &direction) {
-  const glm::dvec3 length = glm::abs(direction);
-  if (length.z >= length.x && length.z >= length.y)
-    return 2;
-  return length.y >= length.x ? 1 : 0;
+// A ray from the lens: corners are from its origin as they are.
+SeenTriangle seen_triangle(const glm::dvec3 &direction, const CameraTriangle &triangle) {
+  return {direction, triangle.corners_m};
 }
 
-// The triangle's corners as seen along the ray, after S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle
-// intersection", JCGT 2(1), 2013: every vertex becomes one point of the plane across the ray's longest
-// component, the same for all triangles that share it, and the ray is the plane's origin.
-struct SeenTriangle {
-  // Twice the signed area between the ray and the edge across from each corner.
-  double bc, ca, ab;
-
-  SeenTriangle(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-    const glm::length_t along = longest_component(direction), u = (along + 1) % 3, v = (along + 2) % 3;
-    const glm::dvec2 slope = glm::dvec2(direction[u], direction[v]) / direction[along];
-    const auto seen_along_ray = [&](const glm::dvec3 &vertex_m) {
-      return glm::dvec2(vertex_m[u], vertex_m[v]) - slope * vertex_m[along];
-    };
-    const glm::dvec2 a = seen_along_ray(triangle.corners_m[0]);
-    const glm::dvec2 b = seen_along_ray(triangle.corners_m[1]);
-    const glm::dvec2 c = seen_along_ray(triangle.corners_m[2]);
-    ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
-  }
-
-  // As zero counts as inside, no ray slips through an edge or a vertex.
-  bool holds_ray() const { return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0); }
-};
-
-// The view along the ray keeps ratios of areas, so these are the ones in the triangle itself.
 glm::dvec3 weights_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  const SeenTriangle seen(direction, triangle);
-  const double whole = seen.bc + seen.ca + seen.ab;
-  // Rounding may leave nothing of a triangle that is seen from its edge.
-  return whole != 0 ? glm::dvec3(seen.bc, seen.ca, seen.ab) / whole : glm::dvec3(1.0 / 3.0);
+  return seen_triangle(direction, triangle).weights();
 }
-
-// A disc has no corners but its vertex.
-constexpr glm::dvec3 disc_weights(1.0, 0.0, 0.0);
 
 glm::dvec3 weights_along(const glm::dvec3 &, const CameraDisc &) { return disc_weights; }
 
 struct Query {
   RTCIntersectContext context; // first: Embree hands back a pointer to it
   glm::dvec3 direction;
-  std::uint32_t triangles; // where the discs' ids begin
+  const std::vector<CameraTriangle> *triangles;
+  const std::vector<CameraDisc> *discs;
   const IsThere *is_there;
   Hit best{no_id, std::numeric_limits<double>::infinity()};
 };
 
 template <class Shape>
-const Shape &shape_of(const void *shapes, unsigned index) {
-  return static_cast<const Shape *>(shapes)[index];
-}
-
-RTCBounds bounds_of(const glm::dvec3 &lower, const glm::dvec3 &upper) {
-  const glm::vec3 low(lower), high(upper);
-  return {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
-}
-
-RTCBounds padded_bounds(const CameraTriangle &triangle) {
-  const auto &[a, b, c] = triangle.corners_m;
-  const glm::dvec3 pad(margin * std::max({glm::length(a), glm::length(b), glm::length(c)}));
-  return bounds_of(glm::min(glm::min(a, b), c) - pad, glm::max(glm::max(a, b), c) + pad);
-}
-
-RTCBounds padded_bounds(const CameraDisc &disc) {
-  const glm::dvec3 axis = disc.axis();
-  const glm::dvec3 reach_m = disc.radius_m * glm::sqrt(glm::max(1.0 - axis * axis, 0.0)) +
-                             margin * (glm::length(disc.centre_m) + disc.radius_m);
-  return bounds_of(disc.centre_m - reach_m, disc.centre_m + reach_m);
-}
-
-template <class Shape>
-void give_padded_bounds(const RTCBoundsFunctionArguments *args) {
-  *args->bounds_o = padded_bounds(shape_of<Shape>(args->geometryUserPtr, args->primID));
-}
-
-std::uint32_t first_id(const Query &, const CameraTriangle &) { return 0; }
-std::uint32_t first_id(const Query &query, const CameraDisc &) { return query.triangles; }
-
-template <class Shape>
-void keep_if_nearer(const RTCIntersectFunctionNArguments *args) {
-  Query &query = *reinterpret_cast<Query *>(args->context);
-  const auto &shape = shape_of<Shape>(args->geometryUserPtr, args->primID);
+void keep_if_nearer(Query &query, const Shape &shape, std::uint32_t id,
+                    const RTCIntersectFunctionNArguments *args) {
   const auto range_m = range_along(query.direction, shape);
   if (!range_m)
     return;
-  const std::uint32_t id = first_id(query, shape) + args->primID;
   Hit &best = query.best;
   const bool nearer = *range_m < best.range_m || (*range_m == best.range_m && id < best.id);
   if (nearer && (!shape.masked || (*query.is_there)(id, weights_along(query.direction, shape)))) {
     best = {id, *range_m};
     RTCRayN *ray = RTCRayHitN_RayN(args->rayhit, args->N);
-    RTCRayN_tfar(ray, args->N, 0) = static_cast<float>(*range_m * (1.0 + margin));
+    RTCRayN_tfar(ray, args->N, 0) = static_cast<float>(*range_m * (1.0 + tree_margin));
   }
 }
 
-template <class Shape>
-void attach(RTCDevice device, RTCScene scene, const std::vector<Shape> &shapes) {
-  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> geometry(
-      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(shapes.size()));
-  // Embree only hands the pointer back to the two functions here, which read.
-  rtcSetGeometryUserData(geometry.get(), const_cast<Shape *>(shapes.data()));
-  rtcSetGeometryBoundsFunction(geometry.get(), give_padded_bounds<Shape>, nullptr);
-  rtcSetGeometryIntersectFunction(geometry.get(), keep_if_nearer<Shape>);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene, geometry.get());
+void keep_nearer_triangle(const RTCIntersectFunctionNArguments *args) {
+  Query &query = *reinterpret_cast<Query *>(args->context);
+  keep_if_nearer(query, (*query.triangles)[args->primID], args->primID, args);
+}
+
+void keep_nearer_disc(const RTCIntersectFunctionNArguments *args) {
+  Query &query = *reinterpret_cast<Query *>(args->context);
+  const auto first_disc = static_cast<std::uint32_t>(query.triangles->size());
+  keep_if_nearer(query, (*query.discs)[args->primID], first_disc + args->primID, args);
 }
 
 } // namespace
 
 RayCaster::RayCaster(std::vector<CameraTriangle> triangles, std::vector<CameraDisc> discs, IsThere is_there)
     : triangles_(std::move(triangles)), discs_(std::move(discs)), is_there_(std::move(is_there)),
-      device_(rtcNewDevice(nullptr), rtcReleaseDevice), scene_(rtcNewScene(device_.get()), rtcReleaseScene) {
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  attach(device_.get(), scene_.get(), triangles_);
-  if (!discs_.empty())
-    attach(device_.get(), scene_.get(), discs_);
-  rtcCommitScene(scene_.get());
-  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
-    throw Error(ExitCode::out_of_memory, "reference: expected enough memory for the ray caster's tree over " +
-                                             std::to_string(triangles_.size()) + " triangles and " +
-                                             std::to_string(discs_.size()) + " points");
-}
+      tree_(triangles_, discs_, {.intersect = keep_nearer_triangle}, {.intersect = keep_nearer_disc}) {}
 
 std::optional<Hit> RayCaster::nearest(const glm::dvec3 &direction) const {
   Query query{};
   rtcInitIntersectContext(&query.context);
   query.direction = direction;
-  query.triangles = static_cast<std::uint32_t>(triangles_.size());
+  query.triangles = &triangles_;
+  query.discs = &discs_;
   query.is_there = &is_there_;
 
   RTCRayHit ray{};
@@ -159,7 +76,7 @@ std::optional<Hit> RayCaster::nearest(const glm::dvec3 &direction) const {
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = ~0u;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &query.context, &ray);
+  rtcIntersect1(tree_.get(), &query.context, &ray);
 
   return query.best.id == no_id ? std::nullopt : std::optional(query.best);
 }
@@ -176,7 +93,7 @@ glm::dvec3 RayCaster::normal(const glm::dvec3 &direction, std::uint32_t id) cons
 }
 
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  if (!SeenTriangle(direction, triangle).holds_ray())
+  if (!seen_triangle(direction, triangle).holds_ray())
     return std::nullopt;
 
   const glm::dvec3 front = triangle.front();

@@ -1,14 +1,11 @@
 #pragma once
-// What a ray from the lens sees first. Embree finds the triangles and discs near the ray in float, with room
-// to spare; whether the ray hits one, and which is nearest, is decided in double from the shape's exact place
-// and the ray's exact direction.
+// What a ray from the lens sees first. Of the triangles and discs near the ray, which one it hits and which
+// is nearest is decided in double from the shape's exact place and the ray's exact direction.
 
 #include "engine/reference/camera_frame.h"
+#include "engine/reference/shape_tree.h"
 
 #include <cstdint>
-#include <embree3/rtcore.h>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,9 +15,6 @@ struct Hit {
   std::uint32_t id; // of a triangle, or the number of triangles and a disc's index
   double range_m;   // from the lens, along the ray
 };
-
-// Whether a masked shape is there where its corners count `weights`.
-using IsThere = std::function<bool(std::uint32_t id, const glm::dvec3 &weights)>;
 
 class RayCaster {
 public:
@@ -38,12 +32,14 @@ public:
   // Unit length, turned to the lens, which looks along `direction`.
   glm::dvec3 normal(const glm::dvec3 &direction, std::uint32_t id) const;
 
+  const std::vector<CameraTriangle> &triangles() const { return triangles_; }
+  const std::vector<CameraDisc> &discs() const { return discs_; }
+
 private:
   std::vector<CameraTriangle> triangles_;
   std::vector<CameraDisc> discs_;
   IsThere is_there_;
-  std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
-  std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
+  ShapeTree tree_;
 };
 
 // The distance along `direction` (unit length) from the lens to where it passes through `triangle`, edges

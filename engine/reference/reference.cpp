@@ -6,11 +6,14 @@
 #include "engine/reference/lens_model.h"
 #include "engine/reference/light_paths.h"
 #include "engine/reference/ray_caster.h"
+#include "engine/reference/shadow_caster.h"
 #include "engine/reference/surface_colours.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace pmdsim::reference {
@@ -28,17 +31,33 @@ std::vector<Light> lights_in_camera(const std::vector<Illuminator> &illuminators
   return lights;
 }
 
+DiodeSet all_of(std::size_t diodes) {
+  DiodeSet all(diodes);
+  for (std::size_t diode = 0; diode < diodes; ++diode)
+    all.add(diode);
+  return all;
+}
+
 // One frame being computed: everything that the threads read, and the frame that each fills a row at a time.
 class FrameJob {
 public:
   FrameJob(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-           Backscatter backscatter)
+           Backscatter backscatter, const Options &options)
       : scene_(scene), sensor_(sensor), backscatter_(backscatter), lens_(sensor),
         lights_(lights_in_camera(illuminators, sensor)),
         caster_(
             triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
             [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); }),
-        frame_(dark_frame(sensor)) {}
+        every_diode_(all_of(diode_count(illuminators))), frame_(dark_frame(sensor)) {
+    if (options.shadows == Shadows::off)
+      return;
+    shadows_.emplace(
+        caster_.triangles(), caster_.discs(), lights_, glm::length(sensor.world_from_camera.translation_m),
+        [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); });
+    frame_.lit.assign(sensor.pixel_count(), 0.0);
+    if (options.keep_reached)
+      frame_.sample_reached.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);
+  }
 
   std::uint32_t rows() const { return sensor_.resolution.y; }
 
@@ -57,6 +76,9 @@ private:
         add_sample(sums, pixel * sensor_.samples + glm::uvec2(k_column, k_row));
     const std::size_t index = std::size_t{pixel.y} * sensor_.resolution.x + pixel.x;
     set_channels(frame_, index, sums, sensor_.samples * sensor_.samples);
+    if (shadows_ && sums.hits > 0)
+      frame_.lit[index] =
+          static_cast<double>(sums.reached) / static_cast<double>(sums.hits * every_diode_.count());
 
     const std::uint32_t nearest_to_centre = (sensor_.samples - 1) / 2;
     const std::uint32_t id =
@@ -77,9 +99,20 @@ private:
     ++sums.hits;
     sums.range_m.add(hit->range_m);
     sums.z_m.add(point.position_m.z);
-    const auto paths = light_paths(point, lights_, backscatter_);
+    const DiodeSet reached = shadows_ ? shadows_->reached(point, hit->id) : every_diode_;
+    sums.reached += reached.count();
+    keep_reached(sample, reached);
+    const auto paths = light_paths(point, lights_, reached, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);
+  }
+
+  void keep_reached(const glm::uvec2 &sample, const DiodeSet &reached) {
+    if (frame_.sample_reached.empty())
+      return;
+    const auto &words = reached.words();
+    const auto first = static_cast<std::ptrdiff_t>(sample_index(sample) * words.size());
+    std::copy(words.begin(), words.end(), frame_.sample_reached.begin() + first);
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
@@ -103,16 +136,17 @@ private:
   LensModel lens_;
   std::vector<Light> lights_;
   RayCaster caster_;
+  DiodeSet every_diode_;
+  std::optional<ShadowCaster> shadows_;
   Frame frame_;
 };
 
 } // namespace
 
 Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, const Options & /*options*/,
-               const std::function<void(double)> &progress) {
+               Backscatter backscatter, const Options &options, const std::function<void(double)> &progress) {
   const auto start = Clock::now();
-  FrameJob job(scene, sensor, illuminators, backscatter);
+  FrameJob job(scene, sensor, illuminators, backscatter, options);
   for_each_row(
       job.rows(), [&](std::uint32_t row) { job.compute_row(row); }, progress);
   Frame frame = job.take();

@@ -136,6 +136,8 @@ std::string error_text(const AccuracyCheck &check) {
   const std::string what = fmt::format("{}, {}: ", check.sensor, frequency_text(check.modulation_hz));
   if (check.comparable == 0)
     return what + "nothing to compare, the reference is dark in every pixel";
+  if (check.pixels == 0)
+    return what + "nothing to compare, rounding decides about the light of every pixel";
   return what + fmt::format("at most {:.4g} µm over {} pixels of {} x {}, against the reference",
                             1e6 * check.distance_max_m, check.pixels, check.resolution.x, check.resolution.y);
 }

@@ -34,6 +34,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   SimulatorOptions options;
   options.device = device;
   options.keep_sample_tags = extras.sample_triangles;
+  options.keep_reached = extras.reached;
   options.keep_taps = extras.taps;
   options.validate = validation_is_asked_for();
   simulator_.emplace(options);
@@ -42,19 +43,20 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
 }
 
 void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                     Backscatter backscatter) {
+                     Backscatter backscatter, Shadows shadows) {
   throw_if_interrupted();
-  prepared_ = {&scene, sensor, illuminators, backscatter};
+  prepared_ = {&scene, sensor, illuminators, backscatter, shadows};
   if (simulator_)
-    simulator_->prepare(scene, sensor, illuminators, backscatter);
+    simulator_->prepare(scene, sensor, illuminators, backscatter, shadows);
 }
 
 Measurement Camera::measure(const Progress &progress) {
   throw_if_interrupted();
   if (simulator_)
     return simulator_->measure(progress);
-  Measurement measurement = reference::to_measurement(reference::simulate(
-      *prepared_.scene, prepared_.sensor, prepared_.illuminators, prepared_.backscatter, {}, progress));
+  const auto &[scene, sensor, illuminators, backscatter, shadows] = prepared_;
+  Measurement measurement = reference::to_measurement(
+      reference::simulate(*scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
   if (!extras_.taps)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();

@@ -14,7 +14,8 @@ namespace pmdsim {
 
 // What a measurement shall hold beside its other channels.
 struct Extras {
-  bool sample_triangles = false; // Measurement::sample_triangle_id
+  bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
+  bool reached = false;          // Measurement::sample_reached, not from the reference
   bool taps = false;             // Return::taps
 };
 
@@ -30,7 +31,7 @@ public:
 
   // What follows measures this. `scene` must outlive it.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter);
+               Backscatter backscatter, Shadows shadows);
   // One frame. Throws Error, interrupted among others.
   Measurement measure(const Progress &progress = {});
 
@@ -40,6 +41,7 @@ private:
     Sensor sensor;
     std::vector<Illuminator> illuminators;
     Backscatter backscatter;
+    Shadows shadows;
   };
 
   std::optional<Simulator> simulator_; // empty: the reference

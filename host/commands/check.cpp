@@ -70,6 +70,8 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
     sensors.push_back(sensor_json(sensor));
   ordered_json report{{"triangles", findings.triangles}, {"points", findings.points}};
   report.update(light_json(findings.light));
+  report["shadows"] = findings.shadows == Shadows::automatic ? "auto" : "off";
+  report["shadow_casters"] = findings.shadow_casters;
   report["frames"] = frames_json(findings.frames);
   report["moves"] = findings.moves;
   report["ambiguity_m"] = findings.sensors.front().frequencies.front().ambiguity_m;
@@ -153,11 +155,20 @@ std::string points_text(std::size_t points) {
   return points == 0 ? std::string() : line("points", fmt::format("{}", points));
 }
 
+std::string shadows_text(const Findings &findings) {
+  if (findings.shadows == Shadows::off)
+    return "off, light passes through everything";
+  return findings.shadow_casters == 0
+             ? "on, but there is nothing that could cast any"
+             : fmt::format("on, {} shapes that may cast them", findings.shadow_casters);
+}
+
 std::string report_text(const Setup &setup, const Findings &findings) {
   std::string text =
       fmt::format("{} is valid\n\n", setup.file.string()) +
       line("triangles", fmt::format("{}", findings.triangles)) + points_text(findings.points) +
-      illuminators_text(findings) + line("frames", frames_text(findings.frames)) +
+      illuminators_text(findings) + line("shadows", shadows_text(findings)) +
+      line("frames", frames_text(findings.frames)) +
       line("motion",
            findings.moves ? "the scene moves; what is visible is told of the first frame" : "nothing moves");
   for (const SensorFindings &sensor : findings.sensors)

@@ -89,10 +89,11 @@ void Exposures::prepare(View view) {
   Sensor sensor = instant.sensors[view.sensor];
   if (view.frequency)
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
-  camera_.prepare(instant.scene, sensor,
-                  view.light == Light::in_lens ? std::vector{monostatic_illuminator(sensor.world_from_camera)}
-                                               : instant.illuminators,
-                  setup_.backscatter);
+  if (view.light == Light::in_lens) // it reaches whatever the lens sees
+    camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
+                    setup_.backscatter, Shadows::off);
+  else
+    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows);
   prepared_ = view;
 }
 

@@ -11,7 +11,8 @@
 
 namespace pmdsim {
 
-// The setup's illuminators, or light in the sensor's lens (eq. 2 and 3).
+// The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts none
+// that the lens sees.
 enum class Light { beside_lens, in_lens };
 
 // Whether every tap of the sensor's frames is an exposure of its own.

@@ -129,11 +129,19 @@ void add_tap_warning(std::vector<std::string> &warnings, const SensorFindings &f
                     findings.sensor.name, findings.tap_sequence_s, frame_s));
 }
 
+// No shape stands in its own light.
+std::size_t shadow_casters(const Setup &setup) {
+  const std::size_t shapes = setup.start.scene.shape_count();
+  return setup.shadows == Shadows::automatic && shapes > 1 ? shapes : 0;
+}
+
 } // namespace
 
 Findings findings_of(const Setup &setup) {
   Findings findings{setup.start.scene.triangles.size(),
                     setup.start.scene.discs.size(),
+                    setup.shadows,
+                    shadow_casters(setup),
                     {},
                     {},
                     {},

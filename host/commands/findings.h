@@ -45,6 +45,9 @@ struct LightFindings {
 
 struct Findings {
   std::size_t triangles, points;
+  Shadows shadows;
+  std::size_t
+      shadow_casters; // shapes that may stand between a diode and another shape; 0 where shadows are off
   LightFindings light;
   std::vector<std::pair<std::string, LightFindings>> illuminators; // with their names
   std::vector<SensorFindings> sensors;

@@ -22,11 +22,12 @@ PreviewStyle preview_style(const Channel &channel) {
       {"amplitude", {"amplitude", Scale::sequential}},
       {"phase_rad", {"phase", Scale::turn}},
       {"distance_m", {"distance", Scale::sequential}},
+      {"lit", {"lit", Scale::share}},
       {"deformation_mm", {"deformation", Scale::zero_centred}}};
   const auto &[quantity, scale] = known.at(channel.quantity);
-  const ColourMap &colours = scale == Scale::turn         ? twilight
-                             : scale == Scale::sequential ? viridis
-                                                          : blue_white_red;
+  const ColourMap &colours = scale == Scale::turn           ? twilight
+                             : scale == Scale::zero_centred ? blue_white_red
+                                                            : viridis;
   return {quantity, channel.unit, colours, scale};
 }
 

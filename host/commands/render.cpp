@@ -78,7 +78,7 @@ std::string render(const Setup &setup, const FrameRange &frames, const std::set<
     bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
     const auto [sensor, measurement] =
         exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar));
-    const std::vector<std::string> previewed{"amplitude", "phase_rad", "distance_m"};
+    const std::vector<std::string> previewed{"amplitude", "phase_rad", "distance_m", "lit"};
     write_frame(files, {sensor, at.frame, channels_of(measurement), previewed}, formats);
     if (at.frame == frames.first)
       text += frame_text(sensor, at.frame, measurement);

@@ -4,6 +4,7 @@
 #include "engine/illuminator.h"
 #include "engine/scene.h"
 #include "engine/sensor.h"
+#include "engine/shadows.h"
 
 #include <filesystem>
 #include <memory>
@@ -35,6 +36,7 @@ class Motion;
 struct Setup {
   std::filesystem::path file;
   Backscatter backscatter = Backscatter::lambert;
+  Shadows shadows = Shadows::automatic;
   FrameTimes frames;
   Instant start;                        // at the first frame's time
   nlohmann::ordered_json as_used;       // the setup with every default filled in, as the manifest shows it

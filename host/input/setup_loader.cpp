@@ -106,6 +106,7 @@ Setup load_setup(const std::filesystem::path &file) {
   setup.as_used = read_setup(root);
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
+  setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
   setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames");
 
   const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();

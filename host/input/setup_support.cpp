@@ -14,8 +14,6 @@ void check_sensor(const ordered_json &sensor, const Place &place) {
 } // namespace
 
 void refuse_unsupported(const ordered_json &setup, const Place &root) {
-  if (setup.at("shadows") != "off")
-    throw input_error(root / "shadows", "shadows are not supported yet; write \"shadows\": \"off\"");
   const ordered_json &sensors = setup.at("sensors");
   for (std::size_t i = 0; i < sensors.size(); ++i)
     check_sensor(sensors[i], root / "sensors" / i);

@@ -40,6 +40,8 @@ ChannelSet channels_of(const Measurement &measurement) {
   set.channels.push_back({"range_m", "m", std::span(measurement.range_m)});
   set.channels.push_back({"z_m", "m", std::span(measurement.z_m)});
   set.channels.push_back({"coverage", "", std::span(measurement.coverage)});
+  if (!measurement.lit.empty())
+    set.channels.push_back({"lit", "", std::span(measurement.lit)});
   set.channels.push_back({"triangle_id", "", std::span(measurement.triangle_id)});
   set.channels.push_back({"object_id", "", std::span(measurement.object_id)});
   return set;

@@ -37,7 +37,7 @@ struct ChannelSet {
 std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count);
 
 // amplitude, phase_rad, distance_m of every frequency; tap0, tap1, ... of every frequency where they are
-// filled; range_m, z_m, coverage, triangle_id, object_id. Views into `measurement`.
+// filled; range_m, z_m, coverage, lit where it is filled, triangle_id, object_id. Views into `measurement`.
 ChannelSet channels_of(const Measurement &measurement);
 
 } // namespace pmdsim

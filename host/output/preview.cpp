@@ -145,6 +145,8 @@ PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &reso
 Range preview_range(std::span<const float> values, PreviewStyle::Scale scale) {
   if (scale == PreviewStyle::Scale::turn)
     return {0.0, 2.0 * std::numbers::pi};
+  if (scale == PreviewStyle::Scale::share)
+    return {0.0, 1.0};
   const Range range = robust_range(values);
   if (scale == PreviewStyle::Scale::sequential)
     return widened(range);

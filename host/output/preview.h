@@ -17,6 +17,7 @@ struct PreviewStyle {
     sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
     zero_centred, // the same, made symmetric about zero
     turn,         // always [0, 2 pi)
+    share,        // always [0, 1]
   };
   std::string quantity; // "distance", as the colour bar names it
   std::string unit;

@@ -82,8 +82,13 @@ TEST_CASE("values out of range") {
   check_setup_refused("0.0018,", "0.0018, \"focus_distance_m\": 0.001,",
                       {"/sensors/0/focus_distance_m", "focal"});
   check_setup_refused("[20e6]", "[0]", {"/sensors/0/modulation_hz"});
-  check_setup_refused("[20e6]", "[NaN]", {"setup.json:10:23"});
+  check_setup_refused("[20e6]", "[NaN]", {"setup.json:9:23"});
   check_setup_refused("[20e6]", "[1e999]", {"setup.json:"});
+}
+
+TEST_CASE("shadows are auto or off") {
+  check_setup_refused("\"sensors\":", R"("shadows": "on", "sensors":)",
+                      {R"(setup.json: /shadows: expected "auto" or "off", found "on")"});
 }
 
 TEST_CASE("cameras that cannot be") {
@@ -99,15 +104,13 @@ TEST_CASE("cameras that cannot be") {
 }
 
 TEST_CASE("what is not there yet is refused by name") {
-  check_setup_refused("\"shadows\": \"off\",", "", {"/shadows", "not supported yet"});
   check_setup_refused("0.0018,", "0.0018, \"samples\": \"auto\",",
                       {"/sensors/0/samples", "not supported yet"});
 }
 
 TEST_CASE("frames and taps at no time") {
   const auto refuse_frames = [](const std::string &frames, const std::vector<std::string> &fragments) {
-    check_setup_refused("\"shadows\": \"off\",", "\"shadows\": \"off\", \"frames\": " + frames + ",",
-                        fragments);
+    check_setup_refused("\"sensors\":", "\"frames\": " + frames + ", \"sensors\":", fragments);
   };
   refuse_frames(R"({"count": 2})", {"setup.json: /frames: ", "rate_hz"});
   refuse_frames(R"({"count": 0})", {"/frames/count", "1 to 100000"});

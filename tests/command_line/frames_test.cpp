@@ -21,9 +21,9 @@ struct Frames {
 
   explicit Frames(int frames) {
     work.write("wall.gltf", wall_gltf());
-    setup = work.write("setup.json", with(small_setup(), "\"shadows\"",
+    setup = work.write("setup.json", with(small_setup(), "\"sensors\":",
                                           R"("frames": {"start_s": 2, "rate_hz": 10, "count": )" +
-                                              std::to_string(frames) + "}, \"shadows\""));
+                                              std::to_string(frames) + "}, \"sensors\":"));
   }
 
   std::vector<std::string> arguments(const std::string &command,

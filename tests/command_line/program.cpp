@@ -101,7 +101,6 @@ std::string small_setup(const std::string &scene_file) {
   "scene": ")" +
          scene_file + R"(",
   "backscatter": "constant",
-  "shadows": "off",
   "sensors": [{
     "name": "pmd",
     "resolution": [8, 8],

@@ -27,6 +27,7 @@ Sensor two_frequencies() {
 Measurement exposure_number(float number, std::uint32_t taps) {
   Measurement measurement;
   measurement.range_m = {number};
+  measurement.lit = {0.1f * number};
   Return of_frequency;
   for (std::uint32_t k = 0; k < taps; ++k)
     of_frequency.taps.push_back({10.0f * number + static_cast<float>(k)});
@@ -72,6 +73,7 @@ TEST_CASE("frequency by frequency and tap by tap, at ascending times") {
     for (std::size_t k = 0; k < 3; ++k)
       CHECK(frame.returns[i].taps[k][0] == static_cast<float>(10 * (3 * i + k + 1) + k));
   CHECK(frame.range_m == std::vector<float>{1.0f});
+  CHECK(frame.lit == std::vector<float>{0.1f});
   CHECK(frame.frame_ms == Approx(12.0));
   REQUIRE(frame.passes.size() == 2);
   CHECK(frame.passes[0].name == "points");
@@ -88,7 +90,8 @@ TEST_CASE("a wall that moves away reads what the closed form says") {
     Sensor alone = sensor;
     alone.modulation_hz = {sensor.modulation_hz[frequency]};
     scene = wall_at(start_m + speed_m_s * time_s);
-    camera.prepare(scene, alone, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
+    camera.prepare(scene, alone, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant,
+                   Shadows::off);
     return camera.measure();
   });
   CHECK(frame.range_m[0] == Approx(start_m));
@@ -130,6 +133,18 @@ TEST_CASE("tap by tap, a scene at rest measures what one exposure does") {
       CHECK(found.returns[i].distance_m[pixel] == Approx(expected.returns[i].distance_m[pixel]).margin(2e-6));
       CHECK(found.returns[i].taps[2][pixel] == Approx(expected.returns[i].taps[2][pixel]).epsilon(1e-5));
     }
+}
+
+TEST_CASE("the setup's light casts its shadows, light in the lens none") {
+  const std::string device = GENERATE(as<std::string>{}, "", "reference");
+  LoadedWall wall(1e-3, GENERATE(false, true));
+  const auto lit = [&](Light light) {
+    return Exposures(wall.setup, device, false).take(0, 0.0, light, no_progress).measurement.lit;
+  };
+  CHECK(lit(Light::beside_lens) == std::vector(64, 1.0f));
+  CHECK(lit(Light::in_lens).empty());
+  wall.setup.shadows = Shadows::off;
+  CHECK(lit(Light::beside_lens).empty());
 }
 
 TEST_CASE("where nothing moves, one exposure serves all taps") {

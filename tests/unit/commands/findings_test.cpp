@@ -120,6 +120,19 @@ TEST_CASE("check adds up the diodes of each illuminator and of all") {
   CHECK(findings.illuminators[1].second.power_w == Approx(6.0 * 4.0 * std::numbers::pi));
 }
 
+TEST_CASE("check tells what can cast shadows") {
+  Setup setup = setup_of(wide_sensor(), wall_at(2.0));
+  CHECK(findings_of(setup).shadows == Shadows::automatic);
+  CHECK(findings_of(setup).shadow_casters == 2);
+  setup.start.scene.triangles.pop_back();
+  CHECK(findings_of(setup).shadow_casters == 0); // nothing stands in its own light
+  setup.start.scene.discs.push_back({0, 0.1, 0, 0});
+  CHECK(findings_of(setup).shadow_casters == 2);
+  setup.shadows = Shadows::off;
+  CHECK(findings_of(setup).shadows == Shadows::off);
+  CHECK(findings_of(setup).shadow_casters == 0);
+}
+
 TEST_CASE("several frequencies have a longer ambiguity range together") {
   CHECK(*common_ambiguity_m({20e6}) == Approx(299792458.0 / 40e6));
   CHECK(*common_ambiguity_m({20e6, 30e6}) == Approx(299792458.0 / 20e6));

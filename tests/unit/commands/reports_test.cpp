@@ -56,6 +56,28 @@ TEST_CASE("check tells of each illuminator where there are several") {
   CHECK(report["diodes"] == report["illuminators"][0]["diodes"].get<int>() + 1);
 }
 
+TEST_CASE("check tells of shadows") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = json::parse(small_setup());
+  const std::string on = work.write("on.json", setup.dump());
+  setup["shadows"] = "off";
+  const std::string off = work.write("off.json", setup.dump());
+
+  CHECK(
+      run_pmdsim({"check", on}).output.find("\nshadows                  on, 2 shapes that may cast them\n") !=
+      std::string::npos);
+  CHECK(run_pmdsim({"check", off})
+            .output.find("\nshadows                  off, light passes through everything\n") !=
+        std::string::npos);
+  const json with = json::parse(run_pmdsim({"check", on, "--json"}).output);
+  CHECK(with["shadows"] == "auto");
+  CHECK(with["shadow_casters"] == 2);
+  const json without = json::parse(run_pmdsim({"check", off, "--json"}).output);
+  CHECK(without["shadows"] == "off");
+  CHECK(without["shadow_casters"] == 0);
+}
+
 TEST_CASE("bench reports frames per second") {
   const Workspace work;
   work.write("wall.gltf", wall_gltf());

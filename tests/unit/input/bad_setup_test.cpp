@@ -78,6 +78,9 @@ TEST_CASE("Wrong types and values say what was expected") {
   CHECK_THAT(error_of_text("[]"), EndsWith("setup.json: expected an object, found an array of 0"));
   CHECK_THAT(error_with("/backscatter", "mirror"),
              EndsWith("/backscatter: expected \"lambert\" or \"constant\", found \"mirror\""));
+  CHECK_THAT(error_with("/shadows", "on"),
+             EndsWith("setup.json: /shadows: expected \"auto\" or \"off\", found \"on\""));
+  CHECK_THAT(error_with("/shadows", true), EndsWith("/shadows: expected \"auto\" or \"off\", found true"));
   CHECK_THAT(error_with("/sensors", json::array()),
              EndsWith("/sensors: expected an array of 1 to 64, each an object, found an array of 0"));
   CHECK_THAT(error_with("/sensors/0/resolution/0", 0),

@@ -15,7 +15,6 @@ struct SetupFixture {
   TemporaryFolder folder;
   nlohmann::json setup = nlohmann::json::parse(R"({
     "scene": "scene.gltf",
-    "shadows": "off",
     "sensors": [{
       "name": "pmd",
       "resolution": [64, 48],

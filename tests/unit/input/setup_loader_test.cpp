@@ -34,6 +34,7 @@ TEST_CASE("A sensor is what the setup says, with the contract's defaults") {
   CHECK(sensor.modulation_hz == std::vector{20e6});
   CHECK(sensor.samples == 1);
   CHECK(setup.backscatter == Backscatter::lambert);
+  CHECK(setup.shadows == Shadows::automatic);
   CHECK(setup.start.scene.triangles.size() == 1);
   CHECK(setup.warnings.empty());
 }
@@ -41,12 +42,14 @@ TEST_CASE("A sensor is what the setup says, with the contract's defaults") {
 TEST_CASE("Values that are given are used") {
   SetupFixture fixture;
   fixture.setup["backscatter"] = "constant";
+  fixture.setup["shadows"] = "off";
   fixture.sensor()["samples"] = 16;
   fixture.sensor()["focus_distance_m"] = 0.5;
   fixture.illuminator()["pattern"] = {{"order", 2.5}};
   fixture.illuminator()["intensity_w_sr"] = 3;
   const Setup setup = fixture.load();
   CHECK(setup.backscatter == Backscatter::constant);
+  CHECK(setup.shadows == Shadows::off);
   CHECK(setup.start.sensors[0].samples == 16);
   CHECK(setup.start.sensors[0].focus_distance_m == 0.5);
   CHECK(diodes_of(setup)[0].pattern.kind == Pattern::Kind::cosine);
@@ -192,7 +195,7 @@ TEST_CASE("The setup as used states every default") {
   CHECK(as_used == json::parse(R"({
     "scene": "scene.gltf",
     "backscatter": "lambert",
-    "shadows": "off",
+    "shadows": "auto",
     "sensors": [{
       "name": "pmd",
       "resolution": [64, 48],

@@ -24,15 +24,6 @@ std::string scene_error(const std::string &pointer, const json &value) {
 
 } // namespace
 
-TEST_CASE("Shadows are refused unless switched off in writing") {
-  const std::string expected =
-      "setup.json: /shadows: shadows are not supported yet; write \"shadows\": \"off\"";
-  CHECK_THAT(setup_error("/shadows", "auto"), EndsWith(expected));
-  SetupFixture absent;
-  absent.setup.erase("shadows");
-  CHECK_THAT(absent.error(), EndsWith(expected));
-}
-
 TEST_CASE("Setup keys of later features are refused by name") {
   CHECK_THAT(setup_error("/sensors/0/samples", "auto"), Contains("/samples: not supported yet"));
 }

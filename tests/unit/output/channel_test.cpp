@@ -45,6 +45,16 @@ std::vector<std::string> before_ground_truth(std::vector<std::string> names) {
 
 } // namespace
 
+TEST_CASE("lit is a channel of ground truth where shadows fill it") {
+  Measurement measurement = measurement_of(1, 0);
+  measurement.lit = {0.25f};
+  const ChannelSet set = channels_of(measurement);
+  CHECK(names_of(set) == std::vector<std::string>{"amplitude", "phase_rad", "distance_m", "range_m", "z_m",
+                                                  "coverage", "lit", "triangle_id", "object_id"});
+  CHECK(value_of(set, "lit") == 0.25f);
+  CHECK(set.channels[6].unit.empty());
+}
+
 TEST_CASE("the channels of one frequency carry no prefix") {
   CHECK(names_of(channels_of(measurement_of(1, 0))) ==
         before_ground_truth({"amplitude", "phase_rad", "distance_m"}));

@@ -24,9 +24,9 @@ Measurement numbered_measurement() {
   measurement.resolution = resolution;
   measurement.returns.resize(1);
   float next = 0.1f;
-  for (auto *channel :
-       {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
-        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m, &measurement.coverage})
+  for (auto *channel : {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
+                        &measurement.returns[0].distance_m, &measurement.range_m, &measurement.z_m,
+                        &measurement.coverage, &measurement.lit})
     for (std::size_t pixel = 0; pixel < pixel_count; ++pixel)
       channel->push_back(next += 0.7f);
   for (std::uint32_t pixel = 0; pixel < pixel_count; ++pixel) {
@@ -68,6 +68,7 @@ TEST_CASE("an EXR file gives back every bit under the channels' names") {
                                                        {"range_m", Imf::FLOAT},
                                                        {"z_m", Imf::FLOAT},
                                                        {"coverage", Imf::FLOAT},
+                                                       {"lit", Imf::FLOAT},
                                                        {"triangle_id", Imf::UINT},
                                                        {"object_id", Imf::UINT}});
   CHECK(read_channel<float>(exr, "amplitude", Imf::FLOAT) == measurement.returns[0].amplitude);
@@ -75,6 +76,7 @@ TEST_CASE("an EXR file gives back every bit under the channels' names") {
   CHECK(read_channel<float>(exr, "range_m", Imf::FLOAT) == measurement.range_m);
   CHECK(read_channel<float>(exr, "z_m", Imf::FLOAT) == measurement.z_m);
   CHECK(read_channel<float>(exr, "coverage", Imf::FLOAT) == measurement.coverage);
+  CHECK(read_channel<float>(exr, "lit", Imf::FLOAT) == measurement.lit);
   CHECK(read_channel<std::uint32_t>(exr, "triangle_id", Imf::UINT) == measurement.triangle_id);
   CHECK(read_channel<std::uint32_t>(exr, "object_id", Imf::UINT) == measurement.object_id);
   const std::vector<float> distance_m = read_channel<float>(exr, "distance_m", Imf::FLOAT);

@@ -66,6 +66,8 @@ TEST_CASE("the range leaves outliers out and suits its scale") {
   CHECK(preview_range(values, Scale::zero_centred).min == -995.0);
   CHECK(preview_range(values, Scale::zero_centred).max == 995.0);
   CHECK(preview_range(values, Scale::turn).max == Approx(6.283185307));
+  CHECK(preview_range(values, Scale::share).min == 0.0);
+  CHECK(preview_range(values, Scale::share).max == 1.0);
 }
 
 TEST_CASE("constant and empty images have a range of some extent about their value") {
@@ -88,6 +90,14 @@ TEST_CASE("a preview shows its pixels' colours, and grey with a legend where the
   Canvas gap = draw_preview(std::vector{-1.0f, nan_value}, {2, 1}, style, "title");
   CHECK(area_of(gap, 0x00509b) >= pixel_area);
   CHECK(area_of(gap, grey) >= pixel_area + 14 * 14);
+}
+
+TEST_CASE("shares have the colours of a scale from 0 to 1, whatever is in the frame") {
+  const PreviewStyle style{"lit", "", viridis, Scale::share};
+  Canvas none = draw_preview(std::vector{0.0f, 0.0f}, {2, 1}, style, "title");
+  CHECK(area_of(none, 0x440154) >= 2 * 256 * 256);
+  Canvas all = draw_preview(std::vector{1.0f, 1.0f}, {2, 1}, style, "title");
+  CHECK(area_of(all, 0xfde725) >= 2 * 256 * 256);
 }
 
 TEST_CASE("frames of extreme shapes can be drawn") {
