@@ -232,6 +232,97 @@ def moving():
     scene.write_gltf("moving.gltf")
 
 
+def closed_bar(width, height, depth):
+    """Centred on the origin, all six sides, fronts outwards."""
+    x, y, z = width / 2, height / 2, depth / 2
+    positions = [(sx * x, sy * y, sz * z) for sx in (-1, 1) for sy in (-1, 1) for sz in (-1, 1)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return positions, [face[k] for face in faces for k in (0, 1, 2, 0, 2, 3)]
+
+
+def bars():
+    """A grid of bars 2 mm wide and 30 mm apart, upright ones at 0.8 m and level ones right behind them; a wall at 2 m."""
+    scene = Gltf()
+    wall = scene.mesh(*rectangle(-1.5, 1.5, -1.5, 1.5), scene.material("wall paint", 0.8))
+    scene.node({"name": "wall", "mesh": wall, "translation": [0, 0, -2]})
+    steel = scene.material("steel", 0.5)
+    length, width, pitch, count = 1.4, 0.002, 0.03, 42
+    upright = scene.mesh(*closed_bar(width, length, width), steel)
+    level = scene.mesh(*closed_bar(length, width, width), steel)
+    for k in range(count):
+        place = round(pitch * (k - (count - 1) / 2), 6)
+        scene.node({"name": f"upright {k}", "mesh": upright, "translation": [place, 0, -0.8]})
+        scene.node({"name": f"level {k}", "mesh": level, "translation": [0, place, -0.81]})
+    scene.write_gltf("bars.gltf")
+
+
+def inside_of_box(size, parts):
+    """Centred on the origin, fronts inwards; every side is a grid of `parts` a direction, with vertices of its own."""
+    positions, indices = [], []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (-1, 1):
+            first = len(positions)
+            for i in range(parts[u] + 1):
+                for j in range(parts[v] + 1):
+                    corner = [0.0, 0.0, 0.0]
+                    corner[axis] = side * size[axis] / 2
+                    corner[u] = size[u] * (i / parts[u] - 0.5)
+                    corner[v] = size[v] * (j / parts[v] - 0.5)
+                    positions.append(tuple(corner))
+            for i in range(parts[u]):
+                for j in range(parts[v]):
+                    a = first + i * (parts[v] + 1) + j
+                    b, c, d = a + parts[v] + 1, a + parts[v] + 2, a + 1
+                    face = (a, d, c, b) if side > 0 else (a, b, c, d)
+                    indices += [face[k] for k in (0, 1, 2, 0, 2, 3)]
+    return positions, indices
+
+
+def closed_box():
+    """A box of 2 x 2 x 3 m, seen from inside by a camera that is turned, tilted and rolled."""
+    scene = Gltf()
+    camera = {"type": "perspective", "perspective": {"yfov": math.radians(100), "aspectRatio": 1, "znear": 0.01}}
+    scene.json["cameras"] = [camera]
+    turn, tilt, roll = (math.radians(angle) / 2 for angle in (25, -20, 10))
+    rotation = [0, math.sin(turn), 0, math.cos(turn)]
+    for next_rotation in ([math.sin(tilt), 0, 0, math.cos(tilt)], [0, 0, math.sin(roll), math.cos(roll)]):
+        rotation = quaternion_product(rotation, next_rotation)
+    scene.node({"name": "Camera", "camera": 0, "translation": [0.1, -0.15, 0.4], "rotation": rotation})
+    mesh = scene.mesh(*inside_of_box((2.0, 2.0, 3.0), (5, 4, 7)), scene.material("cardboard", 0.45))
+    scene.node({"name": "box", "mesh": mesh})
+    scene.write_gltf("closed_box.gltf")
+
+
+def quaternion_product(a, b):
+    """x, y, z, w: first b, then a."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return [
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    ]
+
+
+def penumbra():
+    """A wall at 2 m and half of a plane at 1 m, whose slanting edge is the border of what is seen."""
+    scene = Gltf()
+    wall = scene.mesh(*rectangle(-2, 2, -2, 2), scene.material("wall paint", 0.8))
+    scene.node({"name": "wall", "mesh": wall, "translation": [0, 0, -2]})
+    slant = math.radians(12) / 2
+    scene.node(
+        {
+            "name": "half-plane",
+            "mesh": scene.mesh(*rectangle(0, 2, -2, 2), scene.material("board", 0.3)),
+            "translation": [0.3, 0, -1],
+            "rotation": [0, 0, math.sin(slant), math.cos(slant)],
+        }
+    )
+    scene.write_gltf("penumbra.gltf")
+
+
 # The cameras of the analytic scenes: square pixels of 10 micrometres behind a lens of 1 m, one row of them. A pixel is
 # so narrow that every sample of it is equally far, to a few nanometres.
 PIXEL_PER_METRE = 10e-6
@@ -293,6 +384,9 @@ def main():
     wall("wall_2m.gltf", 0.4, 2.0)
     wall("wall_0m3.gltf", 0.45, 0.3)
     room()
+    bars()
+    closed_box()
+    penumbra()
     moving()
     cosine_diagram("led_cos3", 3)
     staircase("analytic/wrap_10mhz.gltf", [15.0, 20.0, 49.0])

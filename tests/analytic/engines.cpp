@@ -30,21 +30,23 @@ void print_row(Engine engine, const std::string &name, double expected, double g
 
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor,
                     const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                    const SimulatorOptions &options) {
+                    const SimulatorOptions &options, Shadows shadows) {
   if (engine == Engine::reference) {
-    const auto frame = reference::simulate(scene, sensor, illuminators, backscatter);
+    const auto frame =
+        reference::simulate(scene, sensor, illuminators, backscatter, {shadows, options.keep_reached});
     Measurement measured = reference::to_measurement(frame);
     measured.sample_triangle_id = frame.sample_triangle_id;
+    measured.sample_reached = frame.sample_reached;
     return measured;
   }
   Simulator simulator = make_simulator(options);
-  simulator.prepare(scene, sensor, illuminators, backscatter);
+  simulator.prepare(scene, sensor, illuminators, backscatter, shadows);
   return simulator.measure();
 }
 
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
-                    Backscatter backscatter, const SimulatorOptions &options) {
-  return measure(engine, scene, sensor, std::vector{illuminator}, backscatter, options);
+                    Backscatter backscatter, const SimulatorOptions &options, Shadows shadows) {
+  return measure(engine, scene, sensor, std::vector{illuminator}, backscatter, options, shadows);
 }
 
 Measurement measure_monostatic(Engine engine, const Scene &scene, const Sensor &sensor,

@@ -5,6 +5,7 @@
 #include "engine/measurement.h"
 #include "engine/scene.h"
 #include "engine/sensor.h"
+#include "engine/shadows.h"
 #include "engine/simulator_options.h"
 
 #include <string>
@@ -18,14 +19,15 @@ std::string name_of(Engine engine);
 // Runs the rest of a test case once with each.
 Engine both_engines();
 
-// The options are the simulator's; the reference has none, and gives the samples' triangles and the taps
-// always.
+// The options are the simulator's; the reference heeds `keep_reached` only, and gives the samples' triangles
+// and the taps always.
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
-                    Backscatter backscatter, const SimulatorOptions &options = {});
+                    Backscatter backscatter, const SimulatorOptions &options = {},
+                    Shadows shadows = Shadows::off);
 
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor,
                     const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                    const SimulatorOptions &options = {});
+                    const SimulatorOptions &options = {}, Shadows shadows = Shadows::off);
 
 // Under light in the lens.
 Measurement measure_monostatic(Engine engine, const Scene &scene, const Sensor &sensor,

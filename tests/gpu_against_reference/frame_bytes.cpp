@@ -28,6 +28,7 @@ void make_square(Sensor &sensor) {
 struct Change {
   std::string name;
   std::function<void(Sensor &)> of;
+  Shadows shadows = Shadows::off;
 };
 
 const std::vector<Change> &changes() {
@@ -53,6 +54,15 @@ const std::vector<Change> &changes() {
          fill_in_part(s);
          make_square(s);
        }},
+      {"shadows", [](Sensor &) {}, Shadows::automatic},
+      {"shadows_brown_tilted_filled_square",
+       [](Sensor &s) {
+         s.distortion = BrownConrady{-0.2, 0.05, 0.01, -0.02, 0.01};
+         s.chip.rotation_rad = {0.1, -0.05, 0.2};
+         fill_in_part(s);
+         make_square(s);
+       },
+       Shadows::automatic},
   };
   return all;
 }
@@ -67,10 +77,11 @@ std::string bytes_of(const Measurement &measurement) {
     for (const auto &tap : of_frequency.taps)
       append(bytes, tap);
   }
-  for (const auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
+  for (const auto *channel :
+       {&measurement.range_m, &measurement.z_m, &measurement.coverage, &measurement.lit})
     append(bytes, *channel);
   for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id,
-                          &measurement.sample_pixel_id})
+                          &measurement.sample_pixel_id, &measurement.sample_reached})
     append(bytes, *ids);
   return bytes;
 }
@@ -97,17 +108,21 @@ RepeatabilityFrame repeatability_frame(const std::string &name) {
   for (const Change &change : changes())
     if (change.name == name) {
       change.of(sensor);
-      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera)};
+      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera), change.shadows};
     }
   throw std::out_of_range("no repeatability frame " + name);
 }
 
 SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
-  return {.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_tags = true, .keep_taps = true};
+  return {.device = {},
+          .max_strip_samples = max_strip_samples,
+          .keep_sample_tags = true,
+          .keep_reached = true,
+          .keep_taps = true};
 }
 
 Measurement measure(Simulator &simulator, const RepeatabilityFrame &frame) {
-  simulator.prepare(frame.scene, frame.sensor, {frame.illuminator}, Backscatter::lambert);
+  simulator.prepare(frame.scene, frame.sensor, {frame.illuminator}, Backscatter::lambert, frame.shadows);
   return simulator.measure();
 }
 

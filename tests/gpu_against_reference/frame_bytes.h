@@ -11,13 +11,14 @@ namespace pmdsim::test {
 
 std::string bytes_of(const Measurement &measurement);
 
-// What the repeatability frames' sensors have beyond a pinhole and a sine.
+// What the repeatability frames have beyond a pinhole and a sine without shadows.
 const std::vector<std::string> &repeatability_frames();
 
 struct RepeatabilityFrame {
   Scene scene;
   Sensor sensor;
   Illuminator illuminator;
+  Shadows shadows;
 };
 
 // A random scene of 256 x 192 pixels with 2 x 2 samples or more each and 30 diodes. Throws std::out_of_range

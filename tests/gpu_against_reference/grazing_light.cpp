@@ -1,7 +1,7 @@
 #include "tests/gpu_against_reference/grazing_light.h"
 
-#include "engine/reference/camera_frame.h"
 #include "engine/reference/lens_model.h"
+#include "tests/gpu_against_reference/seen_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +9,6 @@
 namespace pmdsim::test {
 
 namespace {
-
-// A shape's plane, of a disc the one that faces the lens.
-struct Plane {
-  glm::dvec3 point_m, normal;
-};
-
-Plane plane_of(std::uint32_t id, const Scene &scene, const Sensor &sensor,
-               const std::vector<reference::CameraTriangle> &triangles) {
-  if (id < scene.triangles.size())
-    return {triangles[id].corners_m[0], glm::normalize(triangles[id].front())};
-  const Disc &disc = scene.discs[id - scene.triangles.size()];
-  const glm::dvec3 centre_m = inverse(sensor.world_from_camera).point(scene.positions_m[disc.vertex]);
-  return {centre_m, -glm::normalize(centre_m)};
-}
 
 bool grazes(const glm::dvec3 &point_m, const glm::dvec3 &normal, const Diode &diode) {
   const glm::dvec3 to_diode = glm::normalize(diode.position_m - point_m);
@@ -46,11 +32,10 @@ std::vector<bool> pixels_in_grazing_light(const reference::Frame &frame, const S
       const std::uint32_t id = frame.sample_triangle_id[std::size_t{sample.y} * samples.x + sample.x];
       if (id == no_id)
         continue;
-      const auto [corner_m, normal] = plane_of(id, scene, sensor, triangles);
-      const glm::dvec3 direction = *lens.sample_ray(sample);
-      const double range_m = glm::dot(normal, corner_m) / glm::dot(normal, direction);
+      const SeenPlane plane = plane_of(id, scene, sensor, triangles);
+      const glm::dvec3 point_m = plane.meeting_point_m(*lens.sample_ray(sample));
       if (std::any_of(diodes.begin(), diodes.end(),
-                      [&](const Diode &diode) { return grazes(range_m * direction, normal, diode); }))
+                      [&](const Diode &diode) { return grazes(point_m, plane.normal, diode); }))
         grazing[std::size_t{sample.y / sensor.samples} * sensor.resolution.x + sample.x / sensor.samples] =
             true;
     }
