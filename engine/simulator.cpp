@@ -4,8 +4,11 @@
 #include "engine/passes/accumulate.h"
 #include "engine/passes/camera_scene.h"
 #include "engine/passes/diode_groups.h"
+#include "engine/passes/lit.h"
+#include "engine/passes/occluders.h"
 #include "engine/passes/points.h"
 #include "engine/passes/projection.h"
+#include "engine/passes/reached.h"
 #include "engine/passes/read_back.h"
 #include "engine/passes/resolve.h"
 #include "engine/passes/search.h"
@@ -43,6 +46,10 @@ struct Prepared {
   StripBuffers buffers;
   VisibilityPass visibility;
   std::variant<PointsPass, SearchPass> points; // without and with distortion
+  Shadows shadows;
+  DiodeGroups groups;
+  std::vector<LitWindow> windows;
+  std::optional<LitPass> lit; // nothing where every diode reaches whatever is seen
   AccumulatePass accumulate;
   ResolvePass resolve;
 };
@@ -58,10 +65,14 @@ std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, c
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
                         const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                        Backscatter backscatter, TextureCache &textures) {
+                        Backscatter backscatter, Shadows shadows, TextureCache &textures) {
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
-  const Signal signal = signal_of(sensor, options);
+  const bool facing = all_face_the_light(camera, lights);
+  const std::vector<shader::Occluder> occluders =
+      shadows == Shadows::automatic ? find_occluders(camera, scene, lights) : std::vector<shader::Occluder>();
+  Signal signal = signal_of(sensor, options);
+  signal.lit = shadows == Shadows::automatic && (!occluders.empty() || !facing);
   const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t strip_samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
@@ -71,8 +82,8 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const Projection projection =
       project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments)
                                               : chip_blocks(sensor, block_fragments));
-  const DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m());
-  const SumModel model = sum_model(lights, backscatter, all_face_the_light(camera, lights));
+  DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m());
+  const SumModel model = sum_model(lights, backscatter, facing);
   const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
   const auto planes = triangle_planes(camera, scene, backscatter,
                                       sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
@@ -81,15 +92,38 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
   auto points = points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
                             buffers.paint, options.precision);
+  std::vector<LitWindow> windows = signal.lit ? plan_windows(groups) : std::vector{all_runs(groups)};
+  std::optional<LitPass> lit;
+  if (signal.lit)
+    lit.emplace(device, build_tree(occluders), groups, windows, buffers, strips, is_tiled(sensor),
+                options.precision);
+  AccumulatePass accumulate(device, groups, model, signal, options);
+  ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision);
   return {sensor,
           signal,
           strips,
           std::move(buffers),
-          make_strip_buffers(device, strips, projection.blocks, signal, options.keep_sample_tags),
+          make_strip_buffers(device, strips, projection.blocks, signal, options),
           std::move(visibility),
           std::move(points),
-          AccumulatePass(device, groups, model, signal, options),
-          ResolvePass(device, signal, groups.largest_intensity_w_sr, is_tiled(sensor), options.precision)};
+          shadows,
+          std::move(groups),
+          std::move(windows),
+          std::move(lit),
+          std::move(accumulate),
+          std::move(resolve)};
+}
+
+// What is left to the host: frames in which nothing stands in any light, and samples that see nothing.
+void finish_lit(const Prepared &prepared, Measurement &measurement) {
+  if (!prepared.lit) {
+    measurement.lit.resize(measurement.coverage.size());
+    std::ranges::transform(measurement.coverage, measurement.lit.begin(),
+                           [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
+    all_reached(prepared.groups, measurement.sample_reached);
+  }
+  if (!measurement.sample_reached.empty())
+    clear_unseen(measurement);
 }
 
 } // namespace
@@ -102,7 +136,8 @@ struct Simulator::State {
   void warm_up();
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
   void see(const PlannedStrip &planned);
-  void sum(const PlannedStrip &planned, std::uint32_t runs, const Progress &progress);
+  void light(const PlannedStrip &planned, std::size_t window, std::vector<std::uint32_t> &reached);
+  void sum(const PlannedStrip &planned, const LitWindow &window, const Progress &progress);
   void resolve(const PlannedStrip &planned);
 
   SimulatorOptions options;
@@ -127,12 +162,30 @@ void Simulator::State::see(const PlannedStrip &planned) {
   recorder.end_pass("points");
 }
 
-void Simulator::State::sum(const PlannedStrip &planned, std::uint32_t runs, const Progress &progress) {
+// Which diodes of the window reach the strip's samples.
+void Simulator::State::light(const PlannedStrip &planned, std::size_t window,
+                             std::vector<std::uint32_t> &reached) {
+  const LitPass &lit = *prepared->lit;
+  if (window == 0)
+    lit.record_tiles(recorder.commands(), planned.strip, prepared->buffers);
+  lit.record(recorder.commands(), planned.strip, prepared->buffers, window);
+  recorder.end_pass("lit");
+  if (!options.keep_reached)
+    return;
+  record_reached(recorder.commands(), planned.strip, prepared->buffers, prepared->windows[window]);
+  recorder.finish();
+  store_reached(planned.strip, prepared->buffers, prepared->windows[window], prepared->groups, reached);
+  recorder.begin();
+}
+
+void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window, const Progress &progress) {
+  const std::uint32_t runs = prepared->accumulate.runs();
   const auto per_submission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
       interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
-  for (std::uint32_t first = 0; first < runs; first += per_submission) {
-    const std::uint32_t last = std::min(runs, first + per_submission);
-    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, first, last);
+  for (std::uint32_t first = window.first_run; first < window.last_run; first += per_submission) {
+    const std::uint32_t last = std::min(window.last_run, first + per_submission);
+    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, window.first_diode,
+                                first, last);
     recorder.end_pass("accumulate");
     if (last < runs) {
       recorder.finish();
@@ -149,14 +202,22 @@ void Simulator::State::resolve(const PlannedStrip &planned) {
   recorder.end_pass("read_back");
 }
 
-// lavapipe compiles a shader at its first dispatch: every pass runs once, over a single pixel.
+// lavapipe compiles a shader at its first dispatch: every pass runs once, over a single pixel, and each that
+// has a first and a later form twice.
 void Simulator::State::warm_up() {
   PlannedStrip pixel = prepared->strips.front();
   pixel.strip.columns = pixel.strip.rows = 1;
   pixel.strip.padded_pixels = padded(1);
   recorder.begin();
   see(pixel);
-  sum(pixel, std::min(prepared->accumulate.runs(), 2u), [](double) {}); // the first and the later ones differ
+  std::vector<std::uint32_t> reached = none_reached(prepared->sensor, prepared->groups);
+  for (std::size_t i = 0; i < std::min<std::size_t>(prepared->windows.size(), 2); ++i) {
+    LitWindow window = prepared->windows[i];
+    window.last_run = std::min(window.last_run, window.first_run + 2);
+    if (prepared->lit)
+      light(pixel, i, reached);
+    sum(pixel, window, [](double) {});
+  }
   resolve(pixel);
   recorder.finish();
 }
@@ -165,7 +226,11 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
                                      Measurement &measurement) {
   recorder.begin();
   see(planned);
-  sum(planned, prepared->accumulate.runs(), progress);
+  for (std::size_t i = 0; i < prepared->windows.size(); ++i) {
+    if (prepared->lit)
+      light(planned, i, measurement.sample_reached);
+    sum(planned, prepared->windows[i], progress);
+  }
   resolve(planned);
   recorder.finish();
   store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
@@ -181,13 +246,13 @@ const DeviceInfo &Simulator::device() const { return state_->info; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                        Shadows /*shadows*/) {
+                        Shadows shadows) {
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
   state_->prepared.reset(); // its memory first
   state_->prepared.emplace(prepare_passes(state_->device, state_->options, scene, sensor, illuminators,
-                                          backscatter, state_->textures));
+                                          backscatter, shadows, state_->textures));
   state_->textures.drop_unused();
   state_->warm_up();
 }
@@ -198,7 +263,9 @@ Measurement Simulator::measure(const Progress &progress) {
   const auto start = std::chrono::steady_clock::now();
   state_->recorder.reset();
   Measurement measurement =
-      make_measurement(state_->prepared->sensor, state_->prepared->signal, state_->options.keep_sample_tags);
+      make_measurement(state_->prepared->sensor, state_->prepared->signal, state_->options);
+  if (state_->prepared->shadows == Shadows::automatic && state_->options.keep_reached)
+    measurement.sample_reached = none_reached(state_->prepared->sensor, state_->prepared->groups);
   const auto &strips = state_->prepared->strips;
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {
@@ -207,6 +274,8 @@ Measurement Simulator::measure(const Progress &progress) {
     };
     state_->measure_strip(strips[i], of_strip, measurement);
   }
+  if (state_->prepared->shadows == Shadows::automatic)
+    finish_lit(*state_->prepared, measurement);
   measurement.passes = state_->recorder.times();
   measurement.frame_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

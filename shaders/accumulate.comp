@@ -14,12 +14,12 @@
 layout(constant_id = constant_moments) const uint moments = 4;
 layout(constant_id = constant_tones) const uint tones = 1;
 
-void add_block(inout float total[moments], Point point, Diodes diodes, uint first) {
+void add_block(inout float total[moments], Point point, Diodes diodes, uint block, uint reached) {
   float part[moments];
   [[unroll]] for (uint k = 0; k < moments; ++k)
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
-    vec2 we = weight_and_excess(point, diodes.at[first + d]);
+    vec2 we = weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u);
     float term = we.x;
     part[0] += term;
     [[unroll]] for (uint k = 1; k < moments; ++k) {
@@ -62,10 +62,10 @@ void main() {
   Diodes diodes = Diodes(constants.diodes);
 #ifdef STRAIGHT_LINE
   [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, diodes, block * diodes_per_block);
+    add_block(total, point, diodes, block, reached_of_block(i, block));
 #else
   for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, diodes, block * diodes_per_block);
+    add_block(total, point, diodes, block, reached_of_block(i, block));
 #endif
 
   Real detour = add(path.rho, negate(path.range));

@@ -16,6 +16,7 @@ layout(constant_id = constant_order) const uint power = 1;
 layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
 layout(constant_id = constant_first) const uint is_first = 0;
 layout(constant_id = constant_phased) const uint phased = 0;
+layout(constant_id = constant_shadowed) const uint shadowed = 0;
 
 // A sample's point as the group sees it.
 struct Point {
@@ -28,7 +29,7 @@ struct Point {
 #include "radiation.glsl"
 
 // w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
-vec2 weight_and_excess(Point point, GroupDiode diode) {
+vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
   float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
   float r2 = point.rho * point.rho + q;
   float r = sqrt(r2);
@@ -43,7 +44,17 @@ vec2 weight_and_excess(Point point, GroupDiode diode) {
   }
   if (pattern_model != pattern_isotropic)
     weight *= radiation(point, diode, r, inverse_r, inverse_r2);
+  if (shadowed != 0)
+    weight = reached ? weight : 0.0;
   return vec2(weight, q * r2 * inverse);
+}
+
+// Of the block's diodes, those that reach sample i, a bit each.
+uint reached_of_block(uint i, uint block) {
+  if (shadowed == 0)
+    return 0u;
+  uint bit = constants.first_bit + block * diodes_per_block;
+  return Words(constants.reached).at[bit / diodes_per_bundle * constants.plane + i] >> bit % diodes_per_bundle;
 }
 
 // The paths from a sample over the reference point, in double.

@@ -46,12 +46,13 @@ void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weigh
 }
 
 void add_block(inout float total[totals], Point point, float phases[distinct_taps], Tone tone,
-               Diodes diodes, uint first) {
+               Diodes diodes, uint block, uint reached) {
   float part[totals];
   [[unroll]] for (uint k = 0; k < totals; ++k)
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d)
-    add_diode(part, phases, weight_and_excess(point, diodes.at[first + d]), tone);
+    add_diode(part, phases,
+              weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u), tone);
   [[unroll]] for (uint k = 0; k < totals; ++k)
     total[k] += part[k];
 }
@@ -77,10 +78,10 @@ void main() {
   Diodes diodes = Diodes(constants.diodes);
 #ifdef STRAIGHT_LINE
   [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, phases, tone, diodes, block * diodes_per_block);
+    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
 #else
   for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, phases, tone, diodes, block * diodes_per_block);
+    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
 #endif
 
   float backscatter = Floats(constants.backscatter).at[i];

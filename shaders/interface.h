@@ -36,6 +36,7 @@ PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
 PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
 PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
 PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation phase
+PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sample
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -44,6 +45,7 @@ PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
 PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
 PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light reaches the pixel, too
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
@@ -53,6 +55,13 @@ PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
 PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
+
+// Specialization constants of the lit pass's shaders.
+PMDSIM_CONSTANT constant_lit_tiled = 0;   // 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
+PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
+PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window
+PMDSIM_CONSTANT constant_lit_first = 1;   // count: 1: this is the frame's first window
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -90,16 +99,18 @@ struct TrianglePlane {
   vec4 plane_lo;     // their rests
   float backscatter; // rho (constant) or rho / pi (lambert), 1/sr
   uint object;       // id in the scene
-  float along_min; // where a ray can meet the triangle, a hair wider than exact: depth, with distortion range, m
+  float along_min;   // where a ray can meet the triangle, a hair wider than exact: depth, with distortion
+                     // range, m
   float along_max;
 };
 
-// How a triangle or a disc is painted, in scenes that have any paint: affine functions of a point's offset from the
-// shape's origin (camera frame, m), their gradients in xyz, their values at the origin in w.
+// How a triangle or a disc is painted, in scenes that have any paint: affine functions of a point's offset
+// from the shape's origin (camera frame, m), their gradients in xyz, their values at the origin in w.
 struct ShapePaint {
-  vec4 origin_hi, origin_lo; // a triangle's first corner, a disc's centre; w: a disc's radius, 0 of a triangle
-  vec4 s_hi, s_lo;           // column of the texture, texels
-  vec4 t_hi, t_lo;           // row
+  vec4 origin_hi,
+      origin_lo;   // a triangle's first corner, a disc's centre; w: a disc's radius, 0 of a triangle
+  vec4 s_hi, s_lo; // column of the texture, texels
+  vec4 t_hi, t_lo; // row
   vec4 red, green, blue, alpha; // vertex colour
   uint surface;                 // index into SurfacePaint[]
   uint padding_1, padding_2, padding_3;
@@ -117,7 +128,8 @@ struct SurfacePaint {
   uint padding_1, padding_2, padding_3;
 };
 
-// The plane of a raster block: the ray through (x, y), fragments from its top left corner, is x * X + y * Y + corner.
+// The plane of a raster block: the ray through (x, y), fragments from its top left corner, is x * X + y * Y +
+// corner.
 struct BlockPlane {
   vec4 x_hi, x_lo, y_hi, y_lo, corner_hi, corner_lo;
 };
@@ -141,8 +153,9 @@ struct ChipPlace {
   vec4 half_step_y_hi, half_step_y_lo;
 };
 
-// The lens's distortion, from the slopes on the chip's side back to the ray. A table of lens_guesses floats follows: how many
-// times its distorted radius the undistorted one (or the angle) is, at radii i / guesses_per_radius.
+// The lens's distortion, from the slopes on the chip's side back to the ray. A table of lens_guesses floats
+// follows: how many times its distorted radius the undistorted one (or the angle) is, at radii i /
+// guesses_per_radius.
 struct LensModel {
   ChipPlace chip;
   vec4 radial_hi; // k1, k2, k3, and of a fisheye k4
@@ -153,7 +166,8 @@ struct LensModel {
 };
 PMDSIM_CONSTANT lens_guesses = 1024;
 
-// The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) / (z . ray).
+// The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) /
+// (z . ray).
 struct RasterView {
   vec4 x, y, z;
   uint columns, rows; // fragments
@@ -170,7 +184,7 @@ struct GroupDiode {
   float theta_steps;
   float first_theta; // rad
   float theta_steps_per_rad;
-  uint row_length;   // angles to the axis of a diagram that is not the same for all phi, else 0
+  uint row_length; // angles to the axis of a diagram that is not the same for all phi, else 0
   float padding;
   vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
@@ -180,6 +194,73 @@ struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
   float wavenumber; // 2 pi frequency / c, rad/m
   float harmonic;   // how many of its turns a turn of the fundamental is
+};
+
+// Which diodes reach which sample. Samples are taken in tiles of pixels, diodes in bundles; a sample has a
+// word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
+PMDSIM_CONSTANT tile_side = 8;
+PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
+PMDSIM_CONSTANT diodes_per_bundle = 32;
+PMDSIM_CONSTANT bundles_per_window = 8;
+PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
+PMDSIM_CONSTANT largest_candidates =
+    256;                                // that a part tries one by one; where there are more, it traces rays
+PMDSIM_CONSTANT occluders_per_leaf = 4; // at most
+// lavapipe ends all loops of an invocation after 65,535 iterations, silently. A walk through the tree takes a
+// step for each node and each occluder that it looks at, and no more than two iterations a step;
+// largest_candidates * own_shapes may follow.
+PMDSIM_CONSTANT steps_per_walk = 30000;
+PMDSIM_CONSTANT nodes_per_walk =
+    steps_per_walk / (1 + occluders_per_leaf); // of walks that must not be too long
+
+// What may stand in the light: a triangle, or the one around a disc. Camera frame, m.
+struct Occluder {
+  vec4 plane_hi, plane_lo; // unit normal (counter-clockwise abc in front), offset
+  vec4 a_hi, b_hi, c_hi;   // corners
+  vec4 a_lo, b_lo, c_lo;
+  uint id;            // of the shape in the scene
+  uint edges;         // bit 0, 1, 2: ab, bc, ca run from the corner that comes later (vertex_order.h)
+  uint may_be_absent; // 1: it has holes, or is a disc
+  uint padding;
+};
+
+// A box of the tree over the occluders, rounded outwards, camera frame, m. Nodes lie in the order of a walk:
+// whoever meets the box goes on with the next node, whoever misses it at `skip`.
+struct TreeNode {
+  float low_x, low_y, low_z;
+  uint skip;
+  float high_x, high_y, high_z;
+  uint occluders; // 8 * the first + how many, of a leaf; else 0
+};
+
+// Around the diodes of a window or of a bundle, rounded outwards, camera frame, m.
+struct DiodeBox {
+  vec4 low, high;
+};
+
+// Samples of a tile that lie at similar depths. A tile has two parts, one of them empty where it is all of
+// one depth.
+struct TilePart {
+  vec4 low, high;              // box around their points, camera frame, m
+  float nearest_m, farthest_m; // depths z: nearest_m <= z < farthest_m
+  uint own;                    // shapes that they lie on; beyond own_shapes: more than these
+  uint padding;
+  uint own_ids[own_shapes];
+};
+
+// Arguments of an indirect dispatch, and how many entries the list has that it is over.
+struct Dispatch {
+  uint x, y, z;
+  uint count;
+};
+
+// What is left to do. The lists follow in words, each as long as there are parts: open; tried, traced and
+// long of each bundle.
+struct LitWork {
+  Dispatch open;                       // parts whose light something may block
+  Dispatch tried[bundles_per_window];  // entries of the list `open` that try candidates
+  Dispatch traced[bundles_per_window]; // that trace rays
+  Dispatch walked[bundles_per_window]; // of which a ray took more than steps_per_walk
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -192,15 +273,16 @@ struct Strip {
   uint padded_pixels; // columns * rows, rounded up to whole workgroups
 };
 
-// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing was hit. Those
-// of samples that are an even grid over the whole strip lie row by row. Where pixels are filled in part, there are S x S
-// tiles of one sample a pixel each. With distortion, fragments are no samples: their tags only say what is seen (pixel id
-// 1), and the samples' tags follow from a search, row by row.
+// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
+// was hit. Those of samples that are an even grid over the whole strip lie row by row. Where pixels are
+// filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
+// samples: their tags only say what is seen (pixel id 1), and the samples' tags follow from a search, row by
+// row.
 struct VisibilityConstants {
-  vec2 shift;                    // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
-  uint tile_x, tile_y;           // of its first fragment
-  uint column, row;              // of the strip's first pixel
-  uint resolution_x;             // of the frame
+  vec2 shift;          // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
+  uint tile_x, tile_y; // of its first fragment
+  uint column, row;    // of the strip's first pixel
+  uint resolution_x;   // of the frame
   uint fragments_per_pixel_side; // 0: with distortion
   // Where shapes have holes:
   vec2 sample_shift;     // of the tile's samples from the fragments' centres, fragments
@@ -214,10 +296,10 @@ struct VisibilityConstants {
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
-  vec4 slope;        // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
-  uvec2 chip;        // in, else: ChipPlace
-  uvec2 tags;        // in: tags
-  uvec2 planes;      // in: TrianglePlane[]
+  vec4 slope;   // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  uvec2 chip;   // in, else: ChipPlace
+  uvec2 tags;   // in: tags
+  uvec2 planes; // in: TrianglePlane[]
   uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
   uvec2 position_lo; // out: float[3] a sample, their rests
   uvec2
@@ -243,24 +325,80 @@ struct SearchConstants {
   uvec2 surfaces;
 };
 
-// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each tone of a
-// sine or of harmonics one plane holds the complex return relative to twice the sample's range; for square light, of
-// each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps below N / 2: the
-// triangle wave half a turn on is its negative.
+// The sum is made of planes, vec4[] over the samples: two sums and what rounding took from either. For each
+// tone of a sine or of harmonics one plane holds the complex return relative to twice the sample's range; for
+// square light, of each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps
+// below N / 2: the triangle wave half a turn on is its negative.
 struct AccumulateConstants {
   uvec2 position_hi; // in, as the points pass left them
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;    // in (but for the first run) and out: of the first tone, or direct, of the frequency
-  uvec2 diodes; // in: GroupDiode[]
-  uvec2 tones;  // in: Tone[]
-  uint blocks;  // blocks of diodes to sum, for the looped variant
-  uint plane;   // elements of a plane of the sum
+  uvec2 sum;         // in (but for the first run) and out: of the first tone, or direct, of the frequency
+  uvec2 diodes;      // in: GroupDiode[]
+  uvec2 tones;       // in: Tone[]
+  uint blocks;       // blocks of diodes to sum, for the looped variant
+  uint plane;        // elements of a plane of the sum
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
+  uvec2 reached;     // in, where shadowed: word[], bundle by bundle; the first diode is in the first word
+  uint first_bit;    // of the first diode
+  uint padding;
+};
+
+// What the lit pass looks up about the scene.
+struct LitScene {
+  uvec2 planes;    // TrianglePlane[]
+  uvec2 occluders; // Occluder[]
+  uvec2 tree;      // TreeNode[]
+  uvec2 shapes;    // ShapePaint[], where occluders may have holes
+  uvec2 surfaces;  // SurfacePaint[], likewise
+  uint nodes;      // of the tree
+  uint padding;
+};
+
+struct LitTilesConstants {
+  Strip strip;
+  uvec2 position_hi;
+  uvec2 tags;
+  uvec2 parts; // out: TilePart[]
+};
+
+struct LitGatherConstants {
+  uvec2 parts;      // in: TilePart[]
+  uvec2 scene;      // in: LitScene
+  uvec2 boxes;      // in: DiodeBox of the window, then of its bundles
+  uvec2 work;       // in and out: LitWork and its lists
+  uvec2 candidates; // out: for each entry of `open` and bundle the number of candidates and these, occluders
+  uint part_count;
+  uint bundles; // of the window
+  uint slots;   // that `candidates` has room for
+};
+
+struct LitDecideConstants {
+  Strip strip;
+  uvec2 position_hi;
+  uvec2 position_lo;
+  uvec2 tags;
+  uvec2 parts;
+  uvec2 scene;
+  uvec2 diodes;     // in: vec4[], position in the camera frame, m; the bundle's
+  uvec2 work;       // in, trace: and out
+  uvec2 candidates; // in, try
+  uvec2 reached;    // in and out: the bundle's word of each sample
+  uint bundle;      // of the window
+  uint bundles;
+  uint part_count;
+  uint first_node, last_node; // trace: of the walk
+};
+
+struct LitCountConstants {
+  uvec2 reached;
+  uvec2 diodes; // in: for each bundle the bits of its diodes
+  uvec2 lit;    // out, and but for the first window in: uint a sample, the diodes that reach it
+  uint plane;   // samples
 };
 
 struct ResolveConstants {
@@ -281,6 +419,9 @@ struct ResolveConstants {
   uint pixels;        // of the strip
   uint plane;         // elements of a plane of the sum
   uint first_channel; // of the frequency
+  uint lit_channel;
+  uvec2 lit;   // in: uint a sample, the diodes that reach it
+  uint diodes; // of all illuminators
 };
 
 // The ground truth comes first, then the channels of each frequency, the taps (if kept) last.
@@ -296,6 +437,7 @@ PMDSIM_CONSTANT channel_distance_m = 2;
 PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
+static_assert(2 * steps_per_walk + (largest_candidates + 2) * (own_shapes + 1) < 65535);
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 80);
@@ -309,8 +451,12 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(AccumulateConstants) == 112 && offsetof(AccumulateConstants, reference_hi) == 64);
-static_assert(sizeof(ResolveConstants) == 108 && offsetof(ResolveConstants, turns_per_m) == 56);
+static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
+              sizeof(TilePart) == 112);
+static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 48);
+static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
+static_assert(sizeof(AccumulateConstants) == 128 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif
 

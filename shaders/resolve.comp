@@ -18,6 +18,7 @@ layout(constant_id = constant_resolve_taps) const uint taps = 4;
 layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
 layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
 layout(constant_id = constant_resolve_tiled) const uint tiled = 0;
+layout(constant_id = constant_resolve_lit) const uint shadowed = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -27,6 +28,7 @@ struct PixelSum {
   Real depth;
   Real reference_m; // range of the first hit
   uint hits;
+  uint lit; // sum over the hits, diodes
 };
 
 Real turns_per_m(uint plane) {
@@ -46,7 +48,7 @@ void sum_samples(uint pixel, out PixelSum sum) {
   [[unroll]] for (uint p = 0; p < planes; ++p)
     sum.z[p] = vec4(0.0);
   sum.range = sum.depth = sum.reference_m = real(0.0);
-  sum.hits = 0u;
+  sum.hits = sum.lit = 0u;
   uint count = constants.samples * constants.samples;
   for (uint s = 0; s < count; ++s) {
     uint i = s * constants.padded_pixels + pixel;
@@ -61,6 +63,8 @@ void sum_samples(uint pixel, out PixelSum sum) {
     sum.range = add(sum.range, range);
     sum.depth = add(sum.depth, position.z);
     sum.hits += 1u;
+    if (shadowed != 0)
+      sum.lit += Words(constants.lit).at[i];
   }
 }
 
@@ -172,6 +176,8 @@ void store_ground_truth(uint pixel, PixelSum sum) {
   Real hits = real(float(sum.hits));
   store(channel_range_m, pixel, sum.hits > 0u ? high(divide(sum.range, hits)) : nan());
   store(channel_z_m, pixel, sum.hits > 0u ? high(divide(sum.depth, hits)) : nan());
+  if (shadowed != 0)
+    store(constants.lit_channel, pixel, float(sum.lit) / float(max(sum.hits * constants.diodes, 1u)));
   store(channel_coverage, pixel, float(sum.hits) / float(constants.samples * constants.samples));
 }
 

@@ -53,7 +53,7 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
            first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps, groups.phased ? 1u : 0u}};
+           signal.distinct_taps, groups.phased ? 1u : 0u, signal.lit ? 1u : 0u}};
 }
 
 template <typename Property>
@@ -112,12 +112,15 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 }
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, std::uint32_t first, std::uint32_t last) const {
+                            const StripBuffers &buffers, std::uint32_t first_diode, std::uint32_t first,
+                            std::uint32_t last) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
     const DoublePair4 reference(runs_[run].reference_m, 0.0);
     const DoublePair phase_turns(runs_[run].phase_turns);
+    const std::uint32_t diode = runs_[run].first - first_diode;
+    const vk::DeviceSize bundle_bytes = vk::DeviceSize{plane} * sizeof(std::uint32_t);
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
           words(buffers.position_hi.address()),
@@ -132,7 +135,10 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           reference.hi,
           reference.lo,
           {phase_turns.hi, phase_turns.lo},
-          words(diagrams_.address())};
+          words(diagrams_.address()),
+          words(buffers.reached.address() + diode / shader::diodes_per_bundle * bundle_bytes),
+          diode % shader::diodes_per_bundle,
+          0};
       (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
     }
   }

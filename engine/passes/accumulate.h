@@ -31,9 +31,11 @@ public:
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
-  // Adds the runs first ... last - 1 to the strip's sums.
+  // Adds the runs first ... last - 1 to the strip's sums. Where shadowed, buffers.reached begins with the
+  // diode `first_diode`.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, std::uint32_t first, std::uint32_t last) const;
+              const StripBuffers &buffers, std::uint32_t first_diode, std::uint32_t first,
+              std::uint32_t last) const;
 
 private:
   std::vector<DiodeRun> runs_;

@@ -10,17 +10,11 @@
 namespace pmdsim {
 namespace {
 
-// Empty where the lens cannot see the triangle from where it stands.
-std::optional<Plane> visible_plane(const std::array<glm::dvec3, 3> &corners_m, bool double_sided) {
-  const glm::dvec3 area = glm::cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]);
-  const double length = glm::length(area);
-  if (!(length > 0.0))
+// Empty where the lens cannot see a triangle in this plane from where it stands.
+std::optional<Plane> seen_plane(const Plane &plane, bool double_sided) {
+  if (plane.offset_m == 0.0 || (plane.offset_m > 0.0 && !double_sided))
     return std::nullopt;
-  const glm::dvec3 normal = area / length;
-  const double offset_m = glm::dot(normal, corners_m[0]);
-  if (offset_m == 0.0 || (offset_m > 0.0 && !double_sided))
-    return std::nullopt;
-  return offset_m < 0.0 ? Plane{normal, offset_m} : Plane{-normal, -offset_m};
+  return plane.offset_m < 0.0 ? plane : Plane{-plane.normal, -plane.offset_m};
 }
 
 struct Bounds {
@@ -84,9 +78,14 @@ void add_triangle(CameraScene &camera, const Scene &scene, std::uint32_t id, con
   CameraTriangle seen{{}, id};
   for (std::size_t k = 0; k < 3; ++k)
     seen.corners_m[k] = in_camera(scene.positions_m[triangle.vertices[k]]);
-  if (const auto plane = visible_plane(seen.corners_m, scene.surfaces[triangle.surface].double_sided)) {
+  const auto front = front_plane(seen.corners_m);
+  if (!front)
+    return;
+  if (const auto plane = seen_plane(*front, scene.surfaces[triangle.surface].double_sided)) {
     camera.triangles.push_back(seen);
     camera.planes.push_back(*plane);
+  } else {
+    camera.hidden.push_back(seen);
   }
 }
 
@@ -102,6 +101,15 @@ void add_disc(CameraScene &camera, const Scene &scene, std::size_t index, const 
 }
 
 } // namespace
+
+std::optional<Plane> front_plane(const std::array<glm::dvec3, 3> &corners_m) {
+  const glm::dvec3 area = glm::cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]);
+  const double length = glm::length(area);
+  if (!(length > 0.0))
+    return std::nullopt;
+  const glm::dvec3 normal = area / length;
+  return Plane{normal, glm::dot(normal, corners_m[0])};
+}
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
   const Viewpoint in_camera(sensor.world_from_camera);

@@ -8,6 +8,7 @@
 #include "shaders/interface.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -18,16 +19,23 @@ struct CameraTriangle {
   std::uint32_t id;                    // of the triangle or the disc in the scene
 };
 
-// The plane normal . P = offset_m, camera frame, the unit normal turned to the lens (so offset_m < 0).
+// The plane normal . P = offset_m, camera frame, the normal of unit length; of what the lens sees it is
+// turned to the lens, so that offset_m < 0.
 struct Plane {
   glm::dvec3 normal;
   double offset_m;
 };
 
+// The plane of a triangle whose corners run counter-clockwise seen from the side that the normal points to;
+// empty where it has no area.
+std::optional<Plane> front_plane(const std::array<glm::dvec3, 3> &corners_m);
+
 struct CameraScene {
   // The shapes that the lens can see: without those of no area, those seen edge-on and culled back faces.
   std::vector<CameraTriangle> triangles;
   std::vector<Plane> planes; // beside `triangles`
+  // Those that it cannot see and that stand in the light all the same; not those of no area.
+  std::vector<CameraTriangle> hidden;
 };
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);

@@ -18,11 +18,15 @@ constexpr std::uint32_t largest_run_blocks = 16;
 constexpr std::uint64_t run_overhead_blocks = 4;
 constexpr double remainder = 0x1p-26;
 
+struct NumberedDiode : Diode {
+  std::uint32_t number; // among those of all illuminators
+};
+
 struct Box {
   glm::dvec3 low_m, high_m;
 };
 
-Box box_of(std::span<const Diode> diodes) {
+Box box_of(std::span<const NumberedDiode> diodes) {
   Box box{diodes.front().position_m, diodes.front().position_m};
   for (const Diode &diode : diodes) {
     box.low_m = glm::min(box.low_m, diode.position_m);
@@ -32,7 +36,7 @@ Box box_of(std::span<const Diode> diodes) {
 }
 
 struct Group {
-  std::span<Diode> diodes;
+  std::span<NumberedDiode> diodes;
   double phase_turns; // the illuminator's
   glm::dvec3 reference_m;
   double radius_m = 0.0; // of the sphere around the reference point that holds all its diodes
@@ -72,7 +76,7 @@ double excess_at_most_m(const Group &group, const Reach &reach, const VisibleBox
   return sum_m > 0.0 ? std::min(group.radius_m, q_m2 / sum_m) : group.radius_m;
 }
 
-Group group_of(std::span<Diode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
+Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
   const Box box = box_of(diodes);
   // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
   Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
@@ -128,24 +132,42 @@ shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m
   return record;
 }
 
+// Brings `first` diodes to the front so that a plane across the longest side of their box parts them from the
+// rest.
+void part(std::span<NumberedDiode> diodes, std::size_t first) {
+  const Box box = box_of(diodes);
+  const glm::dvec3 spread = box.high_m - box.low_m;
+  const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
+  std::ranges::nth_element(diodes, diodes.begin() + static_cast<std::ptrdiff_t>(first), {},
+                           [axis](const Diode &diode) { return diode.position_m[axis]; });
+}
+
+// Orders a group's diodes so that those that share a bundle stand together: then they mostly reach the same
+// samples.
+void bundle(std::span<NumberedDiode> diodes) {
+  if (diodes.size() <= shader::diodes_per_bundle)
+    return;
+  const std::size_t bundles = (diodes.size() - 1) / shader::diodes_per_bundle + 1;
+  const std::size_t first = bundles / 2 * shader::diodes_per_bundle;
+  part(diodes, first);
+  bundle(diodes.first(first));
+  bundle(diodes.subspan(first));
+}
+
 class Grouping {
 public:
   Grouping(const std::vector<VisibleBox> &visible, double wavenumber_rad_m)
       : visible_(visible), wavenumber_rad_m_(wavenumber_rad_m) {}
 
   // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
-  void split(std::span<Diode> diodes, double phase_turns) {
+  void split(std::span<NumberedDiode> diodes, double phase_turns) {
     const Group group = group_of(diodes, phase_turns, visible_);
     if (is_small_enough(group)) {
+      bundle(diodes);
       groups_.push_back(group);
       return;
     }
-    const Box box = box_of(diodes);
-    const glm::dvec3 spread = box.high_m - box.low_m;
-    const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
-    const auto middle = diodes.begin() + static_cast<std::ptrdiff_t>(diodes.size() / 2);
-    std::ranges::nth_element(diodes, middle, {},
-                             [axis](const Diode &diode) { return diode.position_m[axis]; });
+    part(diodes, diodes.size() / 2);
     split(diodes.first(diodes.size() / 2), phase_turns);
     split(diodes.subspan(diodes.size() / 2), phase_turns);
   }
@@ -187,10 +209,14 @@ void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) 
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back(
         {group.reference_m, static_cast<std::uint32_t>(result.diodes.size()), group.phase_turns});
-    for (std::size_t i = first; i < first + run_diodes; ++i)
-      result.diodes.push_back(i < group.diodes.size() ? group_diode(group.diodes[i], group.reference_m,
-                                                                    result.largest_intensity_w_sr, diagrams)
-                                                      : dark_diode());
+    for (std::size_t i = first; i < first + run_diodes; ++i) {
+      const bool dark = i >= group.diodes.size();
+      const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];
+      result.diodes.push_back(
+          dark ? dark_diode()
+               : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams));
+      result.places.push_back({diode.position_m, dark ? no_id : diode.number});
+    }
   }
 }
 
@@ -204,17 +230,32 @@ std::uint32_t moments_needed(double phase_rad) {
   return k;
 }
 
+namespace {
+
+std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
+  std::vector<NumberedDiode> all;
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes)
+      all.push_back({diode, static_cast<std::uint32_t>(all.size())});
+  return all;
+}
+
+} // namespace
+
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
-  std::vector<CameraIlluminator> ordered = illuminators;
+  std::vector<NumberedDiode> ordered = numbered(illuminators);
+  std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
   DiodeGroups result;
-  for (auto &[diodes, phase_rad] : ordered) {
+  result.diode_count = static_cast<std::uint32_t>(ordered.size());
+  for (const auto &[diodes, phase_rad] : illuminators) {
     const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);
     result.phased = result.phased || phase_turns != 0.0;
     for (const Diode &diode : diodes)
       result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
-    grouping.split(diodes, phase_turns);
+    grouping.split(left.first(diodes.size()), phase_turns);
+    left = left.subspan(diodes.size());
   }
 
   double excess_m = 0.0;

@@ -17,6 +17,12 @@ struct DiodeRun {
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
 };
 
+// A diode among all of all illuminators.
+struct DiodePlace {
+  glm::dvec3 position_m;        // camera frame
+  std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
+};
+
 struct DiodeGroups {
   std::uint32_t moments = 1; // K, the same for every group
   std::uint32_t blocks_per_run =
@@ -25,7 +31,9 @@ struct DiodeGroups {
   bool phased = false;               // an illuminator has a modulation phase
   std::vector<DiodeRun> runs;
   std::vector<shader::GroupDiode> diodes;
+  std::vector<DiodePlace> places;  // beside `diodes`; those that stand together lie together
   std::vector<glm::vec2> diagrams; // the values of all, each with the next theta's
+  std::uint32_t diode_count = 0;   // without the dark ones
 };
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points

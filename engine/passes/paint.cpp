@@ -130,8 +130,9 @@ shader::SurfacePaint surface_paint(const Surface &surface, const Texture &textur
 
 std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene) {
   std::vector<shader::ShapePaint> records(scene.shape_count());
-  for (const CameraTriangle &shape : camera.triangles)
-    records[shape.id] = shape_paint(shape, scene);
+  for (const auto *shapes : {&camera.triangles, &camera.hidden})
+    for (const CameraTriangle &shape : *shapes)
+      records[shape.id] = shape_paint(shape, scene);
   return records;
 }
 
@@ -156,7 +157,12 @@ PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camer
     buffers.painted = buffers.painted || disc || paint;
     buffers.masked = buffers.masked || disc || (paint && paint->alpha_cutoff > 0.0);
   }
-  if (!buffers.painted)
+  // Holes that the lens does not see let light through all the same.
+  const bool holes_in_the_light = std::ranges::any_of(camera.hidden, [&](const CameraTriangle &shape) {
+    const auto &paint = scene.surfaces[scene.surface_of(shape.id)].paint;
+    return paint && paint->alpha_cutoff > 0.0;
+  });
+  if (!buffers.painted && !holes_in_the_light)
     return buffers;
   const std::vector<shader::ShapePaint> shapes = shape_paints(camera, scene);
   buffers.shapes = vulkan::upload(device, std::as_bytes(std::span(shapes)));

@@ -41,7 +41,7 @@ void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool t
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool keep_sample_tags) {
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options) {
   Measurement measurement;
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
@@ -55,7 +55,9 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool ke
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
-  if (keep_sample_tags)
+  if (signal.lit)
+    measurement.lit.resize(pixels);
+  if (options.keep_sample_tags || options.keep_reached)
     for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
       ids->resize(pixels * sensor.samples * sensor.samples);
   return measurement;
@@ -91,6 +93,8 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
   store(shader::channel_coverage, measurement.coverage);
   store(shader::channel_triangle_id, measurement.triangle_id);
   store(shader::channel_object_id, measurement.object_id);
+  if (signal.lit)
+    store(signal.lit_channel(), measurement.lit);
   for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
     const std::uint32_t first = signal.first_channel(f);
     Return &to = measurement.returns[f];

@@ -7,7 +7,7 @@
 namespace pmdsim {
 
 // An empty frame of the sensor's size.
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, bool keep_sample_tags);
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options);
 
 // Copies what the resolve pass (and, if kept, the visibility pass) left to memory that the host can read.
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

@@ -23,14 +23,15 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal
           choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants),
           {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u,
-           tiled ? 1u : 0u}};
+           tiled ? 1u : 0u, first && signal.lit ? 1u : 0u}};
 }
 
 } // namespace
 
-ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr,
+ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
                          bool tiled, SamplePrecision precision)
-    : signal_(signal), amplitude_scale_(static_cast<float>(largest_intensity_w_sr)),
+    : signal_(signal), amplitude_scale_(static_cast<float>(groups.largest_intensity_w_sr)),
+      diodes_(groups.diode_count),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
       first_(make_pipeline(device, signal, precision, tiled, true)) {
   if (signal.frequencies() > 1)
@@ -62,7 +63,10 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
         strip.padded_pixels,
         strip.columns * strip.rows,
         plane,
-        signal_.first_channel(f)};
+        signal_.first_channel(f),
+        signal_.lit_channel(),
+        words(buffers.lit.address()),
+        diodes_};
     (f == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
   }
 }

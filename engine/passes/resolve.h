@@ -1,6 +1,7 @@
 #pragma once
 // The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
+#include "engine/passes/diode_groups.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
@@ -11,7 +12,7 @@ namespace pmdsim {
 class ResolvePass {
 public:
   // `tiled`: whether the tags lie in tiles (shaders/interface.h).
-  ResolvePass(const vulkan::Device &device, const Signal &signal, double largest_intensity_w_sr, bool tiled,
+  ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups, bool tiled,
               SamplePrecision precision);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -20,6 +21,7 @@ public:
 private:
   Signal signal_;
   float amplitude_scale_;
+  std::uint32_t diodes_;
   vulkan::Buffer harmonics_;
   vulkan::ComputePipeline first_; // of the frequencies: stores the ground truth, too
   vulkan::ComputePipeline later_; // all the others; empty where there are none

@@ -21,6 +21,7 @@ struct Signal {
   bool by_moments;             // one dispatch sums all tones of all frequencies by moments; else one each
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
+  bool lit = false;                  // how much of the light reaches a pixel is a channel, the last one
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
   std::uint32_t sum_planes() const { return planes * frequencies(); }
@@ -28,7 +29,8 @@ struct Signal {
   std::uint32_t first_channel(std::uint32_t frequency) const {
     return shader::truth_channels + frequency * channels_of_frequency();
   }
-  std::uint32_t channels() const { return first_channel(frequencies()); }
+  std::uint32_t lit_channel() const { return first_channel(frequencies()); }
+  std::uint32_t channels() const { return lit_channel() + (lit ? 1 : 0); }
   // 2 pi f / c of the highest tone, rad/m.
   double largest_wavenumber_rad_m() const;
   // Frequency by frequency, the harmonics of each in order.

@@ -53,8 +53,9 @@ void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFl
 void compute_barrier(const vk::raii::CommandBuffer &commands) {
   using Access = vk::AccessFlagBits2;
   constexpr auto compute = vk::PipelineStageFlagBits2::eComputeShader;
-  memory_barrier(commands, compute, Access::eShaderStorageWrite, compute,
-                 Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  memory_barrier(commands, compute, Access::eShaderStorageWrite,
+                 compute | vk::PipelineStageFlagBits2::eDrawIndirect,
+                 Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
 }
 
 } // namespace pmdsim::vulkan

@@ -1,6 +1,7 @@
 #pragma once
 // A compute shader, specialised, whose whole interface is its push constants (buffers go by address).
 
+#include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
 
 #include <cstdint>
@@ -21,14 +22,29 @@ public:
   template <typename Constants>
   void dispatch(const vk::raii::CommandBuffer &commands, const Constants &constants,
                 std::uint32_t invocations, std::uint32_t workgroup) const {
-    if (sizeof(Constants) != push_constant_bytes_ || invocations % workgroup != 0)
-      throw std::logic_error("a dispatch does not fit its pipeline");
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *compiled_->pipeline);
-    commands.pushConstants<Constants>(*compiled_->layout, vk::ShaderStageFlagBits::eCompute, 0, constants);
+    if (invocations % workgroup != 0)
+      throw std::logic_error("a dispatch does not consist of whole workgroups");
+    bind(commands, constants);
     commands.dispatch(invocations / workgroup, 1, 1);
   }
 
+  // As many workgroups as three words in `arguments`, from `offset` bytes on, say when the device comes to it.
+  template <typename Constants>
+  void dispatch_indirect(const vk::raii::CommandBuffer &commands, const Constants &constants,
+                         const Buffer &arguments, vk::DeviceSize offset) const {
+    bind(commands, constants);
+    commands.dispatchIndirect(arguments.get(), offset);
+  }
+
 private:
+  template <typename Constants>
+  void bind(const vk::raii::CommandBuffer &commands, const Constants &constants) const {
+    if (sizeof(Constants) != push_constant_bytes_)
+      throw std::logic_error("push constants do not fit their pipeline");
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *compiled_->pipeline);
+    commands.pushConstants<Constants>(*compiled_->layout, vk::ShaderStageFlagBits::eCompute, 0, constants);
+  }
+
   std::uint32_t push_constant_bytes_ = 0;
   std::shared_ptr<const Pipeline> compiled_;
 };

@@ -15,7 +15,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double affordable_interactions = 2e8; // some seconds of the reference
-constexpr double shadow_ray_terms = 15.0;       // a ray takes the reference as long as so many sines
+constexpr double shadow_ray_terms = 5.0; // in sines; among thin bars a ray takes the reference half of that
 
 // What the reference does for one path, in sines: every frequency has its own correlation function, and all
 // share what reaches the point.

@@ -89,6 +89,34 @@ TEST_CASE("render --json names what scripts rely on, and every output exists") {
     CHECK(std::ranges::count(work.files("out"), name) == 1);
 }
 
+TEST_CASE("lit is written unless shadows are off") {
+  const auto device = GENERATE(as<std::string>{}, "0", "reference");
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  const std::string on = work.write("on.json", small_setup());
+  const std::string off =
+      work.write("off.json", with(small_setup(), "\"sensors\":", "\"shadows\": \"off\", \"sensors\":"));
+  const auto files_of = [&](const std::string &command, const std::string &setup, const std::string &out) {
+    run_json({command, setup, "--json", "--device", device, "--format", "npy,png,csv", "-o", work / out});
+    return work.files(out);
+  };
+  const auto profile = [&](const std::string &out) {
+    std::ifstream in(work / (out + "/pmd_0000.profile.csv"));
+    std::string header;
+    std::getline(in, header);
+    return header;
+  };
+  const auto rendered = files_of("render", on, "on"), unshadowed = files_of("render", off, "off");
+  CHECK(std::ranges::count(rendered, "pmd_0000.lit.npy") == 1);
+  CHECK(std::ranges::count(rendered, "pmd_0000.lit.png") == 1);
+  CHECK(profile("on").ends_with(",coverage,lit,triangle_id,object_id"));
+  CHECK(rendered.size() == unshadowed.size() + 2);
+  CHECK(profile("off").ends_with(",coverage,triangle_id,object_id"));
+  const auto deformed = files_of("deform", on, "deformed");
+  CHECK(std::ranges::count(deformed, "pmd_0000.lit.npy") == 1);
+  CHECK(std::ranges::count(deformed, "pmd_0000.lit.png") == 0); // its pictures are of the deformation
+}
+
 TEST_CASE("the manifest lets anyone turn distances into points") {
   const Workspace work;
   work.write("wall.gltf", wall_gltf());

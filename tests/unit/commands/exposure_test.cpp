@@ -135,6 +135,18 @@ TEST_CASE("tap by tap, a scene at rest measures what one exposure does") {
     }
 }
 
+TEST_CASE("the setup's light casts its shadows, light in the lens none") {
+  const std::string device = GENERATE(as<std::string>{}, "", "reference");
+  LoadedWall wall(1e-3, GENERATE(false, true));
+  const auto lit = [&](Light light) {
+    return Exposures(wall.setup, device, false).take(0, 0.0, light, no_progress).measurement.lit;
+  };
+  CHECK(lit(Light::beside_lens) == std::vector(64, 1.0f));
+  CHECK(lit(Light::in_lens).empty());
+  wall.setup.shadows = Shadows::off;
+  CHECK(lit(Light::beside_lens).empty());
+}
+
 TEST_CASE("where nothing moves, one exposure serves all taps") {
   const LoadedWall still(1e-3, false);
   CHECK_FALSE(exposes_tap_by_tap(still.setup, still.setup.start.sensors[0]));

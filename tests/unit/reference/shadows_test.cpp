@@ -74,7 +74,7 @@ bool is_free(const std::vector<CameraTriangle> &triangles, const std::vector<Cam
   return caster.reached({point_m, glm::normalize(diode_m - point_m), 1.0, 1.0}, no_id).has(0);
 }
 
-// Open where x > 0, its edge the y axis.
+// From its edge, the y axis, towards -x.
 std::vector<CameraTriangle> half_plane(double z_m) {
   return {{{glm::dvec3(0, -20, z_m), {0, 20, z_m}, {-20, 0, z_m}}, false}};
 }
@@ -557,4 +557,33 @@ TEST_CASE("thin bars close to the diodes are not lost from points far away") {
   CHECK(wrong == 0);
   CHECK(blocked > 1000);
   CHECK(free > 1000);
+}
+
+TEST_CASE("small shapes close to the lens are not lost from diodes far away") {
+  Random random(39);
+  std::vector<CameraTriangle> triangles;
+  std::vector<glm::dvec3> centres_m;
+  const double half_m = 1e-5;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec3 &centre_m =
+        centres_m.emplace_back(random.in_box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0.02}));
+    triangles.push_back({{centre_m + half_m * glm::dvec3(-1, -1, 0), centre_m + half_m * glm::dvec3(1, -1, 0),
+                          centre_m + half_m * glm::dvec3(0, 2, 0)},
+                         false});
+  }
+  int leaks = 0;
+  for (const glm::dvec3 &centre_m : centres_m) {
+    const glm::dvec3 point_m = random.in_box({-1, -1, 1}, {1, 1, 2});
+    const double beyond = random.uniform(1e3, 1e4);
+    leaks += is_free(triangles, {}, point_m, point_m + beyond * (centre_m - point_m));
+  }
+  CHECK(leaks == 0);
+}
+
+TEST_CASE("a shape never blocks its own points") {
+  const auto triangles = half_plane(1);
+  const ShadowCaster caster(triangles, {}, lights_at({{-1, 0, 0}}), 0.0);
+  const reference::SurfacePoint point{{-1, 0, 2}, {0, 0, -1}, 1.0, 1.0};
+  CHECK(caster.reached(point, 0).has(0));
+  CHECK_FALSE(caster.reached(point, no_id).has(0));
 }

@@ -1,0 +1,34 @@
+#pragma once
+// The diodes as the lit pass takes them: in bundles of a word's bits, a window of bundles at a time.
+
+#include "engine/passes/diode_groups.h"
+#include "shaders/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// Whole runs of the accumulate pass.
+struct LitWindow {
+  std::uint32_t first_run, last_run; // the latter excluded
+  std::uint32_t first_diode;         // index into DiodeGroups::diodes
+  std::uint32_t bundles;
+};
+
+// One for all runs.
+LitWindow all_runs(const DiodeGroups &groups);
+
+// As many runs each as fit shader::bundles_per_window.
+std::vector<LitWindow> plan_windows(const DiodeGroups &groups);
+
+// What the shaders know of a window's diodes, for all windows alike in size.
+struct WindowDiodes {
+  std::vector<shader::DiodeBox> boxes; // around all, then around each bundle
+  std::vector<shader::vec4>
+      positions;                   // diodes_per_bundle a bundle; where there are fewer, the last one again
+  std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
+};
+
+WindowDiodes diodes_of(const LitWindow &window, const DiodeGroups &groups);
+
+} // namespace pmdsim

@@ -1,0 +1,16 @@
+#pragma once
+// What may stand between diodes and what the lens sees. A shape whose plane has them all on one side never
+// does and is left out: the walls of a room, a single wall.
+
+#include "engine/passes/camera_scene.h"
+#include "shaders/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// In the order of camera.triangles, then camera.hidden.
+std::vector<shader::Occluder> find_occluders(const CameraScene &camera, const Scene &scene,
+                                             const std::vector<CameraIlluminator> &illuminators);
+
+} // namespace pmdsim
