@@ -1,6 +1,7 @@
 // Which diodes light which point, by hand: what a straight line from a diode passes on its way to a wall.
 
 #include "tests/analytic/engines.h"
+#include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 
 #include <algorithm>
@@ -95,9 +96,10 @@ void check_same_everywhere(Engine engine, const std::string &name, const Measure
   check_one_diode(engine, name, measured, [&](std::size_t) { return everywhere; });
 }
 
-// Half of a plane, and its edge. It reaches 9 m from the edge to the right.
+// Half of a plane, its edge, and how far it reaches from there to the right.
 struct HalfPlane {
   glm::dvec3 edge_from_m, edge_to_m;
+  double reach_m = 9.0;
 
   // Above 0 where the line passes through the half-plane, below where it is free; either way how far from
   // the edge's line it passes.
@@ -106,7 +108,7 @@ struct HalfPlane {
     return glm::dot(across, edge_from_m - from_m) / glm::length(across);
   }
   void add_to(SceneBuilder &builder) const {
-    const glm::dvec3 right(9, 0, 0);
+    const glm::dvec3 right(reach_m, 0, 0);
     builder.add_mesh({edge_from_m, edge_to_m, edge_to_m + right, edge_from_m + right}, {{0, 1, 2}, {0, 2, 3}},
                      {0.3, true});
   }
@@ -214,6 +216,30 @@ TEST_CASE("the shadow of one diode has a sharp edge") {
   });
   CHECK(count.dark > 100);
   CHECK(count.bright > 100);
+}
+
+TEST_CASE("the shadow's edge is in its place to ten micrometres") {
+  const Engine engine = both_engines();
+  const auto [name, scale, reach_m] =
+      GENERATE(table<std::string, double, double>({{"of 10 m at 1 m", 1, 10},
+                                                   {"of 1 km at 1 m", 1, 1000},
+                                                   {"of 1 m at 5 cm", 0.05, 1},
+                                                   {"of 30 m at 5 m", 5, 30}}));
+  Sensor sensor = axial_sensor({400, 1});
+  sensor.pixel_pitch_m = glm::dvec2(2e-6 / scale); // 4 micrometres on the wall
+  const glm::dvec3 diode_m(0.6 * scale, 0.1 * scale, 0);
+  const glm::dvec3 on_edge_m(0.3 * scale, 0.05 * scale, scale), along_m = reach_m * glm::dvec3(0.3, 1, 0.013);
+  const HalfPlane half_plane{on_edge_m - along_m, on_edge_m + 0.7 * along_m, reach_m};
+  SceneBuilder builder;
+  builder.add_wall({wall_m * scale});
+  half_plane.add_to(builder);
+  const Measurement measured = measure_shadows(engine, builder.scene(), sensor, {diode_m});
+  const Count count =
+      check_one_diode(engine, "the edge of a plate " + name, measured, [&](std::size_t pixel) {
+        return half_plane.inside_m(diode_m, scale * on_wall(sensor, pixel));
+      });
+  CHECK(count.dark > 180);
+  CHECK(count.bright > 180);
 }
 
 TEST_CASE("a gap of a tenth of a millimetre is no contact") {
@@ -342,6 +368,54 @@ TEST_CASE("faces back to back in the same place do not shade each other") {
   const Measurement measured =
       measure_shadows(engine, builder.scene(), wall_sensor(), ring_about(glm::dvec3(0)));
   check_same_everywhere(engine, "faces back to back", measured, everywhere_bright);
+}
+
+TEST_CASE("faces in one plane do not shade each other") {
+  const Engine engine = both_engines();
+  const double reach_m = GENERATE(0.0, 10.0, 1e5);
+  Random random(11);
+  Sensor sensor = wall_sensor();
+  sensor.world_from_camera = random.pose(reach_m);
+  const glm::dvec3 u_m(3.1, 0.3, 0.7), v_m(-0.2, 2.9, 0.5), centre_m(0, 0, 2);
+  SceneBuilder builder(sensor.world_from_camera);
+  for (int k = 0; k < 30; ++k) { // the first fills the view
+    const double size = k == 0 ? 1.0 : random.uniform(0.02, 0.3);
+    const double along_u = k == 0 ? 0.0 : random.uniform(-0.2, 0.2);
+    const double along_v = k == 0 ? 0.0 : random.uniform(-0.2, 0.2);
+    const glm::dvec3 at_m = centre_m + along_u * u_m + along_v * v_m;
+    builder.add_mesh({at_m - size * u_m - size * v_m, at_m + size * u_m - size * v_m,
+                      at_m + size * u_m + size * v_m, at_m - size * u_m + size * v_m},
+                     {{0, 1, 2}, {0, 2, 3}}, {0.5, k == 0 || random.flip()});
+  }
+  const Measurement measured = measure_shadows(engine, builder.scene(), sensor, ring_about(glm::dvec3(0)));
+  check_same_everywhere(engine, fmt::format("faces in one plane, {} m from the origin", reach_m), measured,
+                        everywhere_bright);
+}
+
+TEST_CASE("diodes on a board shine and those behind it do not") {
+  const Engine engine = both_engines();
+  Random random(12);
+  Sensor sensor = wall_sensor();
+  sensor.world_from_camera = random.pose(10.0);
+  SceneBuilder builder(sensor.world_from_camera);
+  builder.add_wall({wall_m});
+  // Beside the lens and turned to the middle of the wall.
+  const glm::dvec3 centre_m(0.5, -0.2, 0.1),
+      u_m = glm::normalize(glm::dvec3(1.9, 0, 0.5)),
+      v_m = glm::normalize(glm::cross(glm::dvec3(-0.5, 0.2, 1.9), u_m));
+  builder.add_mesh({centre_m - 0.2 * u_m - 0.2 * v_m, centre_m + 0.2 * u_m - 0.2 * v_m,
+                    centre_m + 0.2 * u_m + 0.2 * v_m, centre_m - 0.2 * u_m + 0.2 * v_m},
+                   {{0, 1, 2}, {0, 2, 3}}, {0.5, true});
+  std::vector<glm::dvec3> diodes_m;
+  for (int k = 0; k < 100; ++k) {
+    const double along_u_m = random.uniform(-0.15, 0.15), along_v_m = random.uniform(-0.15, 0.15);
+    diodes_m.push_back(centre_m + along_u_m * u_m + along_v_m * v_m);
+  }
+  diodes_m.push_back(centre_m - 0.05 * glm::cross(u_m, v_m)); // behind it
+  const Measurement measured = measure_shadows(engine, builder.scene(), sensor, diodes_m);
+  const auto [low, high] = std::minmax_element(measured.lit.begin(), measured.lit.end());
+  check_within(engine, "100 diodes on a board and one behind it, least lit", 100.0 / 101.0, *low, 1e-6);
+  check_within(engine, "100 diodes on a board and one behind it, most lit", 100.0 / 101.0, *high, 1e-6);
 }
 
 TEST_CASE("a diode behind the surface does not reach it") {

@@ -7,10 +7,12 @@
 #include "tests/gpu_against_reference/reached_comparison.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shadow_setups.h"
 #include "tests/support/simulator.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <string>
@@ -184,6 +186,42 @@ TEST_CASE("shadows behind any lens, of any signal, agree with the reference") {
     CHECK(comparison.distance_max_m <= 2e-6);
     CHECK(comparison.amplitude_max_relative <= 1e-5);
     CHECK(comparison.disagreements == 0);
+  }
+}
+
+TEST_CASE("shadows all around a fisheye agree with the reference") {
+  Random random(930);
+  Sensor sensor;
+  sensor.resolution = {160, 120};
+  sensor.pixel_pitch_m = glm::dvec2(1e-4);
+  sensor.focal_length_m = 4.5e-3; // 255 degrees along the diagonal
+  sensor.distortion = Fisheye{};
+  sensor.samples = 2;
+  sensor.world_from_camera = random.pose(10.0);
+  SceneBuilder builder(sensor.world_from_camera);
+  for (int i = 0; i < 600; ++i) {
+    const double range_m = random.uniform(0.6, 3.0), size_m = random.uniform(0.02, 0.4);
+    const glm::dvec3 centre_m = range_m * random.unit_vector();
+    std::array<glm::dvec3, 3> corners_m;
+    for (glm::dvec3 &corner_m : corners_m)
+      corner_m = centre_m + size_m * random.unit_vector();
+    builder.add_triangle(corners_m[0], corners_m[1], corners_m[2], {0.5, random.flip()});
+  }
+  const Illuminator light = random_illuminator(random, 60, sensor.world_from_camera);
+  const auto expected =
+      reference::simulate(builder.scene(), sensor, {light}, Backscatter::lambert, reference_options);
+  fmt::print("{}", reached_heading());
+  for (const Variant &variant : variants) {
+    INFO(variant.name);
+    Simulator simulator = make_simulator(options_of(variant));
+    simulator.prepare(builder.scene(), sensor, {light}, Backscatter::lambert, Shadows::automatic);
+    const ReachedComparison reached =
+        compare_reached(simulator.measure(), expected, builder.scene(), sensor, {light});
+    fmt::print("{}", reached_row("a fisheye of 255 degrees" + variant.name, reached));
+    CHECK(reached.samples > 20'000);
+    CHECK(reached.differing_fraction() <= 1e-4);
+    CHECK(reached.clear_of_all == 0);
+    CHECK(reached.lit_error <= 1e-6);
   }
 }
 

@@ -16,6 +16,12 @@ double log_uniform(Random &random, double lower, double upper) {
   return lower * std::pow(upper / lower, random.uniform(0, 1));
 }
 
+// Of a length between these, in any direction.
+glm::dvec3 random_step_m(Random &random, double shortest_m, double longest_m) {
+  const double length_m = log_uniform(random, shortest_m, longest_m);
+  return length_m * random.unit_vector();
+}
+
 glm::dvec3 place_in_view(Random &random) {
   const double z_m = random.uniform(0.5, 3.0);
   return {z_m * random.uniform(-0.7, 0.7), z_m * random.uniform(-0.7, 0.7), z_m};
@@ -33,9 +39,9 @@ void add_loose(Random &random, SceneBuilder &builder) {
 
 void add_sliver(Random &random, SceneBuilder &builder) {
   const glm::dvec3 from_m = place_in_view(random);
-  const glm::dvec3 to_m = from_m + log_uniform(random, 0.05, 1.5) * random.unit_vector();
-  const double width_m = log_uniform(random, 2e-5, 5e-3);
-  builder.add_triangle(from_m, to_m, from_m + width_m * random.unit_vector(), random_surface(random));
+  const glm::dvec3 to_m = from_m + random_step_m(random, 0.05, 1.5);
+  const glm::dvec3 beside_m = from_m + random_step_m(random, 2e-5, 5e-3);
+  builder.add_triangle(from_m, to_m, beside_m, random_surface(random));
 }
 
 // Fills most of the view, across it or slanting.
@@ -51,14 +57,15 @@ void add_grid(Random &random, SceneBuilder &builder, std::uint32_t columns, std:
   const glm::dvec3 corner_m = place_in_view(random);
   const double size_m = log_uniform(random, 0.1, 1.5);
   const glm::dvec3 u_m = size_m * random.unit_vector(), v_m = size_m * random.unit_vector();
-  const double bump_m = random.flip() ? 0.0 : 0.05 * size_m;
+  const double highest_bump_m = random.flip() ? 0.0 : 0.05 * size_m;
   std::vector<glm::dvec3> corners_m;
   std::vector<std::array<std::uint32_t, 3>> faces;
   for (std::uint32_t i = 0; i <= rows; ++i)
     for (std::uint32_t j = 0; j <= columns; ++j) {
       const glm::dvec3 flat_m = corner_m + u_m * (static_cast<double>(j) / columns - 0.5) +
                                 v_m * (static_cast<double>(i) / rows - 0.5);
-      corners_m.push_back(flat_m + random.uniform(0, bump_m) * random.unit_vector());
+      const double bump_m = random.uniform(0, highest_bump_m);
+      corners_m.push_back(flat_m + bump_m * random.unit_vector());
       const std::uint32_t a = i * (columns + 1) + j, b = a + columns + 1;
       if (i < rows && j < columns)
         faces.insert(faces.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
@@ -71,7 +78,7 @@ void add_stack(Random &random, SceneBuilder &builder, std::size_t count) {
   const glm::dvec3 a = place_in_view(random);
   const double size_m = log_uniform(random, 0.05, 1.0);
   const glm::dvec3 b = a + size_m * random.unit_vector(), c = a + size_m * random.unit_vector();
-  const glm::dvec3 gap_m = log_uniform(random, 5e-5, 2e-2) * random.unit_vector();
+  const glm::dvec3 gap_m = random_step_m(random, 5e-5, 2e-2);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 shift_m = static_cast<double>(i) * gap_m;
     builder.add_triangle(a + shift_m, b + shift_m, c + shift_m, random_surface(random));
@@ -120,7 +127,7 @@ Layout cloud(Random &random, std::size_t count, const glm::dvec3 &centre_m) {
 
 Layout line(Random &random, std::size_t count) {
   const glm::dvec3 from_m = random.in_box(glm::dvec3(-0.5), glm::dvec3(0.5));
-  const glm::dvec3 step_m = log_uniform(random, 1e-3, 0.02) * random.unit_vector();
+  const glm::dvec3 step_m = random_step_m(random, 1e-3, 0.02);
   Layout places_m;
   for (std::size_t k = 0; k < count; ++k)
     places_m.push_back(from_m + static_cast<double>(k) * step_m);
