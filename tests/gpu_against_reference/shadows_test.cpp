@@ -135,7 +135,7 @@ TEST_CASE("no diode is wrong in random scenes") {
   std::vector<Simulator> simulators;
   for (const Variant &variant : variants)
     simulators.push_back(make_simulator(options_of(variant)));
-  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+  for (std::uint32_t seed = 300; seed < 500; ++seed) {
     INFO("seed " << seed);
     const auto [scene, sensor, illuminators] = random_shadow_setup(seed);
     const auto expected =
