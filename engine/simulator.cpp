@@ -88,7 +88,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto planes = triangle_planes(camera, scene, backscatter,
                                       sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
   SceneBuffers buffers{vulkan::upload(device, std::as_bytes(std::span(planes))),
-                       upload_paint(device, camera, scene, backscatter, textures)};
+                       upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
   VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
   auto points = points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
                             buffers.paint, options.precision);

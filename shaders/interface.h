@@ -200,18 +200,16 @@ struct Tone {
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
 PMDSIM_CONSTANT tile_side = 8;
 PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
+PMDSIM_CONSTANT samples_per_try = 4; // of a part, that one invocation tries candidates on
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
 PMDSIM_CONSTANT largest_candidates =
-    256;                                // that a part tries one by one; where there are more, it traces rays
-PMDSIM_CONSTANT occluders_per_leaf = 4; // at most
-// lavapipe ends all loops of an invocation after 65,535 iterations, silently. A walk through the tree takes a
-// step for each node and each occluder that it looks at, and no more than two iterations a step;
-// largest_candidates * own_shapes may follow.
-PMDSIM_CONSTANT steps_per_walk = 30000;
-PMDSIM_CONSTANT nodes_per_walk =
-    steps_per_walk / (1 + occluders_per_leaf); // of walks that must not be too long
+    256; // that a part tries one by one; where there are more, rays are traced
+// lavapipe ends all loops of an invocation after 65,535 iterations, silently. Walks through the tree count
+// their steps, so that this never happens, and take at most two iterations a step.
+PMDSIM_CONSTANT steps_per_walk = 32000;
+PMDSIM_CONSTANT no_occluder = 0xffffffffu;
 
 // What may stand in the light: a triangle, or the one around a disc. Camera frame, m.
 struct Occluder {
@@ -230,7 +228,7 @@ struct TreeNode {
   float low_x, low_y, low_z;
   uint skip;
   float high_x, high_y, high_z;
-  uint occluders; // 8 * the first + how many, of a leaf; else 0
+  uint occluder; // of a leaf; else no_occluder
 };
 
 // Around the diodes of a window or of a bundle, rounded outwards, camera frame, m.
@@ -238,12 +236,18 @@ struct DiodeBox {
   vec4 low, high;
 };
 
+// The diodes of a bundle from a place among them, m.
+struct BundleDiodes {
+  vec4 centre;                    // camera frame; w: how far they stand from it at most, along each axis
+  vec4 places[diodes_per_bundle]; // where there are fewer, the last one again
+};
+
 // Samples of a tile that lie at similar depths. A tile has two parts, one of them empty where it is all of
 // one depth.
 struct TilePart {
   vec4 low, high;              // box around their points, camera frame, m
   float nearest_m, farthest_m; // depths z: nearest_m <= z < farthest_m
-  uint own;                    // shapes that they lie on; beyond own_shapes: more than these
+  uint own; // shapes that they lie on, 0 where it is empty; beyond own_shapes: more than these
   uint padding;
   uint own_ids[own_shapes];
 };
@@ -350,13 +354,13 @@ struct AccumulateConstants {
 
 // What the lit pass looks up about the scene.
 struct LitScene {
-  uvec2 planes;    // TrianglePlane[]
-  uvec2 occluders; // Occluder[]
-  uvec2 tree;      // TreeNode[]
-  uvec2 shapes;    // ShapePaint[], where occluders may have holes
-  uvec2 surfaces;  // SurfacePaint[], likewise
-  uint nodes;      // of the tree
-  uint padding;
+  uvec2 planes;         // TrianglePlane[]
+  uvec2 occluders;      // Occluder[]
+  uvec2 tree;           // TreeNode[]
+  uvec2 shapes;         // ShapePaint[], where occluders may have holes
+  uvec2 surfaces;       // SurfacePaint[], likewise
+  uint nodes;           // of the tree
+  float world_rounding; // what double rounding in the world's frame leaves of places, m
 };
 
 struct LitTilesConstants {
@@ -367,6 +371,9 @@ struct LitTilesConstants {
 };
 
 struct LitGatherConstants {
+  Strip strip;
+  uvec2 position_hi;
+  uvec2 tags;
   uvec2 parts;      // in: TilePart[]
   uvec2 scene;      // in: LitScene
   uvec2 boxes;      // in: DiodeBox of the window, then of its bundles
@@ -384,7 +391,7 @@ struct LitDecideConstants {
   uvec2 tags;
   uvec2 parts;
   uvec2 scene;
-  uvec2 diodes;     // in: vec4[], position in the camera frame, m; the bundle's
+  uvec2 diodes;     // in: BundleDiodes
   uvec2 work;       // in, trace: and out
   uvec2 candidates; // in, try
   uvec2 reached;    // in and out: the bundle's word of each sample
@@ -437,7 +444,7 @@ PMDSIM_CONSTANT channel_distance_m = 2;
 PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
-static_assert(2 * steps_per_walk + (largest_candidates + 2) * (own_shapes + 1) < 65535);
+static_assert(2 * steps_per_walk < 65535);
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 80);
@@ -453,7 +460,8 @@ static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) 
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
               sizeof(TilePart) == 112);
-static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 48);
+static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 48 &&
+              sizeof(BundleDiodes) == 16 * (1 + diodes_per_bundle));
 static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
 static_assert(sizeof(AccumulateConstants) == 128 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);

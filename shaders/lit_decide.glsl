@@ -1,12 +1,12 @@
-// What the shaders that decide for each sample and diode share: one workgroup is one part of a tile.
+// What the shaders that decide for each sample and diode share.
 #ifndef PMDSIM_LIT_DECIDE_GLSL
 #define PMDSIM_LIT_DECIDE_GLSL
 
 #include "lit.glsl"
 #include "occlusion.glsl"
 
-layout(local_size_x = tile_samples) in;
 layout(push_constant, std430) uniform Constants { LitDecideConstants constants; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Bundles { BundleDiodes at; };
 layout(constant_id = constant_lit_tiled) const uint tiled = 0;
 
 // A sample of the part, or one that is not to be decided.
@@ -14,12 +14,12 @@ struct PartSample {
   bool is_there;
   uint i;
   LitPoint point;
-  vec4 surface; // its plane, turned to the lens
+  vec4 surface; // how high a diode stands over its plane, an affine function as in Cone
 };
 
-PartSample part_sample(uint part_index) {
+PartSample part_sample(uint part_index, uint within, DiodeFrame frame) {
   Strip strip = constants.strip;
-  TileSample at = tile_sample(strip, part_index / parts_per_tile, gl_LocalInvocationID.x);
+  TileSample at = tile_sample(strip, part_index / parts_per_tile, within);
   vec3 hi = load_vec3(constants.position_hi, at.i), lo = load_vec3(constants.position_lo, at.i);
   uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
   uvec2 tag = Tags(constants.tags).at[at.is_there ? tag_at : 0u];
@@ -27,10 +27,15 @@ PartSample part_sample(uint part_index) {
   bool is_there = at.is_there && hi != vec3(0.0) && hi.z >= parts.at[part_index].nearest_m &&
                   hi.z < parts.at[part_index].farthest_m;
   uint id = is_there ? tag.y : 0u;
-  return PartSample(is_there, at.i, LitPoint(hi, lo, id), Planes(LitScenes(constants.scene).at.planes).at[id].plane_hi);
+  TrianglePlane plane = Planes(LitScenes(constants.scene).at.planes).at[id];
+  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
+  Real offset = add(dot3(normal, real3(frame.centre, vec3(0.0))), negate(real(plane.plane_hi.w, plane.plane_lo.w)));
+  return PartSample(is_there, at.i, LitPoint(hi, lo, id), vec4(plane.plane_hi.xyz, high(offset)));
 }
 
-// How high a diode stands over the sample's surface, m.
-float height_of_diode(PartSample at, vec3 diode) { return affine_at(vec4(at.surface.xyz, -at.surface.w), diode); }
+DiodeFrame diode_frame() {
+  vec4 centre = Bundles(constants.diodes).at.centre;
+  return DiodeFrame(centre.xyz, centre.w);
+}
 
 #endif

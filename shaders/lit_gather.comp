@@ -7,37 +7,103 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lit_gather.glsl"
 
+layout(constant_id = constant_lit_tiled) const uint tiled = 0;
+
 const uint too_many = largest_candidates + 1;
 
+// The surfaces of a part, and what is known of the bundle over them.
+struct Own {
+  Real3 normal[own_shapes]; // where there are fewer, the first again
+  Real offset[own_shapes];
+  bool all_known;
+  float lowest_diode; // over any of them, m
+  float farthest_m;   // a diode from a sample, at most
+};
+
+Own own_of(TilePart part, DiodeBox box) {
+  Own own;
+  own.all_known = part.own <= own_shapes;
+  [[unroll]] for (uint k = 0; k < own_shapes; ++k) {
+    TrianglePlane plane = Planes(LitScenes(constants.scene).at.planes).at[part.own_ids[k < part.own ? k : 0]];
+    own.normal[k] = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
+    own.offset[k] = real(plane.plane_hi.w, plane.plane_lo.w);
+  }
+  own.lowest_diode = lowest_diode(part, box);
+  own.farthest_m = length(max(abs(box.high.xyz - part.low.xyz), abs(part.high.xyz - box.low.xyz)));
+  return own;
+}
+
+// How far the occluder rises over any of the surfaces, m.
+float rise_over(Own own, Occluder occluder, float world_rounding) {
+  Real3 a = real3(occluder.a_hi.xyz, occluder.a_lo.xyz), b = real3(occluder.b_hi.xyz, occluder.b_lo.xyz),
+        c = real3(occluder.c_hi.xyz, occluder.c_lo.xyz);
+  float rise = 0.0;
+  [[unroll]] for (uint k = 0; k < own_shapes; ++k) {
+    Real down = negate(own.offset[k]);
+    float highest = max(max(high(add(dot3(own.normal[k], a), down)), high(add(dot3(own.normal[k], b), down))),
+                        high(add(dot3(own.normal[k], c), down)));
+    float rounding = pair_rounding * abs(high(own.offset[k])) + world_rounding;
+    rise = max(rise, highest - rounding);
+  }
+  return rise;
+}
+
+// Whether any of the tile's samples on other shapes lies within `reach_m` of the occluder, seen along its normal. Light that comes from high
+// above passes over what hardly rises, but for the samples right beside it: so need no triangles be tried that are level
+// with their neighbours to the last bit but one.
+bool is_beside(Occluder occluder, uint part_index, float reach_m) {
+  vec3 a = occluder.a_hi.xyz, b = occluder.b_hi.xyz, c = occluder.c_hi.xyz, normal = occluder.plane_hi.xyz;
+  vec3 from_ab = normalize(cross(normal, b - a)), from_bc = normalize(cross(normal, c - b)),
+       from_ca = normalize(cross(normal, a - c));
+  bool beside = false;
+  for (uint within = 0; within < tile_samples; ++within) {
+    TileSample at = tile_sample(constants.strip, part_index / parts_per_tile, within);
+    vec3 point = load_vec3(constants.position_hi, at.i);
+    uint tag_at = tag_index(at.pixel, at.subsample, uvec2(constants.strip.columns, constants.strip.rows),
+                            constants.strip.samples, tiled != 0);
+    bool other = at.is_there && Tags(constants.tags).at[at.is_there ? tag_at : 0u].y != occluder.id;
+    float inside_m = min(min(dot(from_ab, point - a), dot(from_bc, point - b)), dot(from_ca, point - c));
+    float rounding = 1e-6 * (abs(point.x) + abs(point.y) + abs(point.z));
+    beside = beside || (other && !(inside_m < -reach_m - rounding));
+  }
+  return beside;
+}
+
+bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, Own own, float world_rounding,
+               inout uint steps) {
+  if (!is_between(occluder.plane_hi, part, box))
+    return false;
+  if (!own.all_known)
+    return true;
+  float rise = rise_over(own, occluder, world_rounding);
+  if (rise <= 0.0)
+    return false;
+  float slope = rise / own.lowest_diode; // of the way to a diode that is spent below the occluder's top, at most
+  if (own.lowest_diode <= 0.0 || slope > 1e-4)
+    return true;
+  steps += tile_samples / 2;
+  return is_beside(occluder, part_index, slope * own.farthest_m);
+}
+
 // Stores the candidates of a slot and returns how many they are, or too_many.
-uint gather(uint slot, TilePart part, DiodeBox box) {
+uint gather(uint slot, uint part_index, TilePart part, DiodeBox box) {
   LitScene scene = LitScenes(constants.scene).at;
-  Shaft shaft = shaft_between(part.low.xyz, part.high.xyz, box.low.xyz, box.high.xyz);
+  Own own = own_of(part, box);
+  Shaft shaft = shaft_of(part, box);
   Words candidates = Words(constants.candidates);
   uint node = 0u, steps = 0u, count = 0u;
   while (node < scene.nodes && steps < steps_per_walk && count < too_many) {
-    Leaf leaf = next_leaf(scene.tree, shaft, scene.nodes, node, steps);
-    for (uint k = 0; k < leaf.count; ++k, ++steps) {
-      Occluder occluder = Occluders(scene.occluders).at[leaf.first + k];
-      if (count < too_many && may_block(occluder, part, box, shaft)) {
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
+    if (index != no_occluder) {
+      Occluder occluder = Occluders(scene.occluders).at[index];
+      if (may_block(occluder, part_index, part, box, own, scene.world_rounding, steps)) {
         count = occluder.may_be_absent != 0u ? too_many : count + 1u;
         if (count < too_many)
-          candidates.at[slot * slot_words + count] = leaf.first + k;
+          candidates.at[slot * slot_words + count] = index;
       }
     }
   }
   return node < scene.nodes ? too_many : count;
-}
-
-uint keep_what_rises(uint slot, TilePart part, uint count) {
-  Words candidates = Words(constants.candidates);
-  uint kept = 0u;
-  for (uint k = 1u; k <= count; ++k) {
-    uint index = candidates.at[slot * slot_words + k];
-    if (rises_over_own(part, Occluders(LitScenes(constants.scene).at.occluders).at[index]))
-      candidates.at[slot * slot_words + ++kept] = index;
-  }
-  return kept;
 }
 
 void main() {
@@ -45,15 +111,14 @@ void main() {
   Work work = Work(constants.work);
   if (entry >= work.at.open.count)
     return;
-  TilePart part = Parts(constants.parts).at[work.list[entry]];
+  uint part_index = work.list[entry];
+  TilePart part = Parts(constants.parts).at[part_index];
   DiodeBox box = DiodeBoxes(constants.boxes).at[1u + bundle];
   uint slot = candidate_slot(entry, constants.bundles, bundle);
-  uint count = slot < constants.slots ? gather(slot, part, box) : too_many;
-  if (count < too_many && part.own <= own_shapes)
-    count = keep_what_rises(slot, part, count);
+  uint count = slot < constants.slots ? gather(slot, part_index, part, box) : too_many;
   if (count == too_many) {
     work.list[traced_list(constants.part_count, bundle) + atomicAdd(work.at.traced[bundle].x, 1u)] = entry;
-  } else if (count > 0u || !all_face(part, box)) {
+  } else if (count > 0u || lowest_diode(part, box) <= 0.0) {
     Words(constants.candidates).at[slot * slot_words] = count;
     work.list[tried_list(constants.part_count, bundle) + atomicAdd(work.at.tried[bundle].x, 1u)] = entry;
   }

@@ -16,17 +16,15 @@ void append_open(uint part) {
 
 bool is_blocked_perhaps(TilePart part, DiodeBox box) {
   LitScene scene = LitScenes(constants.scene).at;
-  Shaft shaft = shaft_between(part.low.xyz, part.high.xyz, box.low.xyz, box.high.xyz);
+  Shaft shaft = shaft_of(part, box);
   uint node = 0u, steps = 0u;
-  while (node < scene.nodes && steps < steps_per_walk) {
-    Leaf leaf = next_leaf(scene.tree, shaft, scene.nodes, node, steps);
-    for (uint k = 0; k < leaf.count; ++k, steps += 1u + part.own) {
-      Occluder occluder = Occluders(scene.occluders).at[leaf.first + k];
-      if (may_block(occluder, part, box, shaft) && (part.own > own_shapes || rises_over_own(part, occluder)))
-        return true;
-    }
+  bool perhaps = false;
+  while (!perhaps && node < scene.nodes && steps < steps_per_walk) {
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
+    if (index != no_occluder)
+      perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, part, box);
   }
-  return node < scene.nodes; // the walk was too long
+  return perhaps || node < scene.nodes; // or the walk was too long
 }
 
 void main() {
@@ -34,9 +32,9 @@ void main() {
   if (i >= constants.part_count)
     return;
   TilePart part = Parts(constants.parts).at[i];
-  if (part.low.x > part.high.x)
+  if (part.own == 0u)
     return;
   DiodeBox box = DiodeBoxes(constants.boxes).at[0];
-  if (is_blocked_perhaps(part, box) || !all_face(part, box))
+  if (is_blocked_perhaps(part, box) || lowest_diode(part, box) <= 0.0)
     append_open(i);
 }

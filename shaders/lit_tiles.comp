@@ -10,7 +10,7 @@ layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { LitTilesConstants constants; };
 layout(constant_id = constant_lit_tiled) const uint tiled = 0;
 
-const float infinity = 1.0 / 0.0;
+const float infinity = 1.0 / 0.0, far_m = 1e37; // farther than anything
 
 // Its point, or the lens where it sees nothing.
 vec3 point_of(uint tile, uint within) {
@@ -21,8 +21,8 @@ vec3 point_of(uint tile, uint within) {
 
 TilePart empty_part(float nearest_m, float farthest_m) {
   TilePart part;
-  part.low = vec4(infinity);
-  part.high = vec4(-infinity);
+  part.low = vec4(far_m);
+  part.high = vec4(-far_m);
   part.nearest_m = nearest_m;
   part.farthest_m = farthest_m;
   part.own = 0u;

@@ -7,32 +7,44 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lit_decide.glsl"
 
+layout(local_size_x = tile_samples / samples_per_try) in;
+
 void main() {
   // Before anything branches, so that lavapipe reads the diodes once for all lanes.
   vec3 diodes[diodes_per_bundle];
   [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-    diodes[d] = Vec4s(constants.diodes).at[d].xyz;
+    diodes[d] = Bundles(constants.diodes).at.places[d].xyz;
+  DiodeFrame frame = diode_frame();
 
   Work work = Work(constants.work);
   uint entry = work.list[tried_list(constants.part_count, constants.bundle) + gl_WorkGroupID.x];
   uint part = work.list[entry];
-  PartSample at = part_sample(part);
+  PartSample samples[samples_per_try];
+  float depth[samples_per_try][diodes_per_bundle]; // at least 0 behind a candidate, or behind the sample's own surface
+  [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
+    samples[s] = part_sample(part, s * (tile_samples / samples_per_try) + gl_LocalInvocationID.x, frame);
+    [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
+      depth[s][d] = -affine_at(samples[s].surface, diodes[d]);
+  }
 
-  float depth[diodes_per_bundle]; // at least 0 behind a candidate, or behind the sample's own surface
-  [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-    depth[d] = -height_of_diode(at, diodes[d]);
-  uvec2 occluders = LitScenes(constants.scene).at.occluders;
+  LitScene scene = LitScenes(constants.scene).at;
   Words candidates = Words(constants.candidates);
   uint first = candidate_slot(entry, constants.bundles, constants.bundle) * slot_words;
   uint count = candidates.at[first];
   for (uint k = 1; k <= count; ++k) {
-    Cone cone = cone_of(Occluders(occluders).at[candidates.at[first + k]], at.point);
-    [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-      depth[d] = max(depth[d], depth_in(cone, diodes[d]));
+    Occluder occluder = Occluders(scene.occluders).at[candidates.at[first + k]];
+    [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
+      Cone cone = cone_of(occluder, samples[s].point, frame, scene.world_rounding);
+      [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
+        depth[s][d] = max(depth[s][d], depth_in(cone, diodes[d]));
+    }
   }
-  uint reached = 0u;
-  [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-    reached |= depth[d] >= 0.0 ? 0u : 1u << d;
-  if (at.is_there)
-    Words(constants.reached).at[at.i] = reached;
+
+  [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
+    uint reached = 0u;
+    [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
+      reached |= depth[s][d] >= 0.0 ? 0u : 1u << d;
+    if (samples[s].is_there)
+      Words(constants.reached).at[samples[s].i] = reached;
+  }
 }

@@ -15,7 +15,14 @@ struct LitPoint {
   uint own;
 };
 
-// Affine functions of a diode's position D: dot(xyz, D) + w. The diode is behind the occluder where all are at least 0.
+// Where diodes are measured from: a place among them, and how far they stand from it at most, along each axis, m.
+struct DiodeFrame {
+  vec3 centre;
+  float reach;
+};
+
+// Affine functions of a diode's place d in its frame: dot(xyz, d) + w. The diode is behind the occluder where all are at
+// least 0.
 struct Cone {
   vec4 ab, bc, ca, beyond;
 };
@@ -38,42 +45,64 @@ vec3 precise_cross(vec3 a, vec3 b) {
   return difference;
 }
 
-// The plane through the point and an edge from `from` (relative to the point) to `to`, inside where it is positive. The edge is
-// taken in the same direction whichever triangle it belongs to, so that no light leaks between two that share it.
-vec4 edge_plane(vec3 from, vec3 to, vec3 from_m, vec3 to_m, bool turned, float side) {
-  vec3 start = turned ? to : from;
-  precise vec3 along = turned ? from - to : to - from;
+float size_of(vec3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+
+// A corner or a point as the point of a sample and as the diodes see it.
+struct Place {
+  vec3 from_point, from_diodes;
+};
+
+Place place_of(vec3 hi, vec3 lo, LitPoint point, DiodeFrame frame) {
+  precise vec3 from_point = (hi - point.hi) + (lo - point.lo);
+  precise vec3 from_diodes = (hi - frame.centre) + lo;
+  return Place(from_point, from_diodes);
+}
+
+// The plane through the point and the edge between two corners, inside where it is positive. The edge is taken in the same
+// direction whichever triangle it belongs to, so that no light leaks between two that share it.
+vec4 edge_plane(Place from, Place to, Place point, bool turned, float side) {
+  vec3 start = turned ? to.from_point : from.from_point;
+  precise vec3 along = turned ? from.from_point - to.from_point : to.from_point - from.from_point;
   vec3 normal = precise_cross(start, along);
-  float offset = -precise_dot(normal, turned ? to_m : from_m);
+  // By the nearer of the places that it passes through, which rounds less.
+  vec3 corner = turned ? to.from_diodes : from.from_diodes;
+  float offset = -precise_dot(normal, size_of(point.from_diodes) < size_of(corner) ? point.from_diodes : corner);
   float way = turned ? -side : side;
   return vec4(way * normal, way * offset);
 }
 
+const float pair_rounding = 2.3e-13; // 2^-42: a pair of floats holds 48 bits
 const vec4 behind_nothing = vec4(0.0, 0.0, 0.0, -1.0);
 
 // How high the point lies over the occluder's plane, m; 0 where that is less than the rounding of the point and the plane.
-float height_over(Occluder occluder, LitPoint point) {
+float height_over(Occluder occluder, LitPoint point, float world_rounding) {
   Real height = add(dot3(real3(occluder.plane_hi.xyz, occluder.plane_lo.xyz), real3(point.hi, point.lo)),
                     negate(real(occluder.plane_hi.w, occluder.plane_lo.w)));
-  vec3 size = abs(point.hi);
-  float rounding = 2.3e-13 * (abs(occluder.plane_hi.w) + size.x + size.y + size.z); // 2^-42: a pair of floats holds 48 bits
   float rounded = high(height);
-  return abs(rounded) > rounding ? rounded : 0.0;
+  return abs(rounded) > pair_rounding * (abs(occluder.plane_hi.w) + size_of(point.hi)) + world_rounding ? rounded : 0.0;
 }
 
-Cone cone_of(Occluder occluder, LitPoint point) {
-  float height = height_over(occluder, point);
+// The offset of the occluder's plane from the diodes' centre, m.
+float offset_from(Occluder occluder, DiodeFrame frame) {
+  Real3 normal = real3(occluder.plane_hi.xyz, occluder.plane_lo.xyz);
+  return high(add(real(occluder.plane_hi.w, occluder.plane_lo.w), negate(dot3(normal, real3(frame.centre, vec3(0.0))))));
+}
+
+Cone cone_of(Occluder occluder, LitPoint point, DiodeFrame frame, float world_rounding) {
+  float height = height_over(occluder, point, world_rounding);
   float side = height < 0.0 ? 1.0 : -1.0;
-  precise vec3 a = (occluder.a_hi.xyz - point.hi) + (occluder.a_lo.xyz - point.lo);
-  precise vec3 b = (occluder.b_hi.xyz - point.hi) + (occluder.b_lo.xyz - point.lo);
-  precise vec3 c = (occluder.c_hi.xyz - point.hi) + (occluder.c_lo.xyz - point.lo);
+  Place a = place_of(occluder.a_hi.xyz, occluder.a_lo.xyz, point, frame);
+  Place b = place_of(occluder.b_hi.xyz, occluder.b_lo.xyz, point, frame);
+  Place c = place_of(occluder.c_hi.xyz, occluder.c_lo.xyz, point, frame);
+  Place self = place_of(point.hi, point.lo, point, frame);
   Cone cone;
-  cone.ab = edge_plane(a, b, occluder.a_hi.xyz, occluder.b_hi.xyz, (occluder.edges & 1u) != 0u, side);
-  cone.bc = edge_plane(b, c, occluder.b_hi.xyz, occluder.c_hi.xyz, (occluder.edges & 2u) != 0u, side);
-  cone.ca = edge_plane(c, a, occluder.c_hi.xyz, occluder.a_hi.xyz, (occluder.edges & 4u) != 0u, side);
-  // A diode that the occluder touches is not behind it.
-  precise float offset = -side * occluder.plane_hi.w - 3e-7 * abs(occluder.plane_hi.w) - 1e-30;
-  cone.beyond = height == 0.0 || occluder.id == point.own ? behind_nothing : vec4(side * occluder.plane_hi.xyz, offset);
+  cone.ab = edge_plane(a, b, self, (occluder.edges & 1u) != 0u, side);
+  cone.bc = edge_plane(b, c, self, (occluder.edges & 2u) != 0u, side);
+  cone.ca = edge_plane(c, a, self, (occluder.edges & 4u) != 0u, side);
+  // A diode that the occluder touches is not behind it: by the rounding of `affine_at`, with some to spare.
+  float offset = offset_from(occluder, frame);
+  precise float beyond = -side * offset - 3e-7 * (abs(offset) + frame.reach) - world_rounding - 1e-30;
+  cone.beyond = height == 0.0 || occluder.id == point.own ? behind_nothing : vec4(side * occluder.plane_hi.xyz, beyond);
   return cone;
 }
 

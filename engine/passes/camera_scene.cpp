@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -114,6 +115,8 @@ std::optional<Plane> front_plane(const std::array<glm::dvec3, 3> &corners_m) {
 CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
   const Viewpoint in_camera(sensor.world_from_camera);
   CameraScene camera;
+  camera.world_rounding_m =
+      8.0 * std::numeric_limits<double>::epsilon() * glm::length(sensor.world_from_camera.translation_m);
   camera.triangles.reserve(scene.shape_count());
   camera.planes.reserve(scene.shape_count());
   for (std::uint32_t id = 0; id < scene.triangles.size(); ++id)

@@ -36,6 +36,7 @@ struct CameraScene {
   std::vector<Plane> planes; // beside `triangles`
   // Those that it cannot see and that stand in the light all the same; not those of no area.
   std::vector<CameraTriangle> hidden;
+  double world_rounding_m = 0.0; // what places in the world, in double, may be off by
 };
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);

@@ -57,7 +57,6 @@ LitPass::LitPass(const vulkan::Device &device, const OccluderTree &tree, const D
                  const std::vector<LitWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
     : windows_(windows), nodes_(static_cast<std::uint32_t>(tree.nodes.size())),
-      longest_walk_(tree.nodes.size() + tree.occluders.size()),
       slots_(std::min(most_slots, most_parts(strips) * shader::bundles_per_window)),
       occluders_(vulkan::upload(device, std::as_bytes(std::span(tree.occluders)))),
       tree_(vulkan::upload(device, std::as_bytes(std::span(tree.nodes)))) {
@@ -65,7 +64,7 @@ LitPass::LitPass(const vulkan::Device &device, const OccluderTree &tree, const D
   for (const LitWindow &window : windows_) {
     const WindowDiodes diodes = diodes_of(window, groups);
     diodes_.push_back({vulkan::upload(device, std::as_bytes(std::span(diodes.boxes))),
-                       vulkan::upload(device, std::as_bytes(std::span(diodes.positions))),
+                       vulkan::upload(device, std::as_bytes(std::span(diodes.bundles))),
                        vulkan::upload(device, std::as_bytes(std::span(diodes.bits)))});
     count_.emplace_back(device, shader::lit_count_spirv,
                         static_cast<std::uint32_t>(sizeof(shader::LitCountConstants)),
@@ -77,7 +76,7 @@ LitPass::LitPass(const vulkan::Device &device, const OccluderTree &tree, const D
                                 words(scene.paint.shapes.address()),
                                 words(scene.paint.surfaces.address()),
                                 nodes_,
-                                0};
+                                static_cast<float>(scene.world_rounding_m)};
   scene_ = vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
   const vk::DeviceSize parts = most_parts(strips);
   parts_ = storage(device, parts * sizeof(shader::TilePart));
@@ -129,15 +128,18 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
   commands.updateBuffer<shader::LitWork>(work_.get(), 0, work);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                          Access::eShaderStorageRead | Access::eShaderStorageWrite);
-  record_gather(commands, strip, window);
+  record_gather(commands, strip, buffers, window);
   record_decide(commands, strip, buffers, window);
   record_count(commands, strip, buffers, window);
 }
 
 void LitPass::record_gather(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            std::size_t window) const {
+                            const StripBuffers &buffers, std::size_t window) const {
   const std::uint32_t parts = parts_of(strip);
-  const shader::LitGatherConstants constants{words(parts_.address()),
+  const shader::LitGatherConstants constants{strip,
+                                             words(buffers.position_hi.address()),
+                                             words(buffers.tags.address()),
+                                             words(parts_.address()),
                                              words(scene_.address()),
                                              words(diodes_[window].boxes.address()),
                                              words(work_.address()),
@@ -161,8 +163,7 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
         words(buffers.tags.address()),
         words(parts_.address()),
         words(scene_.address()),
-        words(diodes_[window].positions.address() +
-              vk::DeviceSize{bundle} * shader::diodes_per_bundle * sizeof(shader::vec4)),
+        words(diodes_[window].bundles.address() + bundle * sizeof(shader::BundleDiodes)),
         words(work_.address()),
         words(candidates_.address()),
         words(buffers.reached.address() +
@@ -175,12 +176,12 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
     const auto at = [bundle](std::size_t list) { return list + bundle * sizeof(shader::Dispatch); };
     try_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, tried)));
     trace_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, traced)));
-    if (longest_walk_ <= shader::steps_per_walk)
+    if (nodes_ <= shader::steps_per_walk)
       continue;
     vulkan::compute_barrier(commands);
-    for (std::uint32_t first = 0; first < nodes_; first += shader::nodes_per_walk) {
+    for (std::uint32_t first = 0; first < nodes_; first += shader::steps_per_walk) {
       constants.first_node = first;
-      constants.last_node = std::min(nodes_, first + shader::nodes_per_walk);
+      constants.last_node = std::min(nodes_, first + shader::steps_per_walk);
       walk_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, walked)));
     }
   }

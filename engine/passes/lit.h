@@ -30,11 +30,11 @@ public:
 private:
   // A window's diodes on the device.
   struct Diodes {
-    vulkan::Buffer boxes, positions, bits;
+    vulkan::Buffer boxes, bundles, bits;
   };
 
   void record_gather(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                     std::size_t window) const;
+                     const StripBuffers &buffers, std::size_t window) const;
   void record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                      const StripBuffers &buffers, std::size_t window) const;
   void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -43,7 +43,6 @@ private:
   std::vector<LitWindow> windows_;
   std::vector<Diodes> diodes_; // beside windows_
   std::uint32_t nodes_;
-  std::size_t longest_walk_; // steps
   std::uint32_t slots_;
   vulkan::Buffer occluders_, tree_, scene_;
   vulkan::Buffer parts_, work_, candidates_;

@@ -29,14 +29,22 @@ shader::DiodeBox around(std::span<const DiodePlace> places) {
 }
 
 void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
-  diodes.boxes.push_back(around(places));
+  const shader::DiodeBox box = around(places);
+  const glm::vec3 centre(0.5f * (box.low + box.high));
+  shader::BundleDiodes bundle{};
+  glm::vec3 reach_m(0.0f);
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < shader::diodes_per_bundle; ++i) {
     const DiodePlace &place = places[std::min(i, places.size() - 1)];
-    diodes.positions.emplace_back(place.position_m, 0.0);
+    const glm::vec3 from_centre_m(place.position_m - glm::dvec3(centre));
+    bundle.places[i] = {from_centre_m, 0.0f};
+    reach_m = glm::max(reach_m, glm::abs(from_centre_m));
     if (i < places.size() && place.number != no_id)
       bits |= 1u << i;
   }
+  bundle.centre = {centre, reach_m.x + reach_m.y + reach_m.z};
+  diodes.boxes.push_back(box);
+  diodes.bundles.push_back(bundle);
   diodes.bits.push_back(bits);
 }
 

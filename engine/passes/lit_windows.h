@@ -24,8 +24,7 @@ std::vector<LitWindow> plan_windows(const DiodeGroups &groups);
 // What the shaders know of a window's diodes, for all windows alike in size.
 struct WindowDiodes {
   std::vector<shader::DiodeBox> boxes; // around all, then around each bundle
-  std::vector<shader::vec4>
-      positions;                   // diodes_per_bundle a bundle; where there are fewer, the last one again
+  std::vector<shader::BundleDiodes> bundles;
   std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
 };
 

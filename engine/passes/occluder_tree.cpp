@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,8 +19,7 @@ namespace {
 struct BuiltNode {
   std::array<BuiltNode *, 2> children{}; // of an inner node
   std::array<RTCBounds, 2> bounds{};     // of its children
-  std::array<unsigned, shader::occluders_per_leaf> primitives{};
-  unsigned count = 0; // of a leaf
+  std::optional<unsigned> occluder;      // of a leaf
 };
 
 template <typename T>
@@ -40,12 +40,10 @@ void set_bounds(void *node, const RTCBounds **bounds, unsigned, void *) {
   static_cast<BuiltNode *>(node)->bounds = {*bounds[0], *bounds[1]};
 }
 
-void *create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive *primitives, std::size_t count,
+void *create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive *primitives, std::size_t,
                   void *) {
   auto *leaf = allocate<BuiltNode>(allocator);
-  leaf->count = static_cast<unsigned>(count);
-  for (std::size_t i = 0; i < count; ++i)
-    leaf->primitives[i] = primitives[i].primID;
+  leaf->occluder = primitives->primID;
   return leaf;
 }
 
@@ -67,11 +65,10 @@ public:
   void add(const BuiltNode &built, const RTCBounds &bounds) {
     const std::size_t at = tree_.nodes.size();
     tree_.nodes.push_back({bounds.lower_x, bounds.lower_y, bounds.lower_z, 0, bounds.upper_x, bounds.upper_y,
-                           bounds.upper_z, 0});
-    if (built.count > 0) {
-      tree_.nodes[at].occluders = static_cast<std::uint32_t>(8 * tree_.occluders.size()) + built.count;
-      for (unsigned i = 0; i < built.count; ++i)
-        tree_.occluders.push_back(occluders_[built.primitives[i]]);
+                           bounds.upper_z, shader::no_occluder});
+    if (built.occluder) {
+      tree_.nodes[at].occluder = static_cast<std::uint32_t>(tree_.occluders.size());
+      tree_.occluders.push_back(occluders_[*built.occluder]);
     } else {
       for (std::size_t i = 0; i < 2; ++i)
         add(*built.children[i], built.bounds[i]);
@@ -106,7 +103,7 @@ RTCBuildArguments arguments_for(RTCBVH bvh, std::vector<RTCBuildPrimitive> &prim
   arguments.maxBranchingFactor = 2;
   arguments.maxDepth = 128;
   arguments.minLeafSize = 1;
-  arguments.maxLeafSize = shader::occluders_per_leaf;
+  arguments.maxLeafSize = 1;
   arguments.bvh = bvh;
   arguments.primitives = primitives.data();
   arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();

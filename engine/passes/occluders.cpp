@@ -27,19 +27,23 @@ struct Sides {
   bool front = false, back = false;
 };
 
-double rounding_m(const Plane &plane, const glm::dvec3 &p) {
-  return rounding * (std::abs(plane.offset_m) + std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
-}
+// A plane and what heights over it may be off by, beside the rounding of the height itself.
+struct RoundedPlane {
+  Plane plane;
+  double rounding_m;
+};
 
-void add_side(Sides &sides, const Plane &plane, const glm::dvec3 &p) {
-  const double height_m = glm::dot(plane.normal, p) - plane.offset_m;
-  sides.front = sides.front || height_m > rounding_m(plane, p);
-  sides.back = sides.back || height_m < -rounding_m(plane, p);
+void add_side(Sides &sides, const RoundedPlane &of, const glm::dvec3 &p) {
+  const double height_m = glm::dot(of.plane.normal, p) - of.plane.offset_m;
+  const double rounding_m = of.rounding_m + rounding * (std::abs(of.plane.offset_m) + std::abs(p.x) +
+                                                        std::abs(p.y) + std::abs(p.z));
+  sides.front = sides.front || height_m > rounding_m;
+  sides.back = sides.back || height_m < -rounding_m;
 }
 
 // Of a box, at most.
-Sides sides_of(const Plane &plane, const Box &box) {
-  const glm::bvec3 up = glm::greaterThan(plane.normal, glm::dvec3(0.0));
+Sides sides_of(const RoundedPlane &plane, const Box &box) {
+  const glm::bvec3 up = glm::greaterThan(plane.plane.normal, glm::dvec3(0.0));
   Sides sides;
   add_side(sides, plane, glm::mix(box.low_m, box.high_m, up));
   add_side(sides, plane, glm::mix(box.high_m, box.low_m, up));
@@ -55,7 +59,7 @@ public:
       chunks_.back().box.add(p);
   }
 
-  Sides sides(const Plane &plane) const {
+  Sides sides(const RoundedPlane &plane) const {
     Sides all;
     for (const Chunk &chunk : chunks_) {
       const Sides box = sides_of(plane, chunk.box);
@@ -137,10 +141,11 @@ std::vector<shader::Occluder> find_occluders(const CameraScene &camera, const Sc
     const auto plane = front_plane(triangle.corners_m);
     if (!plane)
       return;
-    const Sides lit = diodes.sides(*plane);
+    const RoundedPlane rounded{*plane, camera.world_rounding_m};
+    const Sides lit = diodes.sides(rounded);
     if (!lit.front && !lit.back)
       return;
-    const Sides points = seen.sides(*plane);
+    const Sides points = seen.sides(rounded);
     if ((lit.front && points.back) || (lit.back && points.front))
       occluders.push_back(occluder_of(triangle, *plane, scene));
   };

@@ -55,7 +55,9 @@ void store_reached(const shader::Strip &strip, const StripBuffers &buffers, cons
   std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);
   const auto places = std::span(groups.places).subspan(window.first_diode);
-  const std::size_t diodes = std::min<std::size_t>(places.size(), window.bundles * shader::diodes_per_bundle);
+  const std::size_t diodes =
+      std::min<std::size_t>(places.size(), std::size_t{window.last_run - window.first_run} *
+                                               groups.blocks_per_run * shader::diodes_per_block);
   for (std::uint32_t subsample = 0; subsample < strip.samples * strip.samples; ++subsample)
     for (std::uint32_t pixel = 0; pixel < strip.columns * strip.rows; ++pixel) {
       const std::size_t i = std::size_t{subsample} * strip.padded_pixels + pixel;

@@ -8,6 +8,7 @@ namespace pmdsim {
 struct SceneBuffers {
   vulkan::Buffer planes; // TrianglePlane of each of the scene's shapes
   PaintBuffers paint;
+  double world_rounding_m; // as in CameraScene
 };
 
 } // namespace pmdsim
