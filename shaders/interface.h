@@ -57,7 +57,9 @@ PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
 
 // Specialization constants of the lit pass's shaders.
-PMDSIM_CONSTANT constant_lit_tiled = 0;   // 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_lit_tiled = 0;   // all that look at tags: 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_lit_lanes = 1;   // try: invocations that share a part
+PMDSIM_CONSTANT constant_lit_samples = 2; // try: samples of each
 PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
 PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
 PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window
@@ -200,7 +202,6 @@ struct Tone {
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
 PMDSIM_CONSTANT tile_side = 8;
 PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
-PMDSIM_CONSTANT samples_per_try = 8; // of a part, that one invocation tries candidates on
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
