@@ -69,10 +69,10 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
   const bool facing = all_face_the_light(camera, lights);
-  const std::vector<shader::Occluder> occluders =
-      shadows == Shadows::automatic ? find_occluders(camera, scene, lights) : std::vector<shader::Occluder>();
+  const Occluders occluders =
+      shadows == Shadows::automatic ? find_occluders(camera, scene, lights) : Occluders();
   Signal signal = signal_of(sensor, options);
-  signal.lit = shadows == Shadows::automatic && (!occluders.empty() || !facing);
+  signal.lit = shadows == Shadows::automatic && (!occluders.shapes.empty() || !facing);
   const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t strip_samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
@@ -95,8 +95,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   std::vector<LitWindow> windows = signal.lit ? plan_windows(groups) : std::vector{all_runs(groups)};
   std::optional<LitPass> lit;
   if (signal.lit)
-    lit.emplace(device, build_tree(occluders), groups, windows, buffers, strips, is_tiled(sensor),
-                options.precision);
+    lit.emplace(device, occluders, groups, windows, buffers, strips, is_tiled(sensor), options.precision);
   AccumulatePass accumulate(device, groups, model, signal, options);
   ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision);
   return {sensor,

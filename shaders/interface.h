@@ -210,6 +210,7 @@ PMDSIM_CONSTANT largest_candidates =
 // their steps, so that this never happens, and take at most two iterations a step.
 PMDSIM_CONSTANT steps_per_walk = 32000;
 PMDSIM_CONSTANT no_occluder = 0xffffffffu;
+PMDSIM_CONSTANT no_body = 0xffffffffu;
 
 // What may stand in the light: a triangle, or the one around a disc. Camera frame, m.
 struct Occluder {
@@ -219,7 +220,7 @@ struct Occluder {
   uint id;            // of the shape in the scene
   uint edges;         // bit 0, 1, 2: ab, bc, ca run from the corner that comes later (vertex_order.h)
   uint may_be_absent; // 1: it has holes, or is a disc
-  uint padding;
+  uint body;          // the convex body that it is a part of, or no_body
 };
 
 // A box of the tree over the occluders, rounded outwards, camera frame, m. Nodes lie in the order of a walk:
@@ -248,7 +249,7 @@ struct TilePart {
   vec4 low, high;              // box around their points, camera frame, m
   float nearest_m, farthest_m; // depths z: nearest_m <= z < farthest_m
   uint own; // shapes that they lie on, 0 where it is empty; beyond own_shapes: more than these
-  uint padding;
+  uint body; // the convex body that all of these are parts of, or no_body
   uint own_ids[own_shapes];
 };
 
@@ -357,6 +358,7 @@ struct LitScene {
   uvec2 planes;         // TrianglePlane[]
   uvec2 occluders;      // Occluder[]
   uvec2 tree;           // TreeNode[]
+  uvec2 bodies;         // uint[], of each shape the convex body that it is a part of, or no_body
   uvec2 shapes;         // ShapePaint[], where occluders may have holes
   uvec2 surfaces;       // SurfacePaint[], likewise
   uint nodes;           // of the tree
@@ -367,6 +369,7 @@ struct LitTilesConstants {
   Strip strip;
   uvec2 position_hi;
   uvec2 tags;
+  uvec2 scene; // in: LitScene
   uvec2 parts; // out: TilePart[]
 };
 
@@ -460,7 +463,7 @@ static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) 
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
               sizeof(TilePart) == 112);
-static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 48 &&
+static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 56 &&
               sizeof(BundleDiodes) == 16 * (1 + diodes_per_bundle));
 static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
 static_assert(sizeof(AccumulateConstants) == 128 && offsetof(AccumulateConstants, reference_hi) == 64);

@@ -11,6 +11,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Work {
   uint list[];
 };
 
+uint body_of(uvec2 scene, uint id) { return Words(LitScenes(scene).at.bodies).at[id]; }
+
 const uint parts_per_tile = 2;
 
 uvec2 tiles_of(Strip strip) { return (uvec2(strip.columns, strip.rows) + tile_side - 1u) / tile_side; }

@@ -30,7 +30,7 @@ PartSample part_sample(uint part_index, uint within, DiodeFrame frame) {
   TrianglePlane plane = Planes(LitScenes(constants.scene).at.planes).at[id];
   Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = add(dot3(normal, real3(frame.centre, vec3(0.0))), negate(real(plane.plane_hi.w, plane.plane_lo.w)));
-  return PartSample(is_there, at.i, LitPoint(hi, lo, id), vec4(plane.plane_hi.xyz, high(offset)));
+  return PartSample(is_there, at.i, LitPoint(hi, lo, id, body_of(constants.scene, id)), vec4(plane.plane_hi.xyz, high(offset)));
 }
 
 DiodeFrame diode_frame() {

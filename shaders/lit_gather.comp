@@ -71,7 +71,7 @@ bool is_beside(Occluder occluder, uint part_index, float reach_m) {
 
 bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, Own own, float world_rounding,
                inout uint steps) {
-  if (!is_between(occluder.plane_hi, part, box))
+  if (!is_between(occluder.plane_hi, occluder.body, part, box))
     return false;
   if (!own.all_known)
     return true;

@@ -24,11 +24,13 @@ Range heights(vec4 plane, vec3 low, vec3 high) {
   return Range(middle - spread - rounding, middle + spread + rounding);
 }
 
-// An occluder can only block what lies on the other side of its plane.
-bool is_between(vec4 plane, TilePart part, DiodeBox box) {
+// An occluder can only block what lies on the other side of its plane. Of a convex body only those count that show their front
+// to the diode, and none for what lies on the body itself.
+bool is_between(vec4 plane, uint body, TilePart part, DiodeBox box) {
   Range points = heights(plane, part.low.xyz, part.high.xyz);
   Range diodes = heights(plane, box.low.xyz, box.high.xyz);
-  return (points.low < 0.0 && diodes.high > 0.0) || (points.high > 0.0 && diodes.low < 0.0);
+  bool from_behind = points.low < 0.0 && diodes.high > 0.0, from_front = points.high > 0.0 && diodes.low < 0.0;
+  return body == no_body ? from_behind || from_front : from_behind && body != part.body;
 }
 
 // How high the diodes stand at least over all surfaces of the part, m; at most 0 where not all need stand in front of all.

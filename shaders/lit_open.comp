@@ -22,7 +22,7 @@ bool is_blocked_perhaps(TilePart part, DiodeBox box) {
   while (!perhaps && node < scene.nodes && steps < steps_per_walk) {
     uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
     if (index != no_occluder)
-      perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, part, box);
+      perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, Occluders(scene.occluders).at[index].body, part, box);
   }
   return perhaps || node < scene.nodes; // or the walk was too long
 }

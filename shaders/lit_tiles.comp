@@ -26,6 +26,7 @@ TilePart empty_part(float nearest_m, float farthest_m) {
   part.nearest_m = nearest_m;
   part.farthest_m = farthest_m;
   part.own = 0u;
+  part.body = no_body;
   return part;
 }
 
@@ -38,11 +39,12 @@ void add_own(inout TilePart part, uint id) {
   part.own += known || part.own > own_shapes ? 0u : 1u;
 }
 
-void add_sample(inout TilePart part, vec3 point, uint id) {
+void add_sample(inout TilePart part, vec3 point, uint id, uint body) {
   if (point == vec3(0.0) || point.z < part.nearest_m || point.z >= part.farthest_m)
     return;
   part.low.xyz = min(part.low.xyz, point);
   part.high.xyz = max(part.high.xyz, point);
+  part.body = part.own == 0u || part.body == body ? body : no_body;
   add_own(part, id);
 }
 
@@ -87,10 +89,11 @@ void main() {
   for (uint within = 0; within < tile_samples; ++within) {
     TileSample at = tile_sample(strip, tile, within);
     uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
-    uint id = Tags(constants.tags).at[at.is_there ? tag_at : 0u].y;
     vec3 point = point_of(tile, within);
-    add_sample(near, point, id);
-    add_sample(far, point, id);
+    uint id = point != vec3(0.0) ? Tags(constants.tags).at[at.is_there ? tag_at : 0u].y : 0u;
+    uint body = body_of(constants.scene, id);
+    add_sample(near, point, id, body);
+    add_sample(far, point, id, body);
   }
   widen(near);
   widen(far);

@@ -9,10 +9,10 @@
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Occluders { Occluder at[]; };
 
-// A sample's point, and the shape that it lies on, which does not stand in its own light.
+// A sample's point; the shape that it lies on, and the convex body whose part that is, which do not stand in its own light.
 struct LitPoint {
   vec3 hi, lo;
-  uint own;
+  uint own, body;
 };
 
 // Where diodes are measured from: a place among them, and how far they stand from it at most, along each axis, m.
@@ -102,7 +102,9 @@ Cone cone_of(Occluder occluder, LitPoint point, DiodeFrame frame, float world_ro
   // A diode that the occluder touches is not behind it: by the rounding of `affine_at`, with some to spare.
   float offset = offset_from(occluder, frame);
   precise float beyond = -side * offset - 3e-7 * (abs(offset) + frame.reach) - world_rounding - 1e-30;
-  cone.beyond = height == 0.0 || occluder.id == point.own ? behind_nothing : vec4(side * occluder.plane_hi.xyz, beyond);
+  bool in_a_body = occluder.body != no_body;
+  bool spared = in_a_body ? occluder.body == point.body || height > 0.0 : occluder.id == point.own;
+  cone.beyond = height == 0.0 || spared ? behind_nothing : vec4(side * occluder.plane_hi.xyz, beyond);
   return cone;
 }
 

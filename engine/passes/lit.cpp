@@ -1,5 +1,6 @@
 #include "engine/passes/lit.h"
 
+#include "engine/passes/occluder_tree.h"
 #include "engine/passes/sample_precision.h"
 #include "engine/vulkan/commands.h"
 #include "spirv/lit_count.h"
@@ -53,13 +54,15 @@ shader::LitWork no_work(std::uint32_t bundles) {
 
 } // namespace
 
-LitPass::LitPass(const vulkan::Device &device, const OccluderTree &tree, const DiodeGroups &groups,
+LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
                  const std::vector<LitWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
-    : windows_(windows), nodes_(static_cast<std::uint32_t>(tree.nodes.size())),
-      slots_(std::min(most_slots, most_parts(strips) * shader::bundles_per_window)),
-      occluders_(vulkan::upload(device, std::as_bytes(std::span(tree.occluders)))),
-      tree_(vulkan::upload(device, std::as_bytes(std::span(tree.nodes)))) {
+    : windows_(windows), slots_(std::min(most_slots, most_parts(strips) * shader::bundles_per_window)),
+      bodies_(vulkan::upload(device, std::as_bytes(std::span(occluders.bodies)))) {
+  const OccluderTree tree = build_tree(occluders.shapes);
+  nodes_ = static_cast<std::uint32_t>(tree.nodes.size());
+  occluders_ = vulkan::upload(device, std::as_bytes(std::span(tree.occluders)));
+  tree_ = vulkan::upload(device, std::as_bytes(std::span(tree.nodes)));
   using Usage = vk::BufferUsageFlagBits;
   for (const LitWindow &window : windows_) {
     const WindowDiodes diodes = diodes_of(window, groups);
@@ -73,6 +76,7 @@ LitPass::LitPass(const vulkan::Device &device, const OccluderTree &tree, const D
   const shader::LitScene record{words(scene.planes.address()),
                                 words(occluders_.address()),
                                 words(tree_.address()),
+                                words(bodies_.address()),
                                 words(scene.paint.shapes.address()),
                                 words(scene.paint.surfaces.address()),
                                 nodes_,
@@ -110,7 +114,8 @@ void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader
                            const StripBuffers &buffers) const {
   vulkan::compute_barrier(commands);
   const shader::LitTilesConstants constants{strip, words(buffers.position_hi.address()),
-                                            words(buffers.tags.address()), words(parts_.address())};
+                                            words(buffers.tags.address()), words(scene_.address()),
+                                            words(parts_.address())};
   tiles_.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
 

@@ -3,7 +3,7 @@
 // never wrong; samples and diodes one by one only where that leaves a doubt.
 
 #include "engine/passes/lit_windows.h"
-#include "engine/passes/occluder_tree.h"
+#include "engine/passes/occluders.h"
 #include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
@@ -16,7 +16,7 @@ namespace pmdsim {
 class LitPass {
 public:
   // `tiled`: whether the tags lie in tiles (shaders/interface.h). Throws Error (out_of_memory).
-  LitPass(const vulkan::Device &device, const OccluderTree &tree, const DiodeGroups &groups,
+  LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
           const std::vector<LitWindow> &windows, const SceneBuffers &scene,
           std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
 
@@ -44,7 +44,7 @@ private:
   std::vector<Diodes> diodes_; // beside windows_
   std::uint32_t nodes_;
   std::uint32_t slots_;
-  vulkan::Buffer occluders_, tree_, scene_;
+  vulkan::Buffer occluders_, tree_, bodies_, scene_;
   vulkan::Buffer parts_, work_, candidates_;
   vulkan::ComputePipeline tiles_, open_, gather_, try_, trace_, walk_;
   std::vector<vulkan::ComputePipeline> count_; // beside windows_

@@ -1,11 +1,14 @@
 #include "engine/passes/occluders.h"
 
+#include "engine/passes/convex_bodies.h"
 #include "engine/passes/double_pair.h"
 #include "engine/passes/vertex_order.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace pmdsim {
 namespace {
@@ -106,12 +109,43 @@ PointSet all_diodes(const std::vector<CameraIlluminator> &illuminators) {
   return points;
 }
 
+bool holds(const Box &box, const glm::dvec3 &p) {
+  return glm::all(glm::lessThanEqual(box.low_m, p)) && glm::all(glm::lessThanEqual(p, box.high_m));
+}
+
+// Those that the lens and all diodes are outside of.
+std::vector<std::uint32_t> bodies_from_outside(const CameraScene &camera, const Scene &scene,
+                                               const std::vector<CameraIlluminator> &illuminators) {
+  std::vector<std::uint32_t> bodies = convex_bodies(scene);
+  bodies.resize(scene.shape_count(), no_id);
+  std::map<std::uint32_t, Box> boxes;
+  for (const auto *triangles : {&camera.triangles, &camera.hidden})
+    for (const CameraTriangle &triangle : *triangles)
+      if (const std::uint32_t body = bodies[triangle.id]; body != no_id)
+        for (const glm::dvec3 &corner_m : triangle.corners_m)
+          boxes[body].add(corner_m);
+  std::set<std::uint32_t> entered;
+  for (const auto &[body, box] : boxes) {
+    bool inside = holds(box, glm::dvec3(0.0));
+    for (const CameraIlluminator &illuminator : illuminators)
+      for (const Diode &diode : illuminator.diodes)
+        inside = inside || holds(box, diode.position_m);
+    if (inside)
+      entered.insert(body);
+  }
+  for (std::uint32_t &body : bodies)
+    if (entered.contains(body))
+      body = no_id;
+  return bodies;
+}
+
 bool may_have_holes(const Scene &scene, std::uint32_t id) {
   const auto &paint = scene.surfaces[scene.surface_of(id)].paint;
   return id >= scene.triangles.size() || (paint && paint->alpha_cutoff > 0.0);
 }
 
-shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane, const Scene &scene) {
+shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane, const Scene &scene,
+                             std::uint32_t body) {
   const auto &[a, b, c] = triangle.corners_m;
   const DoublePair4 plane_pair(plane.normal, plane.offset_m), a_pair(a, 0.0), b_pair(b, 0.0), c_pair(c, 0.0);
   const auto turned = [](const glm::dvec3 &from, const glm::dvec3 &to) {
@@ -128,15 +162,15 @@ shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane,
           triangle.id,
           turned(a, b) | turned(b, c) << 1 | turned(c, a) << 2,
           may_have_holes(scene, triangle.id) ? 1u : 0u,
-          0};
+          body};
 }
 
 } // namespace
 
-std::vector<shader::Occluder> find_occluders(const CameraScene &camera, const Scene &scene,
-                                             const std::vector<CameraIlluminator> &illuminators) {
+Occluders find_occluders(const CameraScene &camera, const Scene &scene,
+                         const std::vector<CameraIlluminator> &illuminators) {
   const PointSet seen = seen_corners(camera), diodes = all_diodes(illuminators);
-  std::vector<shader::Occluder> occluders;
+  Occluders occluders{{}, bodies_from_outside(camera, scene, illuminators)};
   const auto add = [&](const CameraTriangle &triangle) {
     const auto plane = front_plane(triangle.corners_m);
     if (!plane)
@@ -147,7 +181,7 @@ std::vector<shader::Occluder> find_occluders(const CameraScene &camera, const Sc
       return;
     const Sides points = seen.sides(rounded);
     if ((lit.front && points.back) || (lit.back && points.front))
-      occluders.push_back(occluder_of(triangle, *plane, scene));
+      occluders.shapes.push_back(occluder_of(triangle, *plane, scene, occluders.bodies[triangle.id]));
   };
   std::ranges::for_each(camera.triangles, add);
   std::ranges::for_each(camera.hidden, add);

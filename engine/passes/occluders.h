@@ -9,8 +9,13 @@
 
 namespace pmdsim {
 
-// In the order of camera.triangles, then camera.hidden.
-std::vector<shader::Occluder> find_occluders(const CameraScene &camera, const Scene &scene,
-                                             const std::vector<CameraIlluminator> &illuminators);
+struct Occluders {
+  std::vector<shader::Occluder> shapes; // in the order of camera.triangles, then camera.hidden
+  std::vector<std::uint32_t> bodies;    // for each of the scene's shapes its convex body, or no_id
+};
+
+// Convex bodies that may have the lens or diodes inside do not count as such.
+Occluders find_occluders(const CameraScene &camera, const Scene &scene,
+                         const std::vector<CameraIlluminator> &illuminators);
 
 } // namespace pmdsim
