@@ -10,6 +10,16 @@
 #include "spirv/accumulate_looped_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
+#include "spirv/lit_count.h"
+#include "spirv/lit_gather_double_float.h"
+#include "spirv/lit_gather_fp64.h"
+#include "spirv/lit_open_double_float.h"
+#include "spirv/lit_open_fp64.h"
+#include "spirv/lit_tiles.h"
+#include "spirv/lit_trace_double_float.h"
+#include "spirv/lit_trace_fp64.h"
+#include "spirv/lit_try_double_float.h"
+#include "spirv/lit_try_fp64.h"
 #include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
 #include "spirv/resolve_double_float.h"
@@ -124,6 +134,66 @@ const std::map<std::string, HostLayout> constants_until_points{
        MEMBER(SearchConstants, surfaces)}}},
 };
 
+const std::map<std::string, HostLayout> shadows{
+    {"Occluder",
+     {sizeof(Occluder),
+      {MEMBER(Occluder, plane_hi), MEMBER(Occluder, plane_lo), MEMBER(Occluder, a_hi), MEMBER(Occluder, b_hi),
+       MEMBER(Occluder, c_hi), MEMBER(Occluder, a_lo), MEMBER(Occluder, b_lo), MEMBER(Occluder, c_lo),
+       MEMBER(Occluder, id), MEMBER(Occluder, edges), MEMBER(Occluder, may_be_absent),
+       MEMBER(Occluder, padding)}}},
+    {"TreeNode",
+     {sizeof(TreeNode),
+      {MEMBER(TreeNode, low_x), MEMBER(TreeNode, low_y), MEMBER(TreeNode, low_z), MEMBER(TreeNode, skip),
+       MEMBER(TreeNode, high_x), MEMBER(TreeNode, high_y), MEMBER(TreeNode, high_z),
+       MEMBER(TreeNode, occluder)}}},
+    {"DiodeBox", {sizeof(DiodeBox), {MEMBER(DiodeBox, low), MEMBER(DiodeBox, high)}}},
+    {"BundleDiodes", {sizeof(BundleDiodes), {MEMBER(BundleDiodes, centre), MEMBER(BundleDiodes, places)}}},
+    {"TilePart",
+     {sizeof(TilePart),
+      {MEMBER(TilePart, low), MEMBER(TilePart, high), MEMBER(TilePart, nearest_m),
+       MEMBER(TilePart, farthest_m), MEMBER(TilePart, own), MEMBER(TilePart, padding),
+       MEMBER(TilePart, own_ids)}}},
+    {"Dispatch",
+     {sizeof(Dispatch),
+      {MEMBER(Dispatch, x), MEMBER(Dispatch, y), MEMBER(Dispatch, z), MEMBER(Dispatch, count)}}},
+    {"LitWork",
+     {sizeof(LitWork),
+      {MEMBER(LitWork, open), MEMBER(LitWork, tried), MEMBER(LitWork, traced), MEMBER(LitWork, walked)}}},
+    {"LitScene",
+     {sizeof(LitScene),
+      {MEMBER(LitScene, planes), MEMBER(LitScene, occluders), MEMBER(LitScene, tree),
+       MEMBER(LitScene, shapes), MEMBER(LitScene, surfaces), MEMBER(LitScene, nodes),
+       MEMBER(LitScene, world_rounding)}}},
+};
+
+const std::map<std::string, HostLayout> constants_of_shadows{
+    {"LitTilesConstants",
+     {sizeof(LitTilesConstants),
+      {MEMBER(LitTilesConstants, strip), MEMBER(LitTilesConstants, position_hi),
+       MEMBER(LitTilesConstants, tags), MEMBER(LitTilesConstants, parts)}}},
+    {"LitGatherConstants",
+     {sizeof(LitGatherConstants),
+      {MEMBER(LitGatherConstants, strip), MEMBER(LitGatherConstants, position_hi),
+       MEMBER(LitGatherConstants, tags), MEMBER(LitGatherConstants, parts), MEMBER(LitGatherConstants, scene),
+       MEMBER(LitGatherConstants, boxes), MEMBER(LitGatherConstants, work),
+       MEMBER(LitGatherConstants, candidates), MEMBER(LitGatherConstants, part_count),
+       MEMBER(LitGatherConstants, bundles), MEMBER(LitGatherConstants, slots)}}},
+    {"LitDecideConstants",
+     {sizeof(LitDecideConstants),
+      {MEMBER(LitDecideConstants, strip), MEMBER(LitDecideConstants, position_hi),
+       MEMBER(LitDecideConstants, position_lo), MEMBER(LitDecideConstants, tags),
+       MEMBER(LitDecideConstants, parts), MEMBER(LitDecideConstants, scene),
+       MEMBER(LitDecideConstants, diodes), MEMBER(LitDecideConstants, work),
+       MEMBER(LitDecideConstants, candidates), MEMBER(LitDecideConstants, reached),
+       MEMBER(LitDecideConstants, bundle), MEMBER(LitDecideConstants, bundles),
+       MEMBER(LitDecideConstants, part_count), MEMBER(LitDecideConstants, first_node),
+       MEMBER(LitDecideConstants, last_node)}}},
+    {"LitCountConstants",
+     {sizeof(LitCountConstants),
+      {MEMBER(LitCountConstants, reached), MEMBER(LitCountConstants, diodes), MEMBER(LitCountConstants, lit),
+       MEMBER(LitCountConstants, plane)}}},
+};
+
 const std::map<std::string, HostLayout> constants_of_the_sum{
     {"AccumulateConstants",
      {sizeof(AccumulateConstants),
@@ -133,22 +203,36 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
        MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns),
-       MEMBER(AccumulateConstants, diagrams)}}},
+       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
+       MEMBER(AccumulateConstants, first_bit), MEMBER(AccumulateConstants, padding)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
-      {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),
-       MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags), MEMBER(ResolveConstants, planes),
-       MEMBER(ResolveConstants, channels), MEMBER(ResolveConstants, harmonics),
-       MEMBER(ResolveConstants, turns_per_m), MEMBER(ResolveConstants, ambiguity_m),
-       MEMBER(ResolveConstants, limits), MEMBER(ResolveConstants, amplitude_scale),
-       MEMBER(ResolveConstants, columns), MEMBER(ResolveConstants, samples),
-       MEMBER(ResolveConstants, padded_pixels), MEMBER(ResolveConstants, pixels),
-       MEMBER(ResolveConstants, plane), MEMBER(ResolveConstants, first_channel)}}},
+      {MEMBER(ResolveConstants, position_hi),
+       MEMBER(ResolveConstants, position_lo),
+       MEMBER(ResolveConstants, sum),
+       MEMBER(ResolveConstants, tags),
+       MEMBER(ResolveConstants, planes),
+       MEMBER(ResolveConstants, channels),
+       MEMBER(ResolveConstants, harmonics),
+       MEMBER(ResolveConstants, turns_per_m),
+       MEMBER(ResolveConstants, ambiguity_m),
+       MEMBER(ResolveConstants, limits),
+       MEMBER(ResolveConstants, amplitude_scale),
+       MEMBER(ResolveConstants, columns),
+       MEMBER(ResolveConstants, samples),
+       MEMBER(ResolveConstants, padded_pixels),
+       MEMBER(ResolveConstants, pixels),
+       MEMBER(ResolveConstants, plane),
+       MEMBER(ResolveConstants, first_channel),
+       MEMBER(ResolveConstants, lit_channel),
+       MEMBER(ResolveConstants, lit),
+       MEMBER(ResolveConstants, diodes)}}},
 };
 
 std::map<std::string, HostLayout> host_layouts() {
   std::map<std::string, HostLayout> all;
-  for (const auto &some : {chip_and_lens, scene_and_light, constants_until_points, constants_of_the_sum})
+  for (const auto &some : {chip_and_lens, scene_and_light, shadows, constants_until_points,
+                           constants_of_shadows, constants_of_the_sum})
     all.insert(some.begin(), some.end());
   return all;
 }
@@ -167,6 +251,16 @@ const std::vector<Shader> shaders{
     {"points, float pairs", points_double_float_spirv},
     {"search, fp64", search_fp64_spirv},
     {"search, float pairs", search_double_float_spirv},
+    {"lit_tiles", lit_tiles_spirv},
+    {"lit_open, fp64", lit_open_fp64_spirv},
+    {"lit_open, float pairs", lit_open_double_float_spirv},
+    {"lit_gather, fp64", lit_gather_fp64_spirv},
+    {"lit_gather, float pairs", lit_gather_double_float_spirv},
+    {"lit_try, fp64", lit_try_fp64_spirv},
+    {"lit_try, float pairs", lit_try_double_float_spirv},
+    {"lit_trace, fp64", lit_trace_fp64_spirv},
+    {"lit_trace, float pairs", lit_trace_double_float_spirv},
+    {"lit_count", lit_count_spirv},
     {"accumulate, straight, fp64", accumulate_straight_fp64_spirv},
     {"accumulate, straight, float pairs", accumulate_straight_double_float_spirv},
     {"accumulate, looped, fp64", accumulate_looped_fp64_spirv},
