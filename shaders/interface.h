@@ -60,6 +60,7 @@ PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
 PMDSIM_CONSTANT constant_lit_tiled = 0;   // all that look at tags: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_lit_lanes = 1;   // try: invocations that share a part
 PMDSIM_CONSTANT constant_lit_samples = 2; // try: samples of each
+PMDSIM_CONSTANT constant_lit_flat = 3;    // try: 1: no diode stands before another of its bundle, z is the same
 PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
 PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
 PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window

@@ -24,7 +24,7 @@ bool is_there(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, Dio
 }
 
 bool blocks(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, DiodeFrame frame) {
-  bool between = depth_in(cone_of(occluder, point, frame, scene.world_rounding), diode) >= 0.0;
+  bool between = depth_in(cone_of(occluder, point, frame, scene.world_rounding), diode, false) >= 0.0;
   if (masked != 0 && between && occluder.may_be_absent != 0u)
     return is_there(scene, occluder, point, diode, frame);
   return between;
@@ -64,7 +64,7 @@ void main() {
   DiodeFrame frame = diode_frame();
   PartSample at = part_sample(work.list[entry], gl_LocalInvocationID.x, frame);
   vec3 diode = Bundles(constants.diodes).at.places[gl_WorkGroupID.y].xyz;
-  bool blocked = at.is_there && !(affine_at(at.surface, diode) > 0.0);
+  bool blocked = at.is_there && !(affine_at(at.surface, diode, false) > 0.0);
   if (at.is_there && !blocked) {
     uint node = constants.first_node;
     blocked = is_blocked(LitScenes(constants.scene).at, at.point, diode, frame, node);

@@ -9,6 +9,7 @@
 
 layout(local_size_x_id = constant_lit_lanes) in;
 layout(constant_id = constant_lit_samples) const uint samples_per_lane = 8;
+layout(constant_id = constant_lit_flat) const uint flat_bundles = 0;
 
 void main() {
   // Before anything branches, so that lavapipe reads the diodes once for all lanes.
@@ -21,11 +22,12 @@ void main() {
   uint entry = work.list[tried_list(constants.part_count, constants.bundle) + gl_WorkGroupID.x];
   uint part = work.list[entry];
   PartSample samples[samples_per_lane];
-  float depth[samples_per_lane][diodes_per_bundle]; // at least 0 behind a candidate, or behind the sample's own surface
+  uint blocked[samples_per_lane]; // by a candidate, or because the diode is behind the sample's own surface; a bit each
   [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
     samples[s] = part_sample(part, s * (tile_samples / samples_per_lane) + gl_LocalInvocationID.x, frame);
+    blocked[s] = 0u;
     [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-      depth[s][d] = -affine_at(samples[s].surface, diodes[d]);
+      blocked[s] |= affine_at(samples[s].surface, diodes[d], flat_bundles != 0) > 0.0 ? 0u : 1u << d;
   }
 
   LitScene scene = LitScenes(constants.scene).at;
@@ -37,15 +39,11 @@ void main() {
     [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
       Cone cone = cone_of(occluder, samples[s].point, frame, scene.world_rounding);
       [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-        depth[s][d] = max(depth[s][d], depth_in(cone, diodes[d]));
+        blocked[s] |= depth_in(cone, diodes[d], flat_bundles != 0) >= 0.0 ? 1u << d : 0u;
     }
   }
 
-  [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
-    uint reached = 0u;
-    [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
-      reached |= depth[s][d] >= 0.0 ? 0u : 1u << d;
+  [[unroll]] for (uint s = 0; s < samples_per_lane; ++s)
     if (samples[s].is_there)
-      Words(constants.reached).at[samples[s].i] = reached;
-  }
+      Words(constants.reached).at[samples[s].i] = ~blocked[s];
 }

@@ -27,8 +27,14 @@ struct Cone {
   vec4 ab, bc, ca, beyond;
 };
 
-float affine_at(vec4 f, vec3 d) {
-  precise float x = f.x * d.x, y = f.y * d.y, z = f.z * d.z;
+// `flat_z`: d.z is 0; the sum is the same, to the last bit.
+float affine_at(vec4 f, vec3 d, bool flat_z) {
+  precise float x = f.x * d.x, y = f.y * d.y;
+  if (flat_z) {
+    precise float flat_sum = x + y + f.w;
+    return flat_sum;
+  }
+  precise float z = f.z * d.z;
   precise float sum = x + y + z + f.w;
   return sum;
 }
@@ -88,8 +94,9 @@ Cone cone_of(Occluder occluder, LitPoint point, DiodeFrame frame, float world_ro
 }
 
 // At least 0 where the occluder stands between the point and a diode at `d`.
-float depth_in(Cone cone, vec3 d) {
-  return min(min(affine_at(cone.ab, d), affine_at(cone.bc, d)), min(affine_at(cone.ca, d), affine_at(cone.beyond, d)));
+float depth_in(Cone cone, vec3 d, bool flat_z) {
+  return min(min(affine_at(cone.ab, d, flat_z), affine_at(cone.bc, d, flat_z)),
+             min(affine_at(cone.ca, d, flat_z), affine_at(cone.beyond, d, flat_z)));
 }
 
 #endif

@@ -46,6 +46,15 @@ bool may_have_holes(const Occluders &occluders) {
                              [](const shader::Occluder &occluder) { return occluder.may_be_absent != 0; });
 }
 
+bool are_flat(const std::vector<LitWindow> &windows, const DiodeGroups &groups) {
+  return std::ranges::all_of(windows, [&](const LitWindow &window) {
+    const WindowDiodes diodes = diodes_of(window, groups);
+    return std::ranges::all_of(diodes.bundles, [](const shader::BundleDiodes &bundle) {
+      return std::ranges::all_of(bundle.places, [](const shader::vec4 &place) { return place.z == 0.0f; });
+    });
+  });
+}
+
 LitScene upload_scene(const vulkan::Device &device, const Occluders &occluders, const SceneBuffers &scene) {
   const OccluderTree tree = build_tree(occluders.shapes);
   const auto nodes = static_cast<std::uint32_t>(tree.nodes.size());
@@ -87,7 +96,8 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst)),
       candidates_(
           storage(device, vk::DeviceSize{slots_} * (shader::largest_candidates + 1) * sizeof(std::uint32_t))),
-      pipelines_(make_lit_pipelines(device, windows, tiled, may_have_holes(occluders), precision)) {
+      pipelines_(make_lit_pipelines(
+          device, windows, {tiled, may_have_holes(occluders), are_flat(windows, groups)}, precision)) {
   for (const LitWindow &window : windows_)
     diodes_.push_back(upload_diodes(device, window, groups));
 }

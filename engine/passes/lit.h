@@ -25,7 +25,7 @@ struct LitScene {
 
 class LitPass {
 public:
-  // `tiled`: whether the tags lie in tiles (shaders/interface.h). Throws Error (out_of_memory).
+  // `tiled` as in LitForm. Throws Error (out_of_memory).
   LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
           const std::vector<LitWindow> &windows, const SceneBuffers &scene,
           std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);

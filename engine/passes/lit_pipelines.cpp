@@ -23,7 +23,7 @@ std::uint32_t lanes_to_try(const vulkan::Device &device) {
 } // namespace
 
 LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
-                                bool tiled, bool masked, SamplePrecision precision) {
+                                const LitForm &form, SamplePrecision precision) {
   const std::uint32_t lanes = lanes_to_try(device);
   const auto pipeline = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float,
                             std::size_t constants, vulkan::Specialization specialization) {
@@ -32,16 +32,18 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
   };
   const auto tracing = [&](bool again) {
     return pipeline(shader::lit_trace_fp64_spirv, shader::lit_trace_double_float_spirv,
-                    sizeof(shader::LitDecideConstants), {tiled ? 1u : 0u, masked ? 1u : 0u, again ? 1u : 0u});
+                    sizeof(shader::LitDecideConstants),
+                    {form.tiled ? 1u : 0u, form.masked ? 1u : 0u, again ? 1u : 0u});
   };
   LitPipelines made{
       pipeline(shader::lit_tiles_spirv, shader::lit_tiles_spirv, sizeof(shader::LitTilesConstants),
-               {tiled ? 1u : 0u}),
+               {form.tiled ? 1u : 0u}),
       pipeline(shader::lit_open_spirv, shader::lit_open_spirv, sizeof(shader::LitGatherConstants), {}),
       pipeline(shader::lit_gather_fp64_spirv, shader::lit_gather_double_float_spirv,
-               sizeof(shader::LitGatherConstants), {tiled ? 1u : 0u}),
+               sizeof(shader::LitGatherConstants), {form.tiled ? 1u : 0u}),
       pipeline(shader::lit_try_fp64_spirv, shader::lit_try_double_float_spirv,
-               sizeof(shader::LitDecideConstants), {tiled ? 1u : 0u, lanes, shader::tile_samples / lanes}),
+               sizeof(shader::LitDecideConstants),
+               {form.tiled ? 1u : 0u, lanes, shader::tile_samples / lanes, form.flat ? 1u : 0u}),
       tracing(false),
       tracing(true),
       {}};

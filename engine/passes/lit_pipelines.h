@@ -17,8 +17,14 @@ struct LitPipelines {
   std::vector<vulkan::ComputePipeline> counts; // of each window
 };
 
-// `tiled`: whether the tags lie in tiles (shaders/interface.h). `masked`: whether occluders may have holes.
+// What is compiled in or out.
+struct LitForm {
+  bool tiled;  // the tags lie in tiles (shaders/interface.h)
+  bool masked; // occluders may have holes
+  bool flat;   // within a bundle all diodes have the same z
+};
+
 LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
-                                bool tiled, bool masked, SamplePrecision precision);
+                                const LitForm &form, SamplePrecision precision);
 
 } // namespace pmdsim

@@ -19,6 +19,16 @@ void add(shader::DiodeBox &box, const glm::dvec3 &position_m) {
 constexpr shader::DiodeBox empty_box{shader::vec4(std::numeric_limits<float>::max()),
                                      shader::vec4(std::numeric_limits<float>::lowest())};
 
+// Diodes of one board often have the same z, but for the rounding of their centre: a hundredth of a
+// micrometre is none, and without z a fourth of the work is saved.
+void flatten(shader::BundleDiodes &bundle) {
+  constexpr float none_m = 1e-8f;
+  if (std::ranges::all_of(bundle.places,
+                          [](const shader::vec4 &place) { return std::abs(place.z) <= none_m; }))
+    for (shader::vec4 &place : bundle.places)
+      place.z = 0.0f;
+}
+
 void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
   shader::DiodeBox box = empty_box;
   for (const DiodePlace &place : places) {
@@ -37,6 +47,7 @@ void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
     if (i < places.size() && place.number != no_id)
       bits |= 1u << i;
   }
+  flatten(bundle);
   bundle.centre = {centre, reach_m.x + reach_m.y + reach_m.z};
   diodes.boxes.push_back(box);
   diodes.bundles.push_back(bundle);
