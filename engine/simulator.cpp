@@ -183,8 +183,7 @@ void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window,
       interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
   for (std::uint32_t first = window.first_run; first < window.last_run; first += per_submission) {
     const std::uint32_t last = std::min(window.last_run, first + per_submission);
-    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, window.first_diode,
-                                first, last);
+    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, window, first, last);
     recorder.end_pass("accumulate");
     if (last < runs) {
       recorder.finish();

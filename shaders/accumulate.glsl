@@ -53,8 +53,8 @@ vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
 uint reached_of_block(uint i, uint block) {
   if (shadowed == 0)
     return 0u;
-  uint bit = constants.first_bit + block * diodes_per_block;
-  return Words(constants.reached).at[bit / diodes_per_bundle * constants.plane + i] >> bit % diodes_per_bundle;
+  uint first = block * diodes_per_block;
+  return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
 // The paths from a sample over the reference point, in double.

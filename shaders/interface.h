@@ -57,7 +57,9 @@ PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
 
 // Specialization constants of the lit pass's shaders.
-PMDSIM_CONSTANT constant_lit_tiled = 0;   // 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_lit_tiled = 0;   // all that look at tags: 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_lit_lanes = 1;   // try: invocations that share a part
+PMDSIM_CONSTANT constant_lit_samples = 2; // try: samples of each
 PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
 PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
 PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window
@@ -200,7 +202,6 @@ struct Tone {
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
 PMDSIM_CONSTANT tile_side = 8;
 PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
-PMDSIM_CONSTANT samples_per_try = 4; // of a part, that one invocation tries candidates on
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
@@ -348,9 +349,7 @@ struct AccumulateConstants {
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
-  uvec2 reached;     // in, where shadowed: word[], bundle by bundle; the first diode is in the first word
-  uint first_bit;    // of the first diode
-  uint padding;
+  uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
 };
 
 // What the lit pass looks up about the scene.
@@ -466,7 +465,7 @@ static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeB
 static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 56 &&
               sizeof(BundleDiodes) == 16 * (1 + diodes_per_bundle));
 static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
-static_assert(sizeof(AccumulateConstants) == 128 && offsetof(AccumulateConstants, reference_hi) == 64);
+static_assert(sizeof(AccumulateConstants) == 120 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader
 #endif

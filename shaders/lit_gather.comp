@@ -69,9 +69,32 @@ bool is_beside(Occluder occluder, uint part_index, float reach_m) {
   return beside;
 }
 
+// Whether some diode of the box lies, seen from some sample of the part, on the inner side of the edge from `a` to `b`: the
+// largest value that edge_plane's function can take, det(a - P, b - a, D - a) up to its sign.
+bool may_be_inside(vec3 a, vec3 b, float side, TilePart part, DiodeBox box) {
+  vec3 edge = b - a;
+  vec3 points = a - 0.5 * (part.low.xyz + part.high.xyz), points_half = 0.5 * (part.high.xyz - part.low.xyz);
+  vec3 diodes = 0.5 * (box.low.xyz + box.high.xyz) - a, diodes_half = 0.5 * (box.high.xyz - box.low.xyz);
+  vec3 normal = cross(points, edge);
+  vec3 both = points_half.yzx * diodes_half.zxy + points_half.zxy * diodes_half.yzx;
+  float spread = dot(abs(normal), diodes_half) + dot(abs(cross(edge, diodes)), points_half) + dot(abs(edge), both);
+  float rounding = 2e-6 * (size_of(points) + size_of(points_half)) * size_of(edge) * (size_of(diodes) + size_of(diodes_half));
+  return side * dot(normal, diodes) + spread + rounding >= 0.0;
+}
+
+// The same for all three edges of an occluder that has the part wholly on one side.
+bool may_be_behind(Occluder occluder, TilePart part, DiodeBox box) {
+  Range points = heights(occluder.plane_hi, part.low.xyz, part.high.xyz);
+  if (occluder.body == no_body && points.low < 0.0 && points.high > 0.0)
+    return true;
+  float side = occluder.body != no_body || points.high <= 0.0 ? 1.0 : -1.0;
+  vec3 a = occluder.a_hi.xyz, b = occluder.b_hi.xyz, c = occluder.c_hi.xyz;
+  return may_be_inside(a, b, side, part, box) && may_be_inside(b, c, side, part, box) && may_be_inside(c, a, side, part, box);
+}
+
 bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, Own own, float world_rounding,
                inout uint steps) {
-  if (!is_between(occluder.plane_hi, occluder.body, part, box))
+  if (!is_between(occluder.plane_hi, occluder.body, part, box) || !may_be_behind(occluder, part, box))
     return false;
   if (!own.all_known)
     return true;

@@ -7,7 +7,8 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "lit_decide.glsl"
 
-layout(local_size_x = tile_samples / samples_per_try) in;
+layout(local_size_x_id = constant_lit_lanes) in;
+layout(constant_id = constant_lit_samples) const uint samples_per_lane = 8;
 
 void main() {
   // Before anything branches, so that lavapipe reads the diodes once for all lanes.
@@ -19,10 +20,10 @@ void main() {
   Work work = Work(constants.work);
   uint entry = work.list[tried_list(constants.part_count, constants.bundle) + gl_WorkGroupID.x];
   uint part = work.list[entry];
-  PartSample samples[samples_per_try];
-  float depth[samples_per_try][diodes_per_bundle]; // at least 0 behind a candidate, or behind the sample's own surface
-  [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
-    samples[s] = part_sample(part, s * (tile_samples / samples_per_try) + gl_LocalInvocationID.x, frame);
+  PartSample samples[samples_per_lane];
+  float depth[samples_per_lane][diodes_per_bundle]; // at least 0 behind a candidate, or behind the sample's own surface
+  [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
+    samples[s] = part_sample(part, s * (tile_samples / samples_per_lane) + gl_LocalInvocationID.x, frame);
     [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
       depth[s][d] = -affine_at(samples[s].surface, diodes[d]);
   }
@@ -33,14 +34,14 @@ void main() {
   uint count = candidates.at[first];
   for (uint k = 1; k <= count; ++k) {
     Occluder occluder = Occluders(scene.occluders).at[candidates.at[first + k]];
-    [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
+    [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
       Cone cone = cone_of(occluder, samples[s].point, frame, scene.world_rounding);
       [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
         depth[s][d] = max(depth[s][d], depth_in(cone, diodes[d]));
     }
   }
 
-  [[unroll]] for (uint s = 0; s < samples_per_try; ++s) {
+  [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
     uint reached = 0u;
     [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
       reached |= depth[s][d] >= 0.0 ? 0u : 1u << d;

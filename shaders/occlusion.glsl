@@ -27,48 +27,26 @@ struct Cone {
   vec4 ab, bc, ca, beyond;
 };
 
-float precise_dot(vec3 a, vec3 b) {
-  precise float x = a.x * b.x, y = a.y * b.y, z = a.z * b.z;
-  precise float sum = x + y + z;
-  return sum;
-}
-
 float affine_at(vec4 f, vec3 d) {
   precise float x = f.x * d.x, y = f.y * d.y, z = f.z * d.z;
   precise float sum = x + y + z + f.w;
   return sum;
 }
 
-vec3 precise_cross(vec3 a, vec3 b) {
-  precise vec3 left = a.yzx * b.zxy, right = a.zxy * b.yzx;
-  precise vec3 difference = left - right;
-  return difference;
-}
-
 float size_of(vec3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 
-// A corner or a point as the point of a sample and as the diodes see it.
-struct Place {
-  vec3 from_point, from_diodes;
-};
-
-Place place_of(vec3 hi, vec3 lo, LitPoint point, DiodeFrame frame) {
-  precise vec3 from_point = (hi - point.hi) + (lo - point.lo);
-  precise vec3 from_diodes = (hi - frame.centre) + lo;
-  return Place(from_point, from_diodes);
-}
-
-// The plane through the point and the edge between two corners, inside where it is positive. The edge is taken in the same
-// direction whichever triangle it belongs to, so that no light leaks between two that share it.
-vec4 edge_plane(Place from, Place to, Place point, bool turned, float side) {
-  vec3 start = turned ? to.from_point : from.from_point;
-  precise vec3 along = turned ? from.from_point - to.from_point : to.from_point - from.from_point;
-  vec3 normal = precise_cross(start, along);
-  // By the nearer of the places that it passes through, which rounds less.
-  vec3 corner = turned ? to.from_diodes : from.from_diodes;
-  float offset = -precise_dot(normal, size_of(point.from_diodes) < size_of(corner) ? point.from_diodes : corner);
+// The plane through the point and an edge, corners relative to the point, inside where it is positive. The edge is taken in
+// the same direction whichever triangle it belongs to, so that no light leaks between two that share it. `centre` is the
+// diodes', relative to the point.
+vec4 edge_plane(Real3 from, Real3 to, bool turned, float side, Real3 centre) {
+  Real3 start = from, end = to;
+  if (turned) {
+    start = to;
+    end = from;
+  }
+  Real3 normal = cross3(start, subtract3(end, start));
   float way = turned ? -side : side;
-  return vec4(way * normal, way * offset);
+  return vec4(way * high3(normal), way * high(dot3(normal, centre)));
 }
 
 const float pair_rounding = 2.3e-13; // 2^-42: a pair of floats holds 48 bits
@@ -91,14 +69,15 @@ float offset_from(Occluder occluder, DiodeFrame frame) {
 Cone cone_of(Occluder occluder, LitPoint point, DiodeFrame frame, float world_rounding) {
   float height = height_over(occluder, point, world_rounding);
   float side = height < 0.0 ? 1.0 : -1.0;
-  Place a = place_of(occluder.a_hi.xyz, occluder.a_lo.xyz, point, frame);
-  Place b = place_of(occluder.b_hi.xyz, occluder.b_lo.xyz, point, frame);
-  Place c = place_of(occluder.c_hi.xyz, occluder.c_lo.xyz, point, frame);
-  Place self = place_of(point.hi, point.lo, point, frame);
+  Real3 place = real3(point.hi, point.lo);
+  Real3 a = subtract3(real3(occluder.a_hi.xyz, occluder.a_lo.xyz), place);
+  Real3 b = subtract3(real3(occluder.b_hi.xyz, occluder.b_lo.xyz), place);
+  Real3 c = subtract3(real3(occluder.c_hi.xyz, occluder.c_lo.xyz), place);
+  Real3 centre = subtract3(real3(frame.centre, vec3(0.0)), place);
   Cone cone;
-  cone.ab = edge_plane(a, b, self, (occluder.edges & 1u) != 0u, side);
-  cone.bc = edge_plane(b, c, self, (occluder.edges & 2u) != 0u, side);
-  cone.ca = edge_plane(c, a, self, (occluder.edges & 4u) != 0u, side);
+  cone.ab = edge_plane(a, b, (occluder.edges & 1u) != 0u, side, centre);
+  cone.bc = edge_plane(b, c, (occluder.edges & 2u) != 0u, side, centre);
+  cone.ca = edge_plane(c, a, (occluder.edges & 4u) != 0u, side, centre);
   // A diode that the occluder touches is not behind it: by the rounding of `affine_at`, with some to spare.
   float offset = offset_from(occluder, frame);
   precise float beyond = -side * offset - 3e-7 * (abs(offset) + frame.reach) - world_rounding - 1e-30;

@@ -85,9 +85,16 @@ Real real(float hi, float lo) { return double(hi) + double(lo); }
 Real real(float a) { return double(a); }
 float high(Real a) { return float(a); }
 float rest(Real a) { return float(a - double(float(a))); }
-Real add(Real a, Real b) { return a + b; }
+// Never fused, so that two shaders that ask the same get the same answer.
+Real add(Real a, Real b) {
+  precise double sum = a + b;
+  return sum;
+}
 Real negate(Real a) { return -a; }
-Real multiply(Real a, Real b) { return a * b; }
+Real multiply(Real a, Real b) {
+  precise double product = a * b;
+  return product;
+}
 Real divide(Real a, Real b) { return a / b; }
 Real square_root(Real a) {
   // Vulkan leaves the error of a double's sqrt open: one Newton step makes it sure.

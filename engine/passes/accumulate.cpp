@@ -97,7 +97,7 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
 
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                                const Signal &signal, const SimulatorOptions &options)
-    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run),
+    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
       tones_(upload_tones(device, signal)),
       diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
@@ -112,15 +112,14 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 }
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, std::uint32_t first_diode, std::uint32_t first,
+                            const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
                             std::uint32_t last) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
     const DoublePair4 reference(runs_[run].reference_m, 0.0);
     const DoublePair phase_turns(runs_[run].phase_turns);
-    const std::uint32_t diode = runs_[run].first - first_diode;
-    const vk::DeviceSize bundle_bytes = vk::DeviceSize{plane} * sizeof(std::uint32_t);
+    const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
           words(buffers.position_hi.address()),
@@ -136,9 +135,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           reference.lo,
           {phase_turns.hi, phase_turns.lo},
           words(diagrams_.address()),
-          words(buffers.reached.address() + diode / shader::diodes_per_bundle * bundle_bytes),
-          diode % shader::diodes_per_bundle,
-          0};
+          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t))};
       (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
     }
   }

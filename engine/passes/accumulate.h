@@ -2,7 +2,7 @@
 // The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
-#include "engine/passes/diode_groups.h"
+#include "engine/passes/lit_windows.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
@@ -31,15 +31,15 @@ public:
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
-  // Adds the runs first ... last - 1 to the strip's sums. Where shadowed, buffers.reached begins with the
-  // diode `first_diode`.
+  // Adds the runs first ... last - 1 of the window to the strip's sums.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, std::uint32_t first_diode, std::uint32_t first,
+              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
               std::uint32_t last) const;
 
 private:
   std::vector<DiodeRun> runs_;
   std::uint32_t blocks_per_run_;
+  std::uint32_t bundles_per_run_;
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
   std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_;

@@ -1,18 +1,7 @@
 #include "engine/passes/lit.h"
 
 #include "engine/passes/occluder_tree.h"
-#include "engine/passes/sample_precision.h"
 #include "engine/vulkan/commands.h"
-#include "spirv/lit_count.h"
-#include "spirv/lit_gather_double_float.h"
-#include "spirv/lit_gather_fp64.h"
-#include "spirv/lit_open_double_float.h"
-#include "spirv/lit_open_fp64.h"
-#include "spirv/lit_tiles.h"
-#include "spirv/lit_trace_double_float.h"
-#include "spirv/lit_trace_fp64.h"
-#include "spirv/lit_try_double_float.h"
-#include "spirv/lit_try_fp64.h"
 
 #include <algorithm>
 
@@ -52,71 +41,64 @@ shader::LitWork no_work(std::uint32_t bundles) {
   return work;
 }
 
+bool may_have_holes(const Occluders &occluders) {
+  return std::ranges::any_of(occluders.shapes,
+                             [](const shader::Occluder &occluder) { return occluder.may_be_absent != 0; });
+}
+
+LitScene upload_scene(const vulkan::Device &device, const Occluders &occluders, const SceneBuffers &scene) {
+  const OccluderTree tree = build_tree(occluders.shapes);
+  const auto nodes = static_cast<std::uint32_t>(tree.nodes.size());
+  LitScene lit{nodes,
+               vulkan::upload(device, std::as_bytes(std::span(tree.occluders))),
+               vulkan::upload(device, std::as_bytes(std::span(tree.nodes))),
+               vulkan::upload(device, std::as_bytes(std::span(occluders.bodies))),
+               {}};
+  const shader::LitScene record{words(scene.planes.address()),
+                                words(lit.occluders.address()),
+                                words(lit.tree.address()),
+                                words(lit.bodies.address()),
+                                words(scene.paint.shapes.address()),
+                                words(scene.paint.surfaces.address()),
+                                nodes,
+                                static_cast<float>(scene.world_rounding_m)};
+  lit.record = vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
+  return lit;
+}
+
+LitDiodes upload_diodes(const vulkan::Device &device, const LitWindow &window, const DiodeGroups &groups) {
+  const WindowDiodes diodes = diodes_of(window, groups);
+  return {vulkan::upload(device, std::as_bytes(std::span(diodes.boxes))),
+          vulkan::upload(device, std::as_bytes(std::span(diodes.bundles))),
+          vulkan::upload(device, std::as_bytes(std::span(diodes.bits)))};
+}
+
 } // namespace
 
 LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
                  const std::vector<LitWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
     : windows_(windows), slots_(std::min(most_slots, most_parts(strips) * shader::bundles_per_window)),
-      bodies_(vulkan::upload(device, std::as_bytes(std::span(occluders.bodies)))) {
-  const OccluderTree tree = build_tree(occluders.shapes);
-  nodes_ = static_cast<std::uint32_t>(tree.nodes.size());
-  occluders_ = vulkan::upload(device, std::as_bytes(std::span(tree.occluders)));
-  tree_ = vulkan::upload(device, std::as_bytes(std::span(tree.nodes)));
-  using Usage = vk::BufferUsageFlagBits;
-  for (const LitWindow &window : windows_) {
-    const WindowDiodes diodes = diodes_of(window, groups);
-    diodes_.push_back({vulkan::upload(device, std::as_bytes(std::span(diodes.boxes))),
-                       vulkan::upload(device, std::as_bytes(std::span(diodes.bundles))),
-                       vulkan::upload(device, std::as_bytes(std::span(diodes.bits)))});
-    count_.emplace_back(device, shader::lit_count_spirv,
-                        static_cast<std::uint32_t>(sizeof(shader::LitCountConstants)),
-                        vulkan::Specialization{window.bundles, count_.empty() ? 1u : 0u});
-  }
-  const shader::LitScene record{words(scene.planes.address()),
-                                words(occluders_.address()),
-                                words(tree_.address()),
-                                words(bodies_.address()),
-                                words(scene.paint.shapes.address()),
-                                words(scene.paint.surfaces.address()),
-                                nodes_,
-                                static_cast<float>(scene.world_rounding_m)};
-  scene_ = vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
-  const vk::DeviceSize parts = most_parts(strips);
-  parts_ = storage(device, parts * sizeof(shader::TilePart));
-  work_ = storage(device, sizeof(shader::LitWork) + lists * parts * sizeof(std::uint32_t),
-                  Usage::eIndirectBuffer | Usage::eTransferDst);
-  candidates_ =
-      storage(device, vk::DeviceSize{slots_} * (shader::largest_candidates + 1) * sizeof(std::uint32_t));
-
-  const bool masked =
-      std::ranges::any_of(tree.occluders, [](const auto &occluder) { return occluder.may_be_absent != 0; });
-  const auto pipeline = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float,
-                            std::size_t constants, bool again = false) {
-    return vulkan::ComputePipeline(device, choose(device, precision, fp64, double_float),
-                                   static_cast<std::uint32_t>(constants),
-                                   {tiled ? 1u : 0u, masked ? 1u : 0u, again ? 1u : 0u});
-  };
-  tiles_ = pipeline(shader::lit_tiles_spirv, shader::lit_tiles_spirv, sizeof(shader::LitTilesConstants));
-  open_ = pipeline(shader::lit_open_fp64_spirv, shader::lit_open_double_float_spirv,
-                   sizeof(shader::LitGatherConstants));
-  gather_ = pipeline(shader::lit_gather_fp64_spirv, shader::lit_gather_double_float_spirv,
-                     sizeof(shader::LitGatherConstants));
-  try_ = pipeline(shader::lit_try_fp64_spirv, shader::lit_try_double_float_spirv,
-                  sizeof(shader::LitDecideConstants));
-  trace_ = pipeline(shader::lit_trace_fp64_spirv, shader::lit_trace_double_float_spirv,
-                    sizeof(shader::LitDecideConstants));
-  walk_ = pipeline(shader::lit_trace_fp64_spirv, shader::lit_trace_double_float_spirv,
-                   sizeof(shader::LitDecideConstants), true);
+      scene_(upload_scene(device, occluders, scene)),
+      parts_(storage(device, most_parts(strips) * sizeof(shader::TilePart))),
+      work_(storage(device,
+                    sizeof(shader::LitWork) +
+                        vk::DeviceSize{lists} * most_parts(strips) * sizeof(std::uint32_t),
+                    vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst)),
+      candidates_(
+          storage(device, vk::DeviceSize{slots_} * (shader::largest_candidates + 1) * sizeof(std::uint32_t))),
+      pipelines_(make_lit_pipelines(device, windows, tiled, may_have_holes(occluders), precision)) {
+  for (const LitWindow &window : windows_)
+    diodes_.push_back(upload_diodes(device, window, groups));
 }
 
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
   vulkan::compute_barrier(commands);
   const shader::LitTilesConstants constants{strip, words(buffers.position_hi.address()),
-                                            words(buffers.tags.address()), words(scene_.address()),
+                                            words(buffers.tags.address()), words(scene_.record.address()),
                                             words(parts_.address())};
-  tiles_.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
+  pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
 
 void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -124,15 +106,16 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   // Whoever used what is overwritten here is done.
-  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
-                         Stage::eTransfer, Access::eTransferWrite);
+  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
+                         Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
   const vk::DeviceSize words_bytes =
       vk::DeviceSize{windows_[window].bundles} * sample_count(strip) * sizeof(std::uint32_t);
   commands.fillBuffer(buffers.reached.get(), 0, words_bytes, ~0u);
   const shader::LitWork work = no_work(windows_[window].bundles);
   commands.updateBuffer<shader::LitWork>(work_.get(), 0, work);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
-                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  vulkan::memory_barrier(
+      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
+      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
   record_gather(commands, strip, buffers, window);
   record_decide(commands, strip, buffers, window);
   record_count(commands, strip, buffers, window);
@@ -145,16 +128,16 @@ void LitPass::record_gather(const vk::raii::CommandBuffer &commands, const shade
                                              words(buffers.position_hi.address()),
                                              words(buffers.tags.address()),
                                              words(parts_.address()),
-                                             words(scene_.address()),
+                                             words(scene_.record.address()),
                                              words(diodes_[window].boxes.address()),
                                              words(work_.address()),
                                              words(candidates_.address()),
                                              parts,
                                              windows_[window].bundles,
                                              slots_};
-  open_.dispatch(commands, constants, padded(parts), shader::workgroup_size);
+  pipelines_.open.dispatch(commands, constants, padded(parts), shader::workgroup_size);
   vulkan::compute_barrier(commands);
-  gather_.dispatch_indirect(commands, constants, work_, offsetof(shader::LitWork, open));
+  pipelines_.gather.dispatch_indirect(commands, constants, work_, offsetof(shader::LitWork, open));
 }
 
 void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -167,7 +150,7 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
         words(buffers.position_lo.address()),
         words(buffers.tags.address()),
         words(parts_.address()),
-        words(scene_.address()),
+        words(scene_.record.address()),
         words(diodes_[window].bundles.address() + bundle * sizeof(shader::BundleDiodes)),
         words(work_.address()),
         words(candidates_.address()),
@@ -177,17 +160,17 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
         windows_[window].bundles,
         parts_of(strip),
         0,
-        nodes_};
+        scene_.nodes};
     const auto at = [bundle](std::size_t list) { return list + bundle * sizeof(shader::Dispatch); };
-    try_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, tried)));
-    trace_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, traced)));
-    if (nodes_ <= shader::steps_per_walk)
+    pipelines_.attempt.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, tried)));
+    pipelines_.trace.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, traced)));
+    if (scene_.nodes <= shader::steps_per_walk)
       continue;
     vulkan::compute_barrier(commands);
-    for (std::uint32_t first = 0; first < nodes_; first += shader::steps_per_walk) {
+    for (std::uint32_t first = 0; first < scene_.nodes; first += shader::steps_per_walk) {
       constants.first_node = first;
-      constants.last_node = std::min(nodes_, first + shader::steps_per_walk);
-      walk_.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, walked)));
+      constants.last_node = std::min(scene_.nodes, first + shader::steps_per_walk);
+      pipelines_.walk.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, walked)));
     }
   }
 }
@@ -199,7 +182,7 @@ void LitPass::record_count(const vk::raii::CommandBuffer &commands, const shader
   const shader::LitCountConstants constants{words(buffers.reached.address()),
                                             words(diodes_[window].bits.address()),
                                             words(buffers.lit.address()), plane};
-  count_[window].dispatch(commands, constants, plane, shader::workgroup_size);
+  pipelines_.counts[window].dispatch(commands, constants, plane, shader::workgroup_size);
 }
 
 } // namespace pmdsim

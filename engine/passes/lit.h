@@ -2,16 +2,26 @@
 // The lit pass: which diodes reach which sample. Parts of tiles and bundles of diodes first, all at once and
 // never wrong; samples and diodes one by one only where that leaves a doubt.
 
-#include "engine/passes/lit_windows.h"
+#include "engine/passes/lit_pipelines.h"
 #include "engine/passes/occluders.h"
 #include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
-#include "engine/simulator_options.h"
-#include "engine/vulkan/compute_pipeline.h"
 
 #include <span>
 
 namespace pmdsim {
+
+// A window's diodes on the device.
+struct LitDiodes {
+  vulkan::Buffer boxes, bundles, bits; // as in WindowDiodes
+};
+
+// The scene on the device.
+struct LitScene {
+  std::uint32_t nodes; // of the tree
+  vulkan::Buffer occluders, tree, bodies;
+  vulkan::Buffer record; // shader::LitScene
+};
 
 class LitPass {
 public:
@@ -28,11 +38,6 @@ public:
               const StripBuffers &buffers, std::size_t window) const;
 
 private:
-  // A window's diodes on the device.
-  struct Diodes {
-    vulkan::Buffer boxes, bundles, bits;
-  };
-
   void record_gather(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                      const StripBuffers &buffers, std::size_t window) const;
   void record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -41,13 +46,11 @@ private:
                     const StripBuffers &buffers, std::size_t window) const;
 
   std::vector<LitWindow> windows_;
-  std::vector<Diodes> diodes_; // beside windows_
-  std::uint32_t nodes_;
-  std::uint32_t slots_;
-  vulkan::Buffer occluders_, tree_, bodies_, scene_;
+  std::vector<LitDiodes> diodes_; // beside windows_
+  std::uint32_t slots_;           // of candidates_
+  LitScene scene_;
   vulkan::Buffer parts_, work_, candidates_;
-  vulkan::ComputePipeline tiles_, open_, gather_, try_, trace_, walk_;
-  std::vector<vulkan::ComputePipeline> count_; // beside windows_
+  LitPipelines pipelines_;
 };
 
 } // namespace pmdsim

@@ -8,28 +8,23 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::uint32_t window_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
-
-std::uint32_t bundles_for(std::uint32_t diodes) {
-  return (diodes + shader::diodes_per_bundle - 1) / shader::diodes_per_bundle;
-}
-
-shader::DiodeBox around(std::span<const DiodePlace> places) {
-  glm::dvec3 low_m(std::numeric_limits<double>::infinity()), high_m(-low_m);
-  for (const DiodePlace &place : places) {
-    low_m = glm::min(low_m, place.position_m);
-    high_m = glm::max(high_m, place.position_m);
-  }
-  shader::DiodeBox box{};
+void add(shader::DiodeBox &box, const glm::dvec3 &position_m) {
   for (glm::length_t i = 0; i < 3; ++i) {
-    box.low[i] = std::nextafter(static_cast<float>(low_m[i]), -std::numeric_limits<float>::infinity());
-    box.high[i] = std::nextafter(static_cast<float>(high_m[i]), std::numeric_limits<float>::infinity());
+    const auto rounded = static_cast<float>(position_m[i]);
+    box.low[i] = std::min(box.low[i], std::nextafter(rounded, -std::numeric_limits<float>::infinity()));
+    box.high[i] = std::max(box.high[i], std::nextafter(rounded, std::numeric_limits<float>::infinity()));
   }
-  return box;
 }
+
+constexpr shader::DiodeBox empty_box{shader::vec4(std::numeric_limits<float>::max()),
+                                     shader::vec4(std::numeric_limits<float>::lowest())};
 
 void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
-  const shader::DiodeBox box = around(places);
+  shader::DiodeBox box = empty_box;
+  for (const DiodePlace &place : places) {
+    add(box, place.position_m);
+    add(diodes.boxes.front(), place.position_m);
+  }
   const glm::vec3 centre(0.5f * (box.low + box.high));
   shader::BundleDiodes bundle{};
   glm::vec3 reach_m(0.0f);
@@ -50,33 +45,40 @@ void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
 
 } // namespace
 
+std::uint32_t bundles_per_run(const DiodeGroups &groups) {
+  return (groups.blocks_per_run * shader::diodes_per_block - 1) / shader::diodes_per_bundle + 1;
+}
+
 LitWindow all_runs(const DiodeGroups &groups) {
-  return {0, static_cast<std::uint32_t>(groups.runs.size()), 0,
-          bundles_for(static_cast<std::uint32_t>(groups.diodes.size()))};
+  const auto runs = static_cast<std::uint32_t>(groups.runs.size());
+  return {0, runs, runs * bundles_per_run(groups)};
 }
 
 std::vector<LitWindow> plan_windows(const DiodeGroups &groups) {
-  const std::uint32_t run_diodes = groups.blocks_per_run * shader::diodes_per_block;
-  const std::uint32_t runs_per_window = std::max(1u, window_diodes / run_diodes);
+  const std::uint32_t runs_per_window = std::max(1u, shader::bundles_per_window / bundles_per_run(groups));
   const auto runs = static_cast<std::uint32_t>(groups.runs.size());
   std::vector<LitWindow> windows;
   for (std::uint32_t first = 0; first < runs; first += runs_per_window) {
     const std::uint32_t last = std::min(runs, first + runs_per_window);
-    windows.push_back({first, last, groups.runs[first].first, bundles_for((last - first) * run_diodes)});
+    windows.push_back({first, last, (last - first) * bundles_per_run(groups)});
   }
   return windows;
 }
 
+std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bundle,
+                                      const DiodeGroups &groups) {
+  const std::uint32_t run = window.first_run + bundle / bundles_per_run(groups);
+  const std::uint32_t within = bundle % bundles_per_run(groups) * shader::diodes_per_bundle;
+  const std::uint32_t left = groups.blocks_per_run * shader::diodes_per_block - within;
+  return std::span(groups.places)
+      .subspan(groups.runs[run].first + within, std::min(left, shader::diodes_per_bundle));
+}
+
 WindowDiodes diodes_of(const LitWindow &window, const DiodeGroups &groups) {
-  const std::span<const DiodePlace> from = std::span(groups.places).subspan(window.first_diode);
-  const auto of_window =
-      from.first(std::min<std::size_t>(from.size(), std::size_t{window.last_run - window.first_run} *
-                                                        groups.blocks_per_run * shader::diodes_per_block));
   WindowDiodes diodes;
-  diodes.boxes.push_back(around(of_window));
-  for (std::size_t i = 0; i < of_window.size(); i += shader::diodes_per_bundle)
-    add_bundle(diodes,
-               of_window.subspan(i, std::min<std::size_t>(shader::diodes_per_bundle, of_window.size() - i)));
+  diodes.boxes.push_back(empty_box);
+  for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
+    add_bundle(diodes, places_of(window, bundle, groups));
   return diodes;
 }
 

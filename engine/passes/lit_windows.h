@@ -4,16 +4,18 @@
 #include "engine/passes/diode_groups.h"
 #include "shaders/interface.h"
 
+#include <span>
 #include <vector>
 
 namespace pmdsim {
 
-// Whole runs of the accumulate pass.
+// Whole runs of the accumulate pass. A run begins with a bundle of its own.
 struct LitWindow {
   std::uint32_t first_run, last_run; // the latter excluded
-  std::uint32_t first_diode;         // index into DiodeGroups::diodes
-  std::uint32_t bundles;
+  std::uint32_t bundles;             // of all its runs
 };
+
+std::uint32_t bundles_per_run(const DiodeGroups &groups);
 
 // One for all runs.
 LitWindow all_runs(const DiodeGroups &groups);
@@ -21,7 +23,11 @@ LitWindow all_runs(const DiodeGroups &groups);
 // As many runs each as fit shader::bundles_per_window.
 std::vector<LitWindow> plan_windows(const DiodeGroups &groups);
 
-// What the shaders know of a window's diodes, for all windows alike in size.
+// The places of a bundle's diodes.
+std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bundle,
+                                      const DiodeGroups &groups);
+
+// What the shaders know of a window's diodes.
 struct WindowDiodes {
   std::vector<shader::DiodeBox> boxes; // around all, then around each bundle
   std::vector<shader::BundleDiodes> bundles;

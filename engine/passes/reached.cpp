@@ -24,6 +24,12 @@ std::size_t place_in_frame(const shader::Strip &strip, std::uint32_t subsample, 
   return row * strip.resolution_x * strip.samples + column;
 }
 
+void set_bits(std::uint32_t bundle, std::span<const DiodePlace> places, std::uint32_t *sample) {
+  for (std::size_t d = 0; d < places.size(); ++d)
+    if (const std::uint32_t number = places[d].number; number != no_id)
+      sample[number / 32] |= (bundle >> d & 1u) << number % 32;
+}
+
 } // namespace
 
 std::vector<std::uint32_t> none_reached(const Sensor &sensor, const DiodeGroups &groups) {
@@ -54,17 +60,12 @@ void store_reached(const shader::Strip &strip, const StripBuffers &buffers, cons
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
   std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);
-  const auto places = std::span(groups.places).subspan(window.first_diode);
-  const std::size_t diodes =
-      std::min<std::size_t>(places.size(), std::size_t{window.last_run - window.first_run} *
-                                               groups.blocks_per_run * shader::diodes_per_block);
   for (std::uint32_t subsample = 0; subsample < strip.samples * strip.samples; ++subsample)
     for (std::uint32_t pixel = 0; pixel < strip.columns * strip.rows; ++pixel) {
       const std::size_t i = std::size_t{subsample} * strip.padded_pixels + pixel;
-      std::uint32_t *sample = to.data() + place_in_frame(strip, subsample, pixel) * words;
-      for (std::size_t d = 0; d < diodes; ++d)
-        if (const std::uint32_t number = places[d].number; number != no_id)
-          sample[number / 32] |= (bits[d / 32 * plane + i] >> d % 32 & 1u) << number % 32;
+      std::uint32_t *const sample = to.data() + place_in_frame(strip, subsample, pixel) * words;
+      for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
+        set_bits(bits[bundle * plane + i], places_of(window, bundle, groups), sample);
     }
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+// The shaders of the lit pass, compiled for a device and a scene.
+
+#include "engine/passes/lit_windows.h"
+#include "engine/simulator_options.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+namespace pmdsim {
+
+struct LitPipelines {
+  vulkan::ComputePipeline tiles; // in the order in which they run
+  vulkan::ComputePipeline open;
+  vulkan::ComputePipeline gather;
+  vulkan::ComputePipeline attempt;
+  vulkan::ComputePipeline trace;
+  vulkan::ComputePipeline walk;                // `trace` of walks that were too long
+  std::vector<vulkan::ComputePipeline> counts; // of each window
+};
+
+// `tiled`: whether the tags lie in tiles (shaders/interface.h). `masked`: whether occluders may have holes.
+LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
+                                bool tiled, bool masked, SamplePrecision precision);
+
+} // namespace pmdsim
