@@ -13,8 +13,7 @@
 #include "spirv/lit_count.h"
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
-#include "spirv/lit_open_double_float.h"
-#include "spirv/lit_open_fp64.h"
+#include "spirv/lit_open.h"
 #include "spirv/lit_tiles.h"
 #include "spirv/lit_trace_double_float.h"
 #include "spirv/lit_trace_fp64.h"
@@ -203,8 +202,7 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
        MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns),
-       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
-       MEMBER(AccumulateConstants, first_bit), MEMBER(AccumulateConstants, padding)}}},
+       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position_hi),
@@ -252,8 +250,7 @@ const std::vector<Shader> shaders{
     {"search, fp64", search_fp64_spirv},
     {"search, float pairs", search_double_float_spirv},
     {"lit_tiles", lit_tiles_spirv},
-    {"lit_open, fp64", lit_open_fp64_spirv},
-    {"lit_open, float pairs", lit_open_double_float_spirv},
+    {"lit_open", lit_open_spirv},
     {"lit_gather, fp64", lit_gather_fp64_spirv},
     {"lit_gather, float pairs", lit_gather_double_float_spirv},
     {"lit_try, fp64", lit_try_fp64_spirv},

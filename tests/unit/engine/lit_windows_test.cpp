@@ -6,7 +6,9 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
+#include <span>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -36,19 +38,30 @@ std::uint32_t diodes_per_run(const DiodeGroups &groups) {
 
 // Every run in one window, in order, and no more bundles than there may be.
 void check_windows(const std::vector<LitWindow> &windows, const DiodeGroups &groups) {
+  REQUIRE(bundles_per_run(groups) * shader::diodes_per_bundle >= diodes_per_run(groups));
   std::uint32_t next_run = 0;
   for (const LitWindow &window : windows) {
     REQUIRE(window.first_run == next_run);
     REQUIRE(window.last_run > window.first_run);
     REQUIRE(window.last_run <= groups.runs.size());
     next_run = window.last_run;
-    REQUIRE(window.first_diode == groups.runs[window.first_run].first);
-    const std::uint32_t diodes = (window.last_run - window.first_run) * diodes_per_run(groups);
-    REQUIRE(window.bundles * shader::diodes_per_bundle >= diodes);
-    REQUIRE((window.bundles - 1) * shader::diodes_per_bundle < diodes);
+    REQUIRE(window.bundles == (window.last_run - window.first_run) * bundles_per_run(groups));
     REQUIRE(window.bundles <= shader::bundles_per_window);
   }
   CHECK(next_run == groups.runs.size());
+}
+
+// Its bundles hold the run's diodes one after the other.
+void check_bundles_of_run(const LitWindow &window, std::uint32_t run, const DiodeGroups &groups) {
+  std::uint32_t next = groups.runs[run].first;
+  for (std::uint32_t i = 0; i < bundles_per_run(groups); ++i) {
+    const auto places = places_of(window, (run - window.first_run) * bundles_per_run(groups) + i, groups);
+    REQUIRE(!places.empty());
+    REQUIRE(places.size() <= shader::diodes_per_bundle);
+    REQUIRE(places.data() == &groups.places[next]);
+    next += static_cast<std::uint32_t>(places.size());
+  }
+  REQUIRE(next == groups.runs[run].first + diodes_per_run(groups));
 }
 
 bool holds(const shader::DiodeBox &box, const glm::dvec3 &p) {
@@ -56,28 +69,34 @@ bool holds(const shader::DiodeBox &box, const glm::dvec3 &p) {
          glm::all(glm::lessThanEqual(p, glm::dvec3(box.high)));
 }
 
-// What is told of a window's diodes is true of each of them, `times` counts those that shine.
+// What is told of a bundle is true of each of its diodes; `times` counts those that shine.
+void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const shader::DiodeBox &box,
+                  std::span<const DiodePlace> places, std::vector<int> &times) {
+  for (std::uint32_t i = 0; i < shader::diodes_per_bundle; ++i) {
+    const DiodePlace &place = places[std::min<std::size_t>(i, places.size() - 1)]; // the last one again
+    const bool shines = (bits >> i & 1u) != 0;
+    REQUIRE(shines == (i < places.size() && place.number != no_id));
+    if (shines)
+      ++times[place.number];
+    const glm::dvec3 from_centre_m(bundle.places[i]);
+    REQUIRE(glm::distance(glm::dvec3(bundle.centre) + from_centre_m, place.position_m) <=
+            1e-7 * double(bundle.centre.w));
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      REQUIRE(std::abs(from_centre_m[axis]) <= double(bundle.centre.w) * (1.0 + 1e-6));
+    REQUIRE(holds(box, place.position_m));
+  }
+}
+
 void check_diodes(const LitWindow &window, const DiodeGroups &groups, std::vector<int> &times) {
   const WindowDiodes told = diodes_of(window, groups);
   REQUIRE(told.boxes.size() == window.bundles + 1);
   REQUIRE(told.bundles.size() == window.bundles);
   REQUIRE(told.bits.size() == window.bundles);
-  const std::uint32_t diodes = (window.last_run - window.first_run) * diodes_per_run(groups);
-  for (std::uint32_t i = 0; i < window.bundles * shader::diodes_per_bundle; ++i) {
-    const shader::BundleDiodes &bundle = told.bundles[i / shader::diodes_per_bundle];
-    const glm::dvec3 from_centre_m(bundle.places[i % shader::diodes_per_bundle]);
-    const bool shines = (told.bits[i / shader::diodes_per_bundle] >> i % shader::diodes_per_bundle & 1u) != 0;
-    const std::uint32_t at = window.first_diode + std::min(i, diodes - 1); // the last one again
-    const DiodePlace &place = groups.places[at];
-    REQUIRE(shines == (i < diodes && place.number != no_id));
-    if (shines)
-      ++times[place.number];
-    REQUIRE(glm::distance(glm::dvec3(bundle.centre) + from_centre_m, place.position_m) <=
-            1e-7 * double(bundle.centre.w));
-    for (glm::length_t axis = 0; axis < 3; ++axis)
-      REQUIRE(std::abs(from_centre_m[axis]) <= double(bundle.centre.w) * (1.0 + 1e-6));
-    REQUIRE(holds(told.boxes[0], place.position_m));
-    REQUIRE(holds(told.boxes[1 + i / shader::diodes_per_bundle], place.position_m));
+  for (std::uint32_t b = 0; b < window.bundles; ++b) {
+    const auto places = places_of(window, b, groups);
+    check_bundle(told.bundles[b], told.bits[b], told.boxes[b + 1], places, times);
+    for (const DiodePlace &place : places)
+      REQUIRE(holds(told.boxes[0], place.position_m));
   }
 }
 
@@ -91,8 +110,11 @@ TEST_CASE("windows hold whole runs and every diode once") {
         const auto windows = plan_windows(groups);
         check_windows(windows, groups);
         std::vector<int> times(groups.diode_count);
-        for (const LitWindow &window : windows)
+        for (const LitWindow &window : windows) {
+          for (std::uint32_t run = window.first_run; run < window.last_run; ++run)
+            check_bundles_of_run(window, run, groups);
           check_diodes(window, groups, times);
+        }
         CHECK(times == std::vector<int>(groups.diode_count, 1));
       }
 }
@@ -117,7 +139,7 @@ TEST_CASE("without shadows one window is all runs") {
   const LitWindow window = all_runs(groups);
   CHECK(window.first_run == 0);
   CHECK(window.last_run == groups.runs.size());
-  CHECK(window.first_diode == 0);
+  CHECK(window.bundles == groups.runs.size() * bundles_per_run(groups));
 }
 
 TEST_CASE("a bundle's box is not much larger than its diodes need") {
