@@ -13,8 +13,7 @@
 #include "spirv/lit_count.h"
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
-#include "spirv/lit_open_double_float.h"
-#include "spirv/lit_open_fp64.h"
+#include "spirv/lit_open.h"
 #include "spirv/lit_tiles.h"
 #include "spirv/lit_trace_double_float.h"
 #include "spirv/lit_trace_fp64.h"
@@ -140,7 +139,7 @@ const std::map<std::string, HostLayout> shadows{
       {MEMBER(Occluder, plane_hi), MEMBER(Occluder, plane_lo), MEMBER(Occluder, a_hi), MEMBER(Occluder, b_hi),
        MEMBER(Occluder, c_hi), MEMBER(Occluder, a_lo), MEMBER(Occluder, b_lo), MEMBER(Occluder, c_lo),
        MEMBER(Occluder, id), MEMBER(Occluder, edges), MEMBER(Occluder, may_be_absent),
-       MEMBER(Occluder, padding)}}},
+       MEMBER(Occluder, body)}}},
     {"TreeNode",
      {sizeof(TreeNode),
       {MEMBER(TreeNode, low_x), MEMBER(TreeNode, low_y), MEMBER(TreeNode, low_z), MEMBER(TreeNode, skip),
@@ -151,7 +150,7 @@ const std::map<std::string, HostLayout> shadows{
     {"TilePart",
      {sizeof(TilePart),
       {MEMBER(TilePart, low), MEMBER(TilePart, high), MEMBER(TilePart, nearest_m),
-       MEMBER(TilePart, farthest_m), MEMBER(TilePart, own), MEMBER(TilePart, padding),
+       MEMBER(TilePart, farthest_m), MEMBER(TilePart, own), MEMBER(TilePart, body),
        MEMBER(TilePart, own_ids)}}},
     {"Dispatch",
      {sizeof(Dispatch),
@@ -162,15 +161,15 @@ const std::map<std::string, HostLayout> shadows{
     {"LitScene",
      {sizeof(LitScene),
       {MEMBER(LitScene, planes), MEMBER(LitScene, occluders), MEMBER(LitScene, tree),
-       MEMBER(LitScene, shapes), MEMBER(LitScene, surfaces), MEMBER(LitScene, nodes),
-       MEMBER(LitScene, world_rounding)}}},
+       MEMBER(LitScene, bodies), MEMBER(LitScene, shapes), MEMBER(LitScene, surfaces),
+       MEMBER(LitScene, nodes), MEMBER(LitScene, world_rounding)}}},
 };
 
 const std::map<std::string, HostLayout> constants_of_shadows{
     {"LitTilesConstants",
      {sizeof(LitTilesConstants),
       {MEMBER(LitTilesConstants, strip), MEMBER(LitTilesConstants, position_hi),
-       MEMBER(LitTilesConstants, tags), MEMBER(LitTilesConstants, parts)}}},
+       MEMBER(LitTilesConstants, tags), MEMBER(LitTilesConstants, scene), MEMBER(LitTilesConstants, parts)}}},
     {"LitGatherConstants",
      {sizeof(LitGatherConstants),
       {MEMBER(LitGatherConstants, strip), MEMBER(LitGatherConstants, position_hi),
@@ -203,8 +202,7 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
        MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns),
-       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
-       MEMBER(AccumulateConstants, first_bit), MEMBER(AccumulateConstants, padding)}}},
+       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position_hi),
@@ -252,8 +250,7 @@ const std::vector<Shader> shaders{
     {"search, fp64", search_fp64_spirv},
     {"search, float pairs", search_double_float_spirv},
     {"lit_tiles", lit_tiles_spirv},
-    {"lit_open, fp64", lit_open_fp64_spirv},
-    {"lit_open, float pairs", lit_open_double_float_spirv},
+    {"lit_open", lit_open_spirv},
     {"lit_gather, fp64", lit_gather_fp64_spirv},
     {"lit_gather, float pairs", lit_gather_double_float_spirv},
     {"lit_try, fp64", lit_try_fp64_spirv},

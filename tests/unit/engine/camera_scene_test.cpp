@@ -95,7 +95,7 @@ TEST_CASE("planes turn to the lens, and hold their triangles") {
   }
 }
 
-TEST_CASE("what the lens cannot see is left out") {
+TEST_CASE("what the lens cannot see is kept apart, what has no area is left out") {
   SceneBuilder builder;
   builder.add_triangle({0, 0, 2}, {0, 1, 2}, {1, 0, 2});              // front
   builder.add_triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2});              // back, one-sided
@@ -106,6 +106,47 @@ TEST_CASE("what the lens cannot see is left out") {
   REQUIRE(camera.triangles.size() == 2);
   CHECK(camera.triangles[0].id == 0);
   CHECK(camera.triangles[1].id == 2);
+  CHECK(camera.planes.size() == 2);
+  REQUIRE(camera.hidden.size() == 2);
+  CHECK(camera.hidden[0].id == 1);
+  CHECK(camera.hidden[1].id == 3);
+  CHECK(camera.hidden[1].corners_m[2] == glm::dvec3(1, 0, 2));
+}
+
+TEST_CASE("every shape with an area is either seen or hidden, wherever it stands") {
+  Random random(34);
+  Sensor sensor;
+  sensor.world_from_camera = random.pose(5.0);
+  SceneBuilder builder(sensor.world_from_camera);
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 at = 3.0 * random.unit_vector(); // behind the lens as well
+    builder.add_triangle(at, at + random.unit_vector(), at + random.unit_vector(), {1.0, random.flip()});
+  }
+  const CameraScene camera = to_camera(builder.scene(), sensor);
+  CHECK(camera.hidden.size() > 50);
+  std::vector<int> times(300);
+  for (const auto *triangles : {&camera.triangles, &camera.hidden})
+    for (const CameraTriangle &triangle : *triangles)
+      ++times[triangle.id];
+  CHECK(times == std::vector<int>(300, 1));
+  for (const CameraTriangle &triangle : camera.hidden) {
+    CHECK_FALSE(builder.scene().surfaces[builder.scene().surface_of(triangle.id)].double_sided);
+    const auto front = front_plane(triangle.corners_m);
+    REQUIRE(front);
+    CHECK(front->offset_m > 0.0); // its front turns away from the lens
+  }
+}
+
+TEST_CASE("a disc faces the lens: it is seen, never hidden") {
+  Scene scene;
+  scene.positions_m = {{0, 0, -2}, {3, 1, 4}, {0, 0, 0}}; // before the lens, behind it, in it
+  scene.surfaces.emplace_back();
+  scene.objects.emplace_back("points");
+  for (std::uint32_t vertex = 0; vertex < 3; ++vertex)
+    scene.discs.push_back({vertex, 0.1, 0, 0});
+  const CameraScene camera = to_camera(scene, Sensor());
+  CHECK(camera.triangles.size() == 2);
+  CHECK(camera.hidden.empty());
 }
 
 TEST_CASE("an illuminator's diodes come into the camera frame with their axes and what lies across them") {

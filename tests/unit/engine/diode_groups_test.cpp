@@ -24,6 +24,29 @@ std::vector<Diode> ring(int count, double radius_m) {
 
 std::vector<CameraIlluminator> one(const std::vector<Diode> &diodes) { return {{diodes}}; }
 
+// Of scenes/paper_ring.
+std::vector<Diode> five_rings() {
+  std::vector<Diode> diodes;
+  for (int i = 0; i < 5; ++i)
+    for (const Diode &diode : ring(48, 0.126 + 0.01 * i))
+      diodes.push_back(diode);
+  return diodes;
+}
+
+// How much room the boxes around each bundle's diodes take: the sum of their diagonals.
+double bundle_diagonals_m(const std::vector<glm::dvec3> &positions_m) {
+  double sum_m = 0.0;
+  for (std::size_t first = 0; first < positions_m.size(); first += shader::diodes_per_bundle) {
+    glm::dvec3 low_m = positions_m[first], high_m = low_m;
+    for (std::size_t i = first; i < std::min(first + shader::diodes_per_bundle, positions_m.size()); ++i) {
+      low_m = glm::min(low_m, positions_m[i]);
+      high_m = glm::max(high_m, positions_m[i]);
+    }
+    sum_m += glm::distance(low_m, high_m);
+  }
+  return sum_m;
+}
+
 // The diodes of a run with light, put back to where they stand in the camera frame.
 std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
   std::vector<glm::dvec3> positions;
@@ -170,4 +193,47 @@ TEST_CASE("intensities are relative to the largest of all illuminators") {
   CHECK(groups.largest_intensity_w_sr == 4.0);
   CHECK(groups.diodes[groups.runs[0].first].intensity == 0.25f);
   CHECK(groups.diodes[groups.runs[1].first].intensity == 1.0f);
+}
+
+TEST_CASE("places name every diode of all illuminators once, and stand beside what the sum reads") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  for (const int count : {1, 15, 16, 17, 33, 257, 1000}) {
+    std::vector<CameraIlluminator> lights{{ring(count, 0.1)}, {ring(3, 0.2)}, {ring(count, 0.3)}};
+    for (Diode &diode : lights[2].diodes)
+      diode.position_m = {place(random), place(random), 0.1 * place(random)};
+    std::vector<glm::dvec3> positions_m;
+    for (const CameraIlluminator &light : lights)
+      for (const Diode &diode : light.diodes)
+        positions_m.push_back(diode.position_m);
+    const auto groups = group_diodes(lights, wall_at_2m, 30 * wavenumber_20mhz_rad_m);
+    REQUIRE(groups.diode_count == positions_m.size());
+    REQUIRE(groups.places.size() == groups.diodes.size());
+    std::vector<int> times(positions_m.size());
+    for (const DiodeRun &run : groups.runs)
+      for (std::uint32_t i = run.first; i < run.first + groups.blocks_per_run * shader::diodes_per_block;
+           ++i) {
+        const DiodePlace &at = groups.places[i];
+        REQUIRE((at.number == no_id) == (groups.diodes[i].intensity == 0.0f));
+        if (at.number == no_id)
+          continue;
+        REQUIRE(at.number < positions_m.size());
+        ++times[at.number];
+        REQUIRE(at.position_m == positions_m[at.number]);
+        REQUIRE(glm::distance(run.reference_m - 0.5 * glm::dvec3(groups.diodes[i].position), at.position_m) <
+                1e-6);
+      }
+    CHECK(times == std::vector<int>(positions_m.size(), 1));
+  }
+}
+
+TEST_CASE("diodes that share a bundle stand together") {
+  const std::vector<Diode> rings = five_rings();
+  const auto groups = group_diodes(one(rings), wall_at_2m, wavenumber_20mhz_rad_m);
+  std::vector<glm::dvec3> as_given_m, as_grouped_m;
+  for (const Diode &diode : rings)
+    as_given_m.push_back(diode.position_m);
+  for (const DiodePlace &place : groups.places)
+    as_grouped_m.push_back(place.position_m);
+  CHECK(bundle_diagonals_m(as_grouped_m) < 0.6 * bundle_diagonals_m(as_given_m));
 }

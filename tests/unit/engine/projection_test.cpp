@@ -18,7 +18,7 @@ Sensor small_sensor(glm::uvec2 resolution, std::uint32_t samples = 1) {
 }
 
 CameraScene one_triangle(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
-  return {{{{a, b, c}, 7}}, {{glm::dvec3(0, 0, -1), -1}}};
+  return {{{{a, b, c}, 7}}, {{glm::dvec3(0, 0, -1), -1}}, {}};
 }
 
 double signed_area(const std::vector<shader::RasterVertex> &vertices) {
