@@ -2,16 +2,12 @@
 // The time of the accumulate pass of several prepared simulators, in alternation, warm.
 
 #include "engine/simulator.h"
+#include "tests/bench/times.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace pmdsim::bench {
-
-struct Times {
-  double median_ms, min_ms, max_ms;
-};
 
 inline double accumulate_ms(const Measurement &measurement) {
   for (const PassTime &pass : measurement.passes)
@@ -27,10 +23,8 @@ inline std::vector<Times> accumulate_times(std::vector<Simulator> &simulators, i
       if (const double ms = accumulate_ms(simulators[i].measure()); round >= 0)
         times_ms[i].push_back(ms);
   std::vector<Times> result;
-  for (std::vector<double> &of_one : times_ms) {
-    std::ranges::sort(of_one);
-    result.push_back({of_one[of_one.size() / 2], of_one.front(), of_one.back()});
-  }
+  for (const std::vector<double> &of_one : times_ms)
+    result.push_back(spread(of_one));
   return result;
 }
 
