@@ -208,8 +208,9 @@ PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
 PMDSIM_CONSTANT largest_candidates =
     256; // that a part tries one by one; where there are more, rays are traced
-// lavapipe ends all loops of an invocation after 65,535 iterations, silently. Walks through the tree count
-// their steps, so that this never happens, and take at most two iterations a step.
+// lavapipe ends all loops of the invocations that share its vectors after 65,535 iterations together, silently. So walks
+// through the tree count their steps, at most two iterations each; whether a walk was too long is seen from where it ended,
+// whatever ended it; and those that must not be too long go step by step, side by side, so many nodes at a time.
 PMDSIM_CONSTANT steps_per_walk = 32000;
 PMDSIM_CONSTANT no_occluder = 0xffffffffu;
 PMDSIM_CONSTANT no_body = 0xffffffffu;

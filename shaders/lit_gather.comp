@@ -48,9 +48,9 @@ float rise_over(Own own, Occluder occluder, float world_rounding) {
   return rise;
 }
 
-// Whether any of the tile's samples on other shapes lies within `reach_m` of the occluder, seen along its normal. Light that comes from high
-// above passes over what hardly rises, but for the samples right beside it: so need no triangles be tried that are level
-// with their neighbours to the last bit but one.
+// Whether any of the tile's samples on other shapes lies within `reach_m` of the occluder, seen along its normal. Light from high
+// above passes over what hardly rises, but for the samples right beside it: so triangles that are level with their neighbours
+// to the last bit but one need not be tried.
 bool is_beside(Occluder occluder, uint part_index, float reach_m) {
   vec3 a = occluder.a_hi.xyz, b = occluder.b_hi.xyz, c = occluder.c_hi.xyz, normal = occluder.plane_hi.xyz;
   vec3 from_ab = normalize(cross(normal, b - a)), from_bc = normalize(cross(normal, c - b)),
@@ -63,7 +63,7 @@ bool is_beside(Occluder occluder, uint part_index, float reach_m) {
                             constants.strip.samples, tiled != 0);
     bool other = at.is_there && Tags(constants.tags).at[at.is_there ? tag_at : 0u].y != occluder.id;
     float inside_m = min(min(dot(from_ab, point - a), dot(from_bc, point - b)), dot(from_ca, point - c));
-    float rounding = 1e-6 * (abs(point.x) + abs(point.y) + abs(point.z));
+    float rounding = 1e-6 * (size_of(point) + size_of(a) + size_of(b) + size_of(c));
     beside = beside || (other && !(inside_m < -reach_m - rounding));
   }
   return beside;
@@ -78,7 +78,9 @@ bool may_be_inside(vec3 a, vec3 b, float side, TilePart part, DiodeBox box) {
   vec3 normal = cross(points, edge);
   vec3 both = points_half.yzx * diodes_half.zxy + points_half.zxy * diodes_half.yzx;
   float spread = dot(abs(normal), diodes_half) + dot(abs(cross(edge, diodes)), points_half) + dot(abs(edge), both);
-  float rounding = 2e-6 * (size_of(points) + size_of(points_half)) * size_of(edge) * (size_of(diodes) + size_of(diodes_half));
+  float p = size_of(points) + size_of(points_half), e = size_of(edge), d = size_of(diodes) + size_of(diodes_half);
+  float corners = 2e-7 * (size_of(a) + size_of(b)); // rounded to float
+  float rounding = 2e-6 * p * e * d + corners * (e * d + 2.0 * p * d + p * e);
   return side * dot(normal, diodes) + spread + rounding >= 0.0;
 }
 
@@ -116,7 +118,7 @@ uint gather(uint slot, uint part_index, TilePart part, DiodeBox box) {
   Words candidates = Words(constants.candidates);
   uint node = 0u, steps = 0u, count = 0u;
   while (node < scene.nodes && steps < steps_per_walk && count < too_many) {
-    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, steps_per_walk, node, steps);
     if (index != no_occluder) {
       Occluder occluder = Occluders(scene.occluders).at[index];
       if (may_block(occluder, part_index, part, box, own, scene.world_rounding, steps)) {

@@ -20,7 +20,7 @@ bool is_blocked_perhaps(TilePart part, DiodeBox box) {
   uint node = 0u, steps = 0u;
   bool perhaps = false;
   while (!perhaps && node < scene.nodes && steps < steps_per_walk) {
-    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, steps_per_walk, node, steps);
     if (index != no_occluder)
       perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, Occluders(scene.occluders).at[index].body, part, box);
   }

@@ -38,7 +38,8 @@ bool is_blocked(LitScene scene, LitPoint point, vec3 diode, DiodeFrame frame, in
   uint steps = 0u;
   bool blocked = false;
   while (!blocked && node < constants.last_node && steps < steps_per_walk) {
-    uint index = next_occluder(scene.tree, ray, constants.last_node, node, steps);
+    uint last_step = again != 0 ? steps + 1u : steps_per_walk; // again: all rays step by step together
+    uint index = next_occluder(scene.tree, ray, constants.last_node, last_step, node, steps);
     if (index != no_occluder)
       blocked = blocks(scene, Occluders(scene.occluders).at[index], point, diode, frame);
   }

@@ -26,7 +26,7 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
                                 const LitForm &form, SamplePrecision precision) {
   const std::uint32_t lanes = lanes_to_try(device);
   const auto pipeline = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float,
-                            std::size_t constants, vulkan::Specialization specialization) {
+                            std::size_t constants, const vulkan::Specialization &specialization) {
     return vulkan::ComputePipeline(device, choose(device, precision, fp64, double_float),
                                    static_cast<std::uint32_t>(constants), specialization);
   };
