@@ -1,10 +1,14 @@
 #include "engine/passes/convex_bodies.h"
 
+#include "engine/passes/camera_scene.h"
+#include "engine/passes/place_set.h"
 #include "engine/passes/welded_edges.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <unordered_map>
 
 namespace pmdsim {
 namespace {
@@ -28,7 +32,8 @@ private:
 struct Piece {
   glm::dvec3 low_m{std::numeric_limits<double>::infinity()}, high_m{-low_m};
   bool convex = true;
-  std::size_t vertices = 0, triangles = 0;
+  std::vector<glm::dvec3> vertices_m;
+  std::optional<PlaceSet> asked; // the same, once planes ask about them
 
   // Of float vertices, along each axis.
   double rounding_m() const { return 0x1p-22 * glm::length(high_m - low_m); }
@@ -37,22 +42,19 @@ struct Piece {
 class Mesh {
 public:
   explicit Mesh(const Scene &scene)
-      : scene_(scene), first_(first_at_same_place(scene.positions_m)), joined_(scene.positions_m.size()),
-        pieces_(scene.positions_m.size()) {
+      : scene_(scene), first_(first_at_same_place(scene.positions_m)), joined_(scene.positions_m.size()) {
     for (std::uint32_t id = 0; id < scene.triangles.size(); ++id)
       add(id);
-    count_vertices();
+    collect_vertices();
     check_edges();
+    check_planes();
   }
 
   std::vector<std::uint32_t> bodies() {
     std::vector<std::uint32_t> bodies(scene_.triangles.size(), no_id);
-    for (const std::uint32_t id : ids_) {
-      const Piece &piece = piece_of(id);
-      // Each edge is two triangles', so there are 3/2 as many; of a ball, vertices - edges + triangles = 2.
-      if (piece.convex && 2 * piece.vertices == piece.triangles + 4)
+    for (const std::uint32_t id : ids_)
+      if (piece_of(id).convex)
         bodies[id] = joined_.of(corner(id, 0));
-    }
     return bodies;
   }
 
@@ -75,24 +77,24 @@ private:
     joined_.join(b, c);
   }
 
-  void count_vertices() {
+  void collect_vertices() {
     std::vector<bool> used(scene_.positions_m.size());
     for (const std::uint32_t id : ids_) {
       Piece &piece = piece_of(id);
-      ++piece.triangles;
       const auto &paint = scene_.surfaces[scene_.triangles[id].surface].paint;
       piece.convex = piece.convex && !(paint && paint->alpha_cutoff > 0.0);
       for (std::uint32_t k = 0; k < 3; ++k) {
         piece.low_m = glm::min(piece.low_m, place(id, k));
         piece.high_m = glm::max(piece.high_m, place(id, k));
-        piece.vertices += used[corner(id, k)] ? 0u : 1u;
+        if (!used[corner(id, k)])
+          piece.vertices_m.push_back(place(id, k));
         used[corner(id, k)] = true;
       }
     }
   }
 
-  // Closed where each edge is that of two triangles that run along it in opposite directions, convex where
-  // none of the two rises over the other.
+  // Closed where each edge is that of two triangles that run along it in opposite directions; not convex
+  // where one of them rises over the other, which is seen quickly.
   void check_edges() {
     const std::vector<WeldedEdge> edges = welded_edges(scene_, ids_, first_);
     for (std::size_t i = 0; i < edges.size();) {
@@ -102,6 +104,19 @@ private:
       Piece &piece = piece_of(edges[i].triangle);
       piece.convex = piece.convex && end == i + 2 && are_convex(edges[i], edges[i + 1], piece.rounding_m());
       i = end;
+    }
+  }
+
+  // Convex where no vertex rises over any triangle.
+  void check_planes() {
+    for (const std::uint32_t id : ids_) {
+      Piece &piece = piece_of(id);
+      if (!piece.convex)
+        continue;
+      if (!piece.asked)
+        piece.asked.emplace(piece.vertices_m);
+      const auto plane = front_plane({place(id, 0), place(id, 1), place(id, 2)});
+      piece.convex = plane && !piece.asked->any_above(*plane, piece.rounding_m());
     }
   }
 
@@ -124,7 +139,7 @@ private:
   const Scene &scene_;
   std::vector<std::uint32_t> first_;
   Pieces joined_;
-  std::vector<Piece> pieces_; // by Pieces::of()
+  std::unordered_map<std::uint32_t, Piece> pieces_; // by Pieces::of()
   std::vector<std::uint32_t> ids_;
 };
 

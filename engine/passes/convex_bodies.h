@@ -9,8 +9,9 @@
 
 namespace pmdsim {
 
-// For each of the scene's triangles the body that it belongs to, or no_id. Convex to float rounding of the
-// vertices' places in the body; a triangle that may have holes belongs to none.
+// For each of the scene's triangles the body that it belongs to, or no_id. Convex where no vertex rises over
+// any triangle's plane by more than float rounding, relative to the body's size. A triangle that may have
+// holes belongs to none.
 std::vector<std::uint32_t> convex_bodies(const Scene &scene);
 
 } // namespace pmdsim

@@ -132,9 +132,17 @@ shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m
   return record;
 }
 
+std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
+  std::vector<NumberedDiode> all;
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes)
+      all.push_back({diode, static_cast<std::uint32_t>(all.size())});
+  return all;
+}
+
 // Brings `first` diodes to the front so that a plane across the longest side of their box parts them from the
 // rest.
-void part(std::span<NumberedDiode> diodes, std::size_t first) {
+void part_in_two(std::span<NumberedDiode> diodes, std::size_t first) {
   const Box box = box_of(diodes);
   const glm::dvec3 spread = box.high_m - box.low_m;
   const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
@@ -144,14 +152,14 @@ void part(std::span<NumberedDiode> diodes, std::size_t first) {
 
 // Orders a group's diodes so that those that share a bundle stand together: then they mostly reach the same
 // samples.
-void bundle(std::span<NumberedDiode> diodes) {
+void order_by_bundles(std::span<NumberedDiode> diodes) {
   if (diodes.size() <= shader::diodes_per_bundle)
     return;
   const std::size_t bundles = (diodes.size() - 1) / shader::diodes_per_bundle + 1;
   const std::size_t first = bundles / 2 * shader::diodes_per_bundle;
-  part(diodes, first);
-  bundle(diodes.first(first));
-  bundle(diodes.subspan(first));
+  part_in_two(diodes, first);
+  order_by_bundles(diodes.first(first));
+  order_by_bundles(diodes.subspan(first));
 }
 
 class Grouping {
@@ -163,11 +171,11 @@ public:
   void split(std::span<NumberedDiode> diodes, double phase_turns) {
     const Group group = group_of(diodes, phase_turns, visible_);
     if (is_small_enough(group)) {
-      bundle(diodes);
+      order_by_bundles(diodes);
       groups_.push_back(group);
       return;
     }
-    part(diodes, diodes.size() / 2);
+    part_in_two(diodes, diodes.size() / 2);
     split(diodes.first(diodes.size() / 2), phase_turns);
     split(diodes.subspan(diodes.size() / 2), phase_turns);
   }
@@ -229,18 +237,6 @@ std::uint32_t moments_needed(double phase_rad) {
     term *= phase_rad / ++k;
   return k;
 }
-
-namespace {
-
-std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
-  std::vector<NumberedDiode> all;
-  for (const CameraIlluminator &illuminator : illuminators)
-    for (const Diode &diode : illuminator.diodes)
-      all.push_back({diode, static_cast<std::uint32_t>(all.size())});
-  return all;
-}
-
-} // namespace
 
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {

@@ -14,7 +14,7 @@ struct Occluders {
   std::vector<std::uint32_t> bodies;    // for each of the scene's shapes its convex body, or no_id
 };
 
-// Convex bodies that may have the lens or diodes inside do not count as such.
+// Convex bodies whose box meets that around the lens and all diodes do not count as such.
 Occluders find_occluders(const CameraScene &camera, const Scene &scene,
                          const std::vector<CameraIlluminator> &illuminators);
 
