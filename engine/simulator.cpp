@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <variant>
 
@@ -125,6 +126,11 @@ void finish_lit(const Prepared &prepared, Measurement &measurement) {
     clear_unseen(measurement);
 }
 
+// The first, a later one and the last, which may be shorter.
+std::set<std::size_t> windows_to_warm(std::size_t count) {
+  return {0, std::min<std::size_t>(1, count - 1), count - 1};
+}
+
 } // namespace
 
 struct Simulator::State {
@@ -135,7 +141,8 @@ struct Simulator::State {
   void warm_up();
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
   void see(const PlannedStrip &planned);
-  void light(const PlannedStrip &planned, std::size_t window, std::vector<std::uint32_t> &reached);
+  void light(const PlannedStrip &planned, std::size_t window);
+  void keep_reached(const PlannedStrip &planned, std::size_t window, std::vector<std::uint32_t> &reached);
   void sum(const PlannedStrip &planned, const LitWindow &window, const Progress &progress);
   void resolve(const PlannedStrip &planned);
 
@@ -162,15 +169,16 @@ void Simulator::State::see(const PlannedStrip &planned) {
 }
 
 // Which diodes of the window reach the strip's samples.
-void Simulator::State::light(const PlannedStrip &planned, std::size_t window,
-                             std::vector<std::uint32_t> &reached) {
+void Simulator::State::light(const PlannedStrip &planned, std::size_t window) {
   const LitPass &lit = *prepared->lit;
   if (window == 0)
     lit.record_tiles(recorder.commands(), planned.strip, prepared->buffers);
   lit.record(recorder.commands(), planned.strip, prepared->buffers, window);
   recorder.end_pass("lit");
-  if (!options.keep_reached)
-    return;
+}
+
+void Simulator::State::keep_reached(const PlannedStrip &planned, std::size_t window,
+                                    std::vector<std::uint32_t> &reached) {
   record_reached(recorder.commands(), planned.strip, prepared->buffers, prepared->windows[window]);
   recorder.finish();
   store_reached(planned.strip, prepared->buffers, prepared->windows[window], prepared->groups, reached);
@@ -208,12 +216,11 @@ void Simulator::State::warm_up() {
   pixel.strip.padded_pixels = padded(1);
   recorder.begin();
   see(pixel);
-  std::vector<std::uint32_t> reached = none_reached(prepared->sensor, prepared->groups);
-  for (std::size_t i = 0; i < std::min<std::size_t>(prepared->windows.size(), 2); ++i) {
+  for (const std::size_t i : windows_to_warm(prepared->windows.size())) {
     LitWindow window = prepared->windows[i];
     window.last_run = std::min(window.last_run, window.first_run + 2);
     if (prepared->lit)
-      light(pixel, i, reached);
+      light(pixel, i);
     sum(pixel, window, [](double) {});
   }
   resolve(pixel);
@@ -226,7 +233,9 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
   see(planned);
   for (std::size_t i = 0; i < prepared->windows.size(); ++i) {
     if (prepared->lit)
-      light(planned, i, measurement.sample_reached);
+      light(planned, i);
+    if (prepared->lit && options.keep_reached)
+      keep_reached(planned, i, measurement.sample_reached);
     sum(planned, prepared->windows[i], progress);
   }
   resolve(planned);

@@ -206,11 +206,13 @@ PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
-PMDSIM_CONSTANT largest_candidates =
-    256; // that a part tries one by one; where there are more, rays are traced
-// lavapipe ends all loops of the invocations that share its vectors after 65,535 iterations together, silently. So walks
-// through the tree count their steps, at most two iterations each; whether a walk was too long is seen from where it ended,
-// whatever ended it; and those that must not be too long go step by step, side by side, so many nodes at a time.
+PMDSIM_CONSTANT parts_per_tile = 2;
+// That a part tries one by one; where there are more, rays are traced.
+PMDSIM_CONSTANT largest_candidates = 256;
+PMDSIM_CONSTANT candidate_words = largest_candidates + 1; // of a part; their number comes first
+// lavapipe ends the loops of the invocations that share its vectors after 65,535 iterations of all of them together,
+// silently. So a walk through the tree counts its steps; whether it was too long is seen from where it ended,
+// whatever ended it; and a walk that must not be too long is a single loop over so many nodes.
 PMDSIM_CONSTANT steps_per_walk = 32000;
 PMDSIM_CONSTANT no_occluder = 0xffffffffu;
 PMDSIM_CONSTANT no_body = 0xffffffffu;
@@ -243,7 +245,7 @@ struct DiodeBox {
 // The diodes of a bundle from a place among them, m.
 struct BundleDiodes {
   vec4 centre;                    // camera frame; w: how far they stand from it at most, along each axis
-  vec4 places[diodes_per_bundle]; // where there are fewer, the last one again
+  vec4 places[diodes_per_bundle]; // where there are fewer, the last one again; w: 1 of a diode that shines
 };
 
 // Samples of a tile that lie at similar depths. A tile has two parts, one of them empty where it is all of
@@ -256,19 +258,27 @@ struct TilePart {
   uint own_ids[own_shapes];
 };
 
-// Arguments of an indirect dispatch, and how many entries the list has that it is over.
+// What is left to do, in lists of tiles' parts: `open`, whose light something may block; and of each bundle of
+// the window the parts that try candidates, those that trace rays, and those of which a ray was too long and
+// walks again.
+PMDSIM_CONSTANT list_open = 0;
+PMDSIM_CONSTANT list_tried = 1; // of the first bundle; those of the others follow
+PMDSIM_CONSTANT list_traced = list_tried + bundles_per_window;
+PMDSIM_CONSTANT list_walked = list_traced + bundles_per_window;
+PMDSIM_CONSTANT list_said = list_walked + bundles_per_window; // lit_trace.comp
+PMDSIM_CONSTANT lists = list_said + 1;
+PMDSIM_CONSTANT workgroups_per_row = 32768; // of an indirect dispatch along x; devices may end at 65,535
+
+// Arguments of the indirect dispatch over a list: a workgroup a part along x and then z; over `open` an
+// invocation a part.
 struct Dispatch {
   uint x, y, z;
-  uint count;
+  uint count; // of the list
 };
 
-// What is left to do. The lists follow in words, each as long as there are parts: open; tried, traced and
-// long of each bundle.
+// The lists follow in words, each as long as there are parts.
 struct LitWork {
-  Dispatch open;                       // parts whose light something may block
-  Dispatch tried[bundles_per_window];  // entries of the list `open` that try candidates
-  Dispatch traced[bundles_per_window]; // that trace rays
-  Dispatch walked[bundles_per_window]; // of which a ray took more than steps_per_walk
+  Dispatch list[lists];
 };
 
 // Where the strip of pixels that is being computed lies in the frame.
@@ -382,10 +392,10 @@ struct LitGatherConstants {
   uvec2 scene;      // in: LitScene
   uvec2 boxes;      // in: DiodeBox of the window, then of its bundles
   uvec2 work;       // in and out: LitWork and its lists
-  uvec2 candidates; // out: for each entry of `open` and bundle the number of candidates and these, occluders
+  uvec2 candidates; // out: candidate_words of each part
   uint part_count;
-  uint bundles; // of the window
-  uint slots;   // that `candidates` has room for
+  uint bundle; // of the window; open: not asked
+  uint slots;  // parts that `candidates` has room for; further ones trace rays
 };
 
 struct LitDecideConstants {
@@ -400,9 +410,8 @@ struct LitDecideConstants {
   uvec2 candidates; // in, try
   uvec2 reached;    // in and out: the bundle's word of each sample
   uint bundle;      // of the window
-  uint bundles;
   uint part_count;
-  uint first_node, last_node; // trace: of the walk
+  uint first_node, last_node; // trace: of a walk that must not be too long
 };
 
 struct LitCountConstants {
@@ -448,7 +457,7 @@ PMDSIM_CONSTANT channel_distance_m = 2;
 PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
-static_assert(2 * steps_per_walk < 65535);
+static_assert(steps_per_walk < 65535);
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 80);
@@ -464,9 +473,9 @@ static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) 
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
               sizeof(TilePart) == 112);
-static_assert(sizeof(LitWork) == 16 * (1 + 3 * bundles_per_window) && sizeof(LitScene) == 56 &&
+static_assert(sizeof(LitWork) == 16 * lists && sizeof(LitScene) == 56 &&
               sizeof(BundleDiodes) == 16 * (1 + diodes_per_bundle));
-static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
+static_assert(sizeof(LitDecideConstants) == 120 && offsetof(LitDecideConstants, position_hi) == 32);
 static_assert(sizeof(AccumulateConstants) == 120 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader

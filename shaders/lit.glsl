@@ -13,8 +13,6 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer Work {
 
 uint body_of(uvec2 scene, uint id) { return Words(LitScenes(scene).at.bodies).at[id]; }
 
-const uint parts_per_tile = 2;
-
 uvec2 tiles_of(Strip strip) { return (uvec2(strip.columns, strip.rows) + tile_side - 1u) / tile_side; }
 
 // A sample of a tile: whether it is there, in the strip's pixels, and its index.
@@ -36,13 +34,30 @@ TileSample tile_sample(Strip strip, uint tile, uint within) {
                     is_there ? subsample * strip.padded_pixels + pixel.y * strip.columns + pixel.x : 0u);
 }
 
-// Where the lists begin, each of `parts` words.
-uint tried_list(uint parts, uint bundle) { return parts * (1u + bundle); }
-uint traced_list(uint parts, uint bundle) { return parts * (1u + bundles_per_window + bundle); }
-uint walked_list(uint parts, uint bundle) { return parts * (1u + 2u * bundles_per_window + bundle); }
+uint entry_of(uvec2 work, uint list, uint parts, uint entry) { return Work(work).list[list * parts + entry]; }
 
-// Of an entry of `open` and a bundle: the number of candidates comes first.
-uint candidate_slot(uint entry, uint bundles, uint bundle) { return entry * bundles + bundle; }
-const uint slot_words = largest_candidates + 1;
+// Adds a part to a list over which a workgroup a part will run.
+void append(uvec2 work, uint list, uint parts, uint part) {
+  Work to = Work(work);
+  uint entry = atomicAdd(to.at.list[list].count, 1u);
+  to.list[list * parts + entry] = part;
+  atomicMax(to.at.list[list].x, min(entry + 1u, workgroups_per_row));
+  atomicMax(to.at.list[list].z, entry / workgroups_per_row + 1u);
+}
+
+const uint no_part = 0xffffffffu;
+
+// The part of this workgroup, or no_part.
+uint part_of_workgroup(uvec2 work, uint list, uint parts) {
+  uint entry = gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.x;
+  return entry < Work(work).at.list[list].count ? entry_of(work, list, parts, entry) : no_part;
+}
+
+// What the sample sees, 0 where it is not there.
+uint shape_of(TileSample at, Strip strip, uvec2 tags, bool tiled) {
+  uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled);
+  uint id = Tags(tags).at[at.is_there ? tag_at : 0u].y;
+  return at.is_there ? id : 0u;
+}
 
 #endif

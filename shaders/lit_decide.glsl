@@ -21,12 +21,10 @@ PartSample part_sample(uint part_index, uint within, DiodeFrame frame) {
   Strip strip = constants.strip;
   TileSample at = tile_sample(strip, part_index / parts_per_tile, within);
   vec3 hi = load_vec3(constants.position_hi, at.i), lo = load_vec3(constants.position_lo, at.i);
-  uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
-  uvec2 tag = Tags(constants.tags).at[at.is_there ? tag_at : 0u];
   Parts parts = Parts(constants.parts);
   bool is_there = at.is_there && hi != vec3(0.0) && hi.z >= parts.at[part_index].nearest_m &&
                   hi.z < parts.at[part_index].farthest_m;
-  uint id = is_there ? tag.y : 0u;
+  uint id = is_there ? shape_of(at, strip, constants.tags, tiled != 0) : 0u;
   TrianglePlane plane = Planes(LitScenes(constants.scene).at.planes).at[id];
   Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = add(dot3(normal, real3(frame.centre, vec3(0.0))), negate(real(plane.plane_hi.w, plane.plane_lo.w)));

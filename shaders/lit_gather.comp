@@ -9,7 +9,7 @@
 
 layout(constant_id = constant_lit_tiled) const uint tiled = 0;
 
-const uint too_many = largest_candidates + 1;
+const uint too_many = largest_candidates + 1u;
 
 // The surfaces of a part, and what is known of the bundle over them.
 struct Own {
@@ -56,17 +56,16 @@ bool is_beside(Occluder occluder, uint part_index, float reach_m) {
   vec3 from_ab = normalize(cross(normal, b - a)), from_bc = normalize(cross(normal, c - b)),
        from_ca = normalize(cross(normal, a - c));
   bool beside = false;
-  for (uint within = 0; within < tile_samples; ++within) {
+  uint asked = 0u;
+  for (uint within = 0; within < tile_samples; ++within, ++asked) {
     TileSample at = tile_sample(constants.strip, part_index / parts_per_tile, within);
     vec3 point = load_vec3(constants.position_hi, at.i);
-    uint tag_at = tag_index(at.pixel, at.subsample, uvec2(constants.strip.columns, constants.strip.rows),
-                            constants.strip.samples, tiled != 0);
-    bool other = at.is_there && Tags(constants.tags).at[at.is_there ? tag_at : 0u].y != occluder.id;
+    bool other = at.is_there && shape_of(at, constants.strip, constants.tags, tiled != 0) != occluder.id;
     float inside_m = min(min(dot(from_ab, point - a), dot(from_bc, point - b)), dot(from_ca, point - c));
     float rounding = 1e-6 * (size_of(point) + size_of(a) + size_of(b) + size_of(c));
     beside = beside || (other && !(inside_m < -reach_m - rounding));
   }
-  return beside;
+  return beside || asked < tile_samples; // where lavapipe ended the loop (interface.h)
 }
 
 // Whether some diode of the box lies, seen from some sample of the part, on the inner side of the edge from `a` to `b`: the
@@ -110,21 +109,21 @@ bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, 
   return is_beside(occluder, part_index, slope * own.farthest_m);
 }
 
-// Stores the candidates of a slot and returns how many they are, or too_many.
-uint gather(uint slot, uint part_index, TilePart part, DiodeBox box) {
+// Stores the part's candidates and returns how many they are, or too_many.
+uint gather(uint part_index, TilePart part, DiodeBox box) {
   LitScene scene = LitScenes(constants.scene).at;
   Own own = own_of(part, box);
   Shaft shaft = shaft_of(part, box);
   Words candidates = Words(constants.candidates);
   uint node = 0u, steps = 0u, count = 0u;
   while (node < scene.nodes && steps < steps_per_walk && count < too_many) {
-    uint index = next_occluder(scene.tree, shaft, scene.nodes, steps_per_walk, node, steps);
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
     if (index != no_occluder) {
       Occluder occluder = Occluders(scene.occluders).at[index];
       if (may_block(occluder, part_index, part, box, own, scene.world_rounding, steps)) {
         count = occluder.may_be_absent != 0u ? too_many : count + 1u;
         if (count < too_many)
-          candidates.at[slot * slot_words + count] = index;
+          candidates.at[part_index * candidate_words + count] = index;
       }
     }
   }
@@ -132,19 +131,17 @@ uint gather(uint slot, uint part_index, TilePart part, DiodeBox box) {
 }
 
 void main() {
-  uint entry = gl_GlobalInvocationID.x, bundle = gl_WorkGroupID.y;
-  Work work = Work(constants.work);
-  if (entry >= work.at.open.count)
+  uint entry = gl_GlobalInvocationID.x;
+  if (entry >= Work(constants.work).at.list[list_open].count)
     return;
-  uint part_index = work.list[entry];
+  uint part_index = entry_of(constants.work, list_open, constants.part_count, entry);
   TilePart part = Parts(constants.parts).at[part_index];
-  DiodeBox box = DiodeBoxes(constants.boxes).at[1u + bundle];
-  uint slot = candidate_slot(entry, constants.bundles, bundle);
-  uint count = slot < constants.slots ? gather(slot, part_index, part, box) : too_many;
-  if (count == too_many) {
-    work.list[traced_list(constants.part_count, bundle) + atomicAdd(work.at.traced[bundle].x, 1u)] = entry;
-  } else if (count > 0u || lowest_diode(part, box) <= 0.0) {
-    Words(constants.candidates).at[slot * slot_words] = count;
-    work.list[tried_list(constants.part_count, bundle) + atomicAdd(work.at.tried[bundle].x, 1u)] = entry;
-  }
+  DiodeBox box = DiodeBoxes(constants.boxes).at[1u + constants.bundle];
+  uint count = part_index < constants.slots ? gather(part_index, part, box) : too_many;
+  if (count == too_many)
+    append(constants.work, list_traced + constants.bundle, constants.part_count, part_index);
+  if (count == too_many || (count == 0u && lowest_diode(part, box) > 0.0))
+    return;
+  Words(constants.candidates).at[part_index * candidate_words] = count;
+  append(constants.work, list_tried + constants.bundle, constants.part_count, part_index);
 }

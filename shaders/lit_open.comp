@@ -9,9 +9,9 @@
 
 void append_open(uint part) {
   Work work = Work(constants.work);
-  uint entry = atomicAdd(work.at.open.count, 1u);
-  work.list[entry] = part;
-  atomicMax(work.at.open.x, entry / workgroup_size + 1u);
+  uint entry = atomicAdd(work.at.list[list_open].count, 1u);
+  work.list[list_open * constants.part_count + entry] = part;
+  atomicMax(work.at.list[list_open].x, entry / workgroup_size + 1u);
 }
 
 bool is_blocked_perhaps(TilePart part, DiodeBox box) {
@@ -20,7 +20,7 @@ bool is_blocked_perhaps(TilePart part, DiodeBox box) {
   uint node = 0u, steps = 0u;
   bool perhaps = false;
   while (!perhaps && node < scene.nodes && steps < steps_per_walk) {
-    uint index = next_occluder(scene.tree, shaft, scene.nodes, steps_per_walk, node, steps);
+    uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
     if (index != no_occluder)
       perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, Occluders(scene.occluders).at[index].body, part, box);
   }

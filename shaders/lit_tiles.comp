@@ -88,9 +88,8 @@ void main() {
   TilePart near = empty_part(-infinity, middle_m), far = empty_part(middle_m, infinity);
   for (uint within = 0; within < tile_samples; ++within) {
     TileSample at = tile_sample(strip, tile, within);
-    uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
     vec3 point = point_of(tile, within);
-    uint id = point != vec3(0.0) ? Tags(constants.tags).at[at.is_there ? tag_at : 0u].y : 0u;
+    uint id = point != vec3(0.0) ? shape_of(at, strip, constants.tags, tiled != 0) : 0u;
     uint body = body_of(constants.scene, id);
     add_sample(near, point, id, body);
     add_sample(far, point, id, body);

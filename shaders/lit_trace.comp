@@ -30,47 +30,75 @@ bool blocks(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, Diode
   return between;
 }
 
-// Whether any occluder from `node` on stands in the way. Else `node` is where the walk ended.
-bool is_blocked(LitScene scene, LitPoint point, vec3 diode, DiodeFrame frame, inout uint node) {
-  vec3 rounding = 1.2e-7 * abs(point.hi);
-  vec3 place = frame.centre + diode, place_rounding = 1.2e-7 * (abs(frame.centre) + abs(diode));
-  Shaft ray = shaft_between(point.hi - rounding, point.hi + rounding, place - place_rounding, place + place_rounding);
+// What a walk comes to: an occluder in the way, or the node where it ended.
+struct Walk {
+  bool blocked;
+  uint node;
+};
+
+// From the tree's root, `steps_per_walk` steps at most.
+Walk walk_through(LitScene scene, LitPoint point, vec3 diode, DiodeFrame frame, Shaft ray) {
+  Walk walk = Walk(false, 0u);
   uint steps = 0u;
-  bool blocked = false;
-  while (!blocked && node < constants.last_node && steps < steps_per_walk) {
-    uint last_step = again != 0 ? steps + 1u : steps_per_walk; // again: all rays step by step together
-    uint index = next_occluder(scene.tree, ray, constants.last_node, last_step, node, steps);
+  while (!walk.blocked && walk.node < scene.nodes && steps < steps_per_walk) {
+    uint index = next_occluder(scene.tree, ray, scene.nodes, walk.node, steps);
     if (index != no_occluder)
-      blocked = blocks(scene, Occluders(scene.occluders).at[index], point, diode, frame);
+      walk.blocked = blocks(scene, Occluders(scene.occluders).at[index], point, diode, frame);
+  }
+  return walk;
+}
+
+// The same between two nodes, in a single loop, which no other ray's steps can make longer.
+bool is_blocked_between(uint first, uint last, LitScene scene, LitPoint point, vec3 diode, DiodeFrame frame, Shaft ray) {
+  bool blocked = false;
+  uint node = first;
+  while (!blocked && node < last) {
+    TreeNode box = Tree(scene.tree).at[node];
+    bool met = may_meet(ray, box);
+    if (met && box.occluder != no_occluder)
+      blocked = blocks(scene, Occluders(scene.occluders).at[box.occluder], point, diode, frame);
+    node = met ? node + 1u : box.skip;
   }
   return blocked;
 }
 
-const uint walked_again = 0x80000000u;
+// Wide enough that whatever `blocks` takes to be in between is met.
+Shaft ray_of(LitPoint point, vec3 diode, DiodeFrame frame) {
+  vec3 place = frame.centre + diode;
+  vec3 rounding = vec3(4e-7 * size_of(point.hi)), place_rounding = rounding + 4e-7 * (frame.reach + size_of(frame.centre));
+  return shaft_between(point.hi - rounding, point.hi + rounding, place - place_rounding, place + place_rounding);
+}
 
-// The part of the entry at `from` in the list of the traced ones has to be walked again; it is enough to say so once.
-void walk_again(uint from) {
-  Work work = Work(constants.work);
-  uint entry = atomicOr(work.list[from], walked_again);
-  if ((entry & walked_again) == 0u)
-    work.list[walked_list(constants.part_count, constants.bundle) + atomicAdd(work.at.walked[constants.bundle].x, 1u)] =
-        entry;
+// It is enough that one of a part's rays says so: the last list holds for each part the last bundle that did, and 1.
+void walk_again(uint part) {
+  uint said = atomicExchange(Work(constants.work).list[list_said * constants.part_count + part], constants.bundle + 1u);
+  if (said != constants.bundle + 1u)
+    append(constants.work, list_walked + constants.bundle, constants.part_count, part);
 }
 
 void main() {
-  Work work = Work(constants.work);
-  uint list = again != 0 ? walked_list(constants.part_count, constants.bundle)
-                         : traced_list(constants.part_count, constants.bundle);
-  uint entry = work.list[list + gl_WorkGroupID.x] & ~walked_again;
   DiodeFrame frame = diode_frame();
-  PartSample at = part_sample(work.list[entry], gl_LocalInvocationID.x, frame);
-  vec3 diode = Bundles(constants.diodes).at.places[gl_WorkGroupID.y].xyz;
-  bool blocked = at.is_there && !(affine_at(at.surface, diode, false) > 0.0);
-  if (at.is_there && !blocked) {
-    uint node = constants.first_node;
-    blocked = is_blocked(LitScenes(constants.scene).at, at.point, diode, frame, node);
-    if (again == 0 && !blocked && node < constants.last_node)
-      walk_again(list + gl_WorkGroupID.x);
+  uint list = (again != 0 ? list_walked : list_traced) + constants.bundle;
+  uint part = part_of_workgroup(constants.work, list, constants.part_count);
+  if (part == no_part)
+    return;
+  PartSample at = part_sample(part, gl_LocalInvocationID.x, frame);
+  vec4 diode = Bundles(constants.diodes).at.places[gl_WorkGroupID.y];
+  bool shines = diode.w != 0.0;
+  if (!at.is_there || !shines)
+    return;
+  bool blocked = !(affine_at(at.surface, diode.xyz, false) > 0.0);
+  if (!blocked) {
+    LitScene scene = LitScenes(constants.scene).at;
+    Shaft ray = ray_of(at.point, diode.xyz, frame);
+    if (again != 0) {
+      blocked = is_blocked_between(constants.first_node, constants.last_node, scene, at.point, diode.xyz, frame, ray);
+    } else {
+      Walk walk = walk_through(scene, at.point, diode.xyz, frame, ray);
+      blocked = walk.blocked;
+      if (!blocked && walk.node < scene.nodes)
+        walk_again(part);
+    }
   }
   if (blocked)
     atomicAnd(Words(constants.reached).at[at.i], ~(1u << gl_WorkGroupID.y));

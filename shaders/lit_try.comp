@@ -18,9 +18,9 @@ void main() {
     diodes[d] = Bundles(constants.diodes).at.places[d].xyz;
   DiodeFrame frame = diode_frame();
 
-  Work work = Work(constants.work);
-  uint entry = work.list[tried_list(constants.part_count, constants.bundle) + gl_WorkGroupID.x];
-  uint part = work.list[entry];
+  uint part = part_of_workgroup(constants.work, list_tried + constants.bundle, constants.part_count);
+  if (part == no_part)
+    return;
   PartSample samples[samples_per_lane];
   uint blocked[samples_per_lane]; // by a candidate, or because the diode is behind the sample's own surface; a bit each
   [[unroll]] for (uint s = 0; s < samples_per_lane; ++s) {
@@ -32,7 +32,7 @@ void main() {
 
   LitScene scene = LitScenes(constants.scene).at;
   Words candidates = Words(constants.candidates);
-  uint first = candidate_slot(entry, constants.bundles, constants.bundle) * slot_words;
+  uint first = part * candidate_words;
   uint count = candidates.at[first];
   for (uint k = 1; k <= count; ++k) {
     Occluder occluder = Occluders(scene.occluders).at[candidates.at[first + k]];

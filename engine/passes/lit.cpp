@@ -8,9 +8,9 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::uint32_t parts_per_tile = 2;
-constexpr std::uint32_t lists = 1 + 3 * shader::bundles_per_window; // of parts, in LitWork
-constexpr std::uint32_t most_slots = 1u << 16;                      // for candidates; further ones trace rays
+// For the candidates of so many parts there is memory; further ones, in frames of many samples a pixel, trace
+// rays.
+constexpr std::uint32_t most_slots = 1u << 16;
 
 std::uint32_t in_tiles(std::uint32_t pixels) { return (pixels + shader::tile_side - 1) / shader::tile_side; }
 
@@ -18,7 +18,7 @@ std::uint32_t tiles_of(const shader::Strip &strip) {
   return in_tiles(strip.columns) * in_tiles(strip.rows) * strip.samples * strip.samples;
 }
 
-std::uint32_t parts_of(const shader::Strip &strip) { return parts_per_tile * tiles_of(strip); }
+std::uint32_t parts_of(const shader::Strip &strip) { return shader::parts_per_tile * tiles_of(strip); }
 
 std::uint32_t most_parts(std::span<const PlannedStrip> strips) {
   std::uint32_t most = 0;
@@ -32,13 +32,17 @@ vulkan::Buffer storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::B
 }
 
 // Nothing to do yet.
-shader::LitWork no_work(std::uint32_t bundles) {
+shader::LitWork no_work() {
   shader::LitWork work{};
-  work.open = {0, bundles, 1, 0};
-  std::ranges::fill(work.tried, shader::Dispatch{0, 1, 1, 0});
-  std::ranges::fill(work.traced, shader::Dispatch{0, shader::diodes_per_bundle, 1, 0});
-  std::ranges::fill(work.walked, shader::Dispatch{0, shader::diodes_per_bundle, 1, 0});
+  std::ranges::fill(work.list, shader::Dispatch{0, 1, 1, 0});
+  // Rays: along y the diodes.
+  std::fill(work.list + shader::list_traced, work.list + shader::lists,
+            shader::Dispatch{0, shader::diodes_per_bundle, 1, 0});
   return work;
+}
+
+vk::DeviceSize arguments_of(std::uint32_t list) {
+  return offsetof(shader::LitWork, list) + list * sizeof(shader::Dispatch);
 }
 
 bool may_have_holes(const Occluders &occluders) {
@@ -87,15 +91,14 @@ LitDiodes upload_diodes(const vulkan::Device &device, const LitWindow &window, c
 LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
                  const std::vector<LitWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
-    : windows_(windows), slots_(std::min(most_slots, most_parts(strips) * shader::bundles_per_window)),
+    : windows_(windows), slots_(std::min(most_slots, most_parts(strips))),
       scene_(upload_scene(device, occluders, scene)),
       parts_(storage(device, most_parts(strips) * sizeof(shader::TilePart))),
       work_(storage(device,
                     sizeof(shader::LitWork) +
-                        vk::DeviceSize{lists} * most_parts(strips) * sizeof(std::uint32_t),
+                        vk::DeviceSize{shader::lists} * most_parts(strips) * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst)),
-      candidates_(
-          storage(device, vk::DeviceSize{slots_} * (shader::largest_candidates + 1) * sizeof(std::uint32_t))),
+      candidates_(storage(device, vk::DeviceSize{slots_} * shader::candidate_words * sizeof(std::uint32_t))),
       pipelines_(make_lit_pipelines(
           device, windows, {tiled, may_have_holes(occluders), are_flat(windows, groups)}, precision)) {
   for (const LitWindow &window : windows_)
@@ -121,67 +124,64 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
   const vk::DeviceSize words_bytes =
       vk::DeviceSize{windows_[window].bundles} * sample_count(strip) * sizeof(std::uint32_t);
   commands.fillBuffer(buffers.reached.get(), 0, words_bytes, ~0u);
-  const shader::LitWork work = no_work(windows_[window].bundles);
+  const shader::LitWork work = no_work();
   commands.updateBuffer<shader::LitWork>(work_.get(), 0, work);
+  const vk::DeviceSize list_bytes = vk::DeviceSize{parts_of(strip)} * sizeof(std::uint32_t);
+  commands.fillBuffer(work_.get(), sizeof(work) + shader::list_said * list_bytes, list_bytes, 0);
   vulkan::memory_barrier(
       commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
       Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
-  record_gather(commands, strip, buffers, window);
-  record_decide(commands, strip, buffers, window);
+  shader::LitGatherConstants constants = gather_constants(strip, buffers, window);
+  pipelines_.open.dispatch(commands, constants, padded(constants.part_count), shader::workgroup_size);
+  for (std::uint32_t bundle = 0; bundle < windows_[window].bundles; ++bundle) {
+    vulkan::compute_barrier(commands);
+    constants.bundle = bundle;
+    pipelines_.gather.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_open));
+    vulkan::compute_barrier(commands);
+    record_decide(commands, strip, buffers, window, bundle);
+  }
   record_count(commands, strip, buffers, window);
 }
 
-void LitPass::record_gather(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, std::size_t window) const {
-  const std::uint32_t parts = parts_of(strip);
-  const shader::LitGatherConstants constants{strip,
-                                             words(buffers.position_hi.address()),
-                                             words(buffers.tags.address()),
-                                             words(parts_.address()),
-                                             words(scene_.record.address()),
-                                             words(diodes_[window].boxes.address()),
-                                             words(work_.address()),
-                                             words(candidates_.address()),
-                                             parts,
-                                             windows_[window].bundles,
-                                             slots_};
-  pipelines_.open.dispatch(commands, constants, padded(parts), shader::workgroup_size);
-  vulkan::compute_barrier(commands);
-  pipelines_.gather.dispatch_indirect(commands, constants, work_, offsetof(shader::LitWork, open));
+shader::LitGatherConstants LitPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
+                                                     std::size_t window) const {
+  return {strip,
+          words(buffers.position_hi.address()),
+          words(buffers.tags.address()),
+          words(parts_.address()),
+          words(scene_.record.address()),
+          words(diodes_[window].boxes.address()),
+          words(work_.address()),
+          words(candidates_.address()),
+          parts_of(strip),
+          0,
+          slots_};
 }
 
 void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, std::size_t window) const {
-  for (std::uint32_t bundle = 0; bundle < windows_[window].bundles; ++bundle) {
-    vulkan::compute_barrier(commands);
-    shader::LitDecideConstants constants{
-        strip,
-        words(buffers.position_hi.address()),
-        words(buffers.position_lo.address()),
-        words(buffers.tags.address()),
-        words(parts_.address()),
-        words(scene_.record.address()),
-        words(diodes_[window].bundles.address() + bundle * sizeof(shader::BundleDiodes)),
-        words(work_.address()),
-        words(candidates_.address()),
-        words(buffers.reached.address() +
-              vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
-        bundle,
-        windows_[window].bundles,
-        parts_of(strip),
-        0,
-        scene_.nodes};
-    const auto at = [bundle](std::size_t list) { return list + bundle * sizeof(shader::Dispatch); };
-    pipelines_.attempt.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, tried)));
-    pipelines_.trace.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, traced)));
-    if (scene_.nodes <= shader::steps_per_walk)
-      continue;
-    vulkan::compute_barrier(commands);
-    for (std::uint32_t first = 0; first < scene_.nodes; first += shader::steps_per_walk) {
-      constants.first_node = first;
-      constants.last_node = std::min(scene_.nodes, first + shader::steps_per_walk);
-      pipelines_.walk.dispatch_indirect(commands, constants, work_, at(offsetof(shader::LitWork, walked)));
-    }
+                            const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const {
+  shader::LitDecideConstants constants{
+      strip,
+      words(buffers.position_hi.address()),
+      words(buffers.position_lo.address()),
+      words(buffers.tags.address()),
+      words(parts_.address()),
+      words(scene_.record.address()),
+      words(diodes_[window].bundles.address() + bundle * sizeof(shader::BundleDiodes)),
+      words(work_.address()),
+      words(candidates_.address()),
+      words(buffers.reached.address() + vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
+      bundle,
+      parts_of(strip),
+      0,
+      0};
+  pipelines_.attempt.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_tried + bundle));
+  pipelines_.trace.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_traced + bundle));
+  vulkan::compute_barrier(commands);
+  for (std::uint32_t first = 0; first < scene_.nodes; first += shader::steps_per_walk) {
+    constants.first_node = first;
+    constants.last_node = std::min(scene_.nodes, first + shader::steps_per_walk);
+    pipelines_.walk.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_walked + bundle));
   }
 }
 

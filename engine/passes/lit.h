@@ -38,10 +38,11 @@ public:
               const StripBuffers &buffers, std::size_t window) const;
 
 private:
-  void record_gather(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                     const StripBuffers &buffers, std::size_t window) const;
+  shader::LitGatherConstants gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
+                                              std::size_t window) const;
+  // One bundle of the window.
   void record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                     const StripBuffers &buffers, std::size_t window) const;
+                     const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const;
   void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     const StripBuffers &buffers, std::size_t window) const;
 

@@ -42,9 +42,10 @@ void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
   for (std::size_t i = 0; i < shader::diodes_per_bundle; ++i) {
     const DiodePlace &place = places[std::min(i, places.size() - 1)];
     const glm::vec3 from_centre_m(place.position_m - glm::dvec3(centre));
-    bundle.places[i] = {from_centre_m, 0.0f};
+    const bool shines = i < places.size() && place.number != no_id;
+    bundle.places[i] = {from_centre_m, shines ? 1.0f : 0.0f};
     reach_m = glm::max(reach_m, glm::abs(from_centre_m));
-    if (i < places.size() && place.number != no_id)
+    if (shines)
       bits |= 1u << i;
   }
   flatten(bundle);
