@@ -26,8 +26,7 @@ void add_sheet(Scene &scene, std::uint32_t columns, std::uint32_t rows, const Pl
 }
 
 double hill_m(double x, double z) {
-  return 0.1 * std::sin(2.1 * x + 0.3) * std::cos(2.7 * z) + 0.06 * std::sin(6.1 * x - 1.3 * z) +
-         0.03 * std::cos(11.3 * x + 9.7 * z);
+  return 0.1 * std::sin(2.1 * x + 0.3) * std::cos(2.7 * z) + 0.06 * std::sin(6.1 * x - 1.3 * z);
 }
 
 void add_ball(Scene &scene, const glm::dvec3 &centre_m, double radius_m) {
