@@ -106,6 +106,29 @@ Mesh torus() {
   return mesh;
 }
 
+// Regular, with 20 triangles that pass through each other: each edge is convex, and it is a ball as to how
+// its vertices, edges and triangles hang together.
+Mesh great_icosahedron() {
+  constexpr double g = std::numbers::phi;
+  Mesh mesh;
+  for (const double s : {-1.0, 1.0})
+    for (const double t : {-g, g})
+      for (const glm::dvec3 &p : {glm::dvec3(0, s, t), glm::dvec3(s, t, 0), glm::dvec3(t, 0, s)})
+        mesh.corners_m.push_back(p);
+  const auto is_edge = [&](std::uint32_t a, std::uint32_t b) {
+    return std::abs(glm::distance(mesh.corners_m[a], mesh.corners_m[b]) - 2.0 * g) < 1e-9;
+  };
+  for (std::uint32_t a = 0; a < 12; ++a)
+    for (std::uint32_t b = a + 1; b < 12; ++b)
+      for (std::uint32_t c = b + 1; c < 12; ++c)
+        if (is_edge(a, b) && is_edge(b, c) && is_edge(c, a)) {
+          const auto &p = mesh.corners_m;
+          const bool front = glm::dot(glm::cross(p[b] - p[a], p[c] - p[a]), p[a]) > 0.0;
+          mesh.faces.push_back(front ? std::array{a, b, c} : std::array{a, c, b});
+        }
+  return mesh;
+}
+
 Mesh inside_out(Mesh mesh) {
   for (auto &face : mesh.faces)
     std::swap(face[1], face[2]);
@@ -195,4 +218,19 @@ TEST_CASE("bodies apart are different bodies, such as share a vertex none") {
   add(touching, box({1, 1, 1}, {2, 2, 2}));
   const auto of_touching = convex_bodies(touching.scene());
   CHECK(of_touching == std::vector<std::uint32_t>(24, no_id));
+}
+
+TEST_CASE("a body that passes through itself is not convex, though each of its edges is") {
+  REQUIRE(great_icosahedron().faces.size() == 20);
+  CHECK_FALSE(is_body(great_icosahedron()));
+}
+
+TEST_CASE("a shallow dish is not convex, however finely it is cut") {
+  for (const std::uint32_t cuts : {20u, 100u}) {
+    Mesh mesh = fine_box(cuts);
+    for (glm::dvec3 &p : mesh.corners_m)
+      if (p.x == 1.0) // 0.4 mm deep, of two metres
+        p.x -= 0.0004 * (1.0 - p.y * p.y) * (1.0 - p.z * p.z);
+    CHECK_FALSE(is_body(mesh));
+  }
 }
