@@ -28,7 +28,8 @@ public:
     commands.dispatch(invocations / workgroup, 1, 1);
   }
 
-  // As many workgroups as three words in `arguments`, from `offset` bytes on, say when the device comes to it.
+  // As many workgroups as three words in `arguments`, from `offset` bytes on, say when the device comes to
+  // it.
   template <typename Constants>
   void dispatch_indirect(const vk::raii::CommandBuffer &commands, const Constants &constants,
                          const Buffer &arguments, vk::DeviceSize offset) const {

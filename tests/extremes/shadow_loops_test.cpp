@@ -7,6 +7,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -121,6 +122,50 @@ Illuminator many_diodes(std::size_t count, const Sensor &sensor) {
 TEST_CASE("a way past 400,000 triangles") {
   check_obstacles("plates", plates());
   check_obstacles("needles", needles());
+}
+
+// Ways that lead past the obstacles each in its own manner: rays that share a vector hold each other up, and
+// what all of them need together counts.
+TEST_CASE("64 ways past 20,000 slanting slivers and 300 plates") {
+  Sensor sensor;
+  sensor.resolution = {8, 8};
+  sensor.pixel_pitch_m = glm::dvec2(3.1e-3);
+  sensor.focal_length_m = 0.02;
+  Random random(7);
+  Mesh mesh;
+  for (int k = 0; k < 20'000; ++k) {
+    const glm::dvec3 middle_m = random.in_box({-0.6, -0.6, 0.9}, {0.6, 0.6, 1.1});
+    const glm::dvec3 half_m(random.uniform(0.75, 1.1) * (random.flip() ? 1.0 : -1.0),
+                            random.uniform(0.75, 1.1), 0.3);
+    add_triangle(mesh, middle_m - half_m, middle_m + half_m, middle_m + half_m + glm::dvec3(1e-7, 0, 0));
+  }
+  for (int k = 0; k < 300; ++k) {
+    const glm::dvec3 middle_m = random.in_box({-0.6, -0.6, 0.8}, {0.6, 0.6, 1.2});
+    add_triangle(mesh, middle_m + glm::dvec3(0, 0.04, 0), middle_m + glm::dvec3(0.04, -0.04, 0),
+                 middle_m + glm::dvec3(-0.04, -0.04, 0));
+  }
+  const Scene scene = beset_wall(mesh, std::nullopt);
+  Illuminator eight = diode_beside_lens(sensor, diode_at(beset_m));
+  for (int k = 1; k < 8; ++k)
+    eight.diodes.push_back(diode_at(beset_m + static_cast<double>(k) * glm::dvec3(0.02, -0.015, 0)));
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_reached = true});
+  simulator.prepare(scene, sensor, {eight}, Backscatter::lambert, Shadows::automatic);
+  const Measurement measured = simulator.measure();
+  const auto expected =
+      reference::simulate(scene, sensor, {eight}, Backscatter::lambert, {Shadows::automatic, true});
+  std::size_t on_the_wall = 0, blocked = 0;
+  for (std::size_t i = 0; i < 64; ++i) {
+    if (measured.sample_triangle_id[i] != expected.sample_triangle_id[i] ||
+        measured.sample_triangle_id[i] > 1)
+      continue; // a sliver or a plate is seen
+    ++on_the_wall;
+    blocked += 8 - static_cast<std::size_t>(std::popcount(expected.sample_reached[i]));
+    CHECK(measured.sample_reached[i] == expected.sample_reached[i]);
+  }
+  fmt::print("64 ways past slivers: {} pixels of the wall, {} pairs blocked, frame {:.0f} ms\n", on_the_wall,
+             blocked, measured.frame_ms);
+  CHECK(on_the_wall > 30);
+  CHECK(blocked > 50);
 }
 
 TEST_CASE("shadows of 1 to 100,000 diodes") {
