@@ -245,6 +245,7 @@ struct DiodeBox {
 // The diodes of a bundle from a place among them, m.
 struct BundleDiodes {
   vec4 centre;                    // camera frame; w: how far they stand from it at most, along each axis
+  vec4 extent;                    // the same for each axis
   vec4 places[diodes_per_bundle]; // where there are fewer, the last one again; w: 1 of a diode that shines
 };
 
@@ -259,13 +260,14 @@ struct TilePart {
 };
 
 // What is left to do, in lists of tiles' parts: `open`, whose light something may block; and of each bundle of
-// the window the parts that try candidates, those that trace rays, and those of which a ray was too long and
-// walks again.
+// the window the parts that try candidates, those that have too many of them, those of which samples are unclear
+// all the same and trace rays, and those of which a ray was too long and walks again.
 PMDSIM_CONSTANT list_open = 0;
 PMDSIM_CONSTANT list_tried = 1; // of the first bundle; those of the others follow
 PMDSIM_CONSTANT list_traced = list_tried + bundles_per_window;
-PMDSIM_CONSTANT list_walked = list_traced + bundles_per_window;
-PMDSIM_CONSTANT list_said = list_walked + bundles_per_window; // lit_trace.comp
+PMDSIM_CONSTANT list_unclear = list_traced + bundles_per_window;
+PMDSIM_CONSTANT list_walked = list_unclear + bundles_per_window;
+PMDSIM_CONSTANT list_said = list_walked + bundles_per_window; // append_once() in lit.glsl
 PMDSIM_CONSTANT lists = list_said + 1;
 PMDSIM_CONSTANT workgroups_per_row = 32768; // of an indirect dispatch along x; devices may end at 65,535
 
@@ -411,6 +413,7 @@ struct LitDecideConstants {
   uvec2 reached;    // in and out: the bundle's word of each sample
   uint bundle;      // of the window
   uint part_count;
+  uint slots;                 // clear, trace: parts that `candidates` has room for
   uint first_node, last_node; // trace: of a walk that must not be too long
 };
 
@@ -474,8 +477,8 @@ static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
               sizeof(TilePart) == 112);
 static_assert(sizeof(LitWork) == 16 * lists && sizeof(LitScene) == 56 &&
-              sizeof(BundleDiodes) == 16 * (1 + diodes_per_bundle));
-static_assert(sizeof(LitDecideConstants) == 120 && offsetof(LitDecideConstants, position_hi) == 32);
+              sizeof(BundleDiodes) == 16 * (2 + diodes_per_bundle));
+static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
 static_assert(sizeof(AccumulateConstants) == 120 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader

@@ -45,6 +45,12 @@ void append(uvec2 work, uint list, uint parts, uint part) {
   atomicMax(to.at.list[list].z, entry / workgroups_per_row + 1u);
 }
 
+// The same, whoever says so first of those that say so of a part; `what` is not 0 and larger the later the list.
+void append_once(uvec2 work, uint list, uint parts, uint part, uint what) {
+  if (atomicExchange(Work(work).list[list_said * parts + part], what) != what)
+    append(work, list, parts, part);
+}
+
 const uint no_part = 0xffffffffu;
 
 // The part of this workgroup, or no_part.

@@ -140,6 +140,9 @@ void main() {
   uint count = part_index < constants.slots ? gather(part_index, part, box) : too_many;
   if (count == too_many)
     append(constants.work, list_traced + constants.bundle, constants.part_count, part_index);
+  if (count == too_many && part_index < constants.slots) // lit_clear.comp
+    Words(constants.candidates).at[part_index * candidate_words] =
+        Words(constants.candidates).at[part_index * candidate_words + 1u] = 0u;
   if (count == too_many || (count == 0u && lowest_diode(part, box) > 0.0))
     return;
   Words(constants.candidates).at[part_index * candidate_words] = count;

@@ -1,5 +1,5 @@
 #version 460
-// Traces a ray from each of a part's samples to a diode of the bundle: any occluder in between will do. A workgroup is a part
+// Traces a ray from each of a part's unclear samples to a diode of the bundle: any occluder in between will do. A workgroup is a part
 // and a diode. The first walk begins at the tree's root and may be too long; the parts of such rays are walked again, so many
 // nodes at a time that no walk is.
 #extension GL_GOOGLE_include_directive : require
@@ -69,23 +69,22 @@ Shaft ray_of(LitPoint point, vec3 diode, DiodeFrame frame) {
   return shaft_between(point.hi - rounding, point.hi + rounding, place - place_rounding, place + place_rounding);
 }
 
-// It is enough that one of a part's rays says so: the last list holds for each part the last bundle that did, and 1.
-void walk_again(uint part) {
-  uint said = atomicExchange(Work(constants.work).list[list_said * constants.part_count + part], constants.bundle + 1u);
-  if (said != constants.bundle + 1u)
-    append(constants.work, list_walked + constants.bundle, constants.part_count, part);
+// Whether lit_clear.comp left the sample open.
+bool is_unclear(uint part, uint within) {
+  return part >= constants.slots ||
+         (Words(constants.candidates).at[part * candidate_words + within / 32u] & 1u << within % 32u) != 0u;
 }
 
 void main() {
   DiodeFrame frame = diode_frame();
-  uint list = (again != 0 ? list_walked : list_traced) + constants.bundle;
+  uint list = (again != 0 ? list_walked : list_unclear) + constants.bundle;
   uint part = part_of_workgroup(constants.work, list, constants.part_count);
   if (part == no_part)
     return;
   PartSample at = part_sample(part, gl_LocalInvocationID.x, frame);
   vec4 diode = Bundles(constants.diodes).at.places[gl_WorkGroupID.y];
   bool shines = diode.w != 0.0;
-  if (!at.is_there || !shines)
+  if (!at.is_there || !shines || !is_unclear(part, gl_LocalInvocationID.x))
     return;
   bool blocked = !(affine_at(at.surface, diode.xyz, false) > 0.0);
   if (!blocked) {
@@ -97,7 +96,7 @@ void main() {
       Walk walk = walk_through(scene, at.point, diode.xyz, frame, ray);
       blocked = walk.blocked;
       if (!blocked && walk.node < scene.nodes)
-        walk_again(part);
+        append_once(constants.work, list_walked + constants.bundle, constants.part_count, part, 2u * constants.bundle + 2u);
     }
   }
   if (blocked)

@@ -36,7 +36,7 @@ shader::LitWork no_work() {
   shader::LitWork work{};
   std::ranges::fill(work.list, shader::Dispatch{0, 1, 1, 0});
   // Rays: along y the diodes.
-  std::fill(work.list + shader::list_traced, work.list + shader::lists,
+  std::fill(work.list + shader::list_unclear, work.list + shader::lists,
             shader::Dispatch{0, shader::diodes_per_bundle, 1, 0});
   return work;
 }
@@ -173,10 +173,13 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
       words(buffers.reached.address() + vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
       bundle,
       parts_of(strip),
+      slots_,
       0,
       0};
   pipelines_.attempt.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_tried + bundle));
-  pipelines_.trace.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_traced + bundle));
+  pipelines_.clear.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_traced + bundle));
+  vulkan::compute_barrier(commands);
+  pipelines_.trace.dispatch_indirect(commands, constants, work_, arguments_of(shader::list_unclear + bundle));
   vulkan::compute_barrier(commands);
   for (std::uint32_t first = 0; first < scene_.nodes; first += shader::steps_per_walk) {
     constants.first_node = first;

@@ -1,6 +1,8 @@
 #include "engine/passes/lit_pipelines.h"
 
 #include "engine/passes/sample_precision.h"
+#include "spirv/lit_clear_double_float.h"
+#include "spirv/lit_clear_fp64.h"
 #include "spirv/lit_count.h"
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
@@ -44,6 +46,8 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
       pipeline(shader::lit_try_fp64_spirv, shader::lit_try_double_float_spirv,
                sizeof(shader::LitDecideConstants),
                {form.tiled ? 1u : 0u, lanes, shader::tile_samples / lanes, form.flat ? 1u : 0u}),
+      pipeline(shader::lit_clear_fp64_spirv, shader::lit_clear_double_float_spirv,
+               sizeof(shader::LitDecideConstants), {form.tiled ? 1u : 0u}),
       tracing(false),
       tracing(true),
       {}};

@@ -12,6 +12,7 @@ struct LitPipelines {
   vulkan::ComputePipeline open;
   vulkan::ComputePipeline gather;
   vulkan::ComputePipeline attempt;
+  vulkan::ComputePipeline clear;
   vulkan::ComputePipeline trace;
   vulkan::ComputePipeline walk;                // `trace` of walks that were too long
   std::vector<vulkan::ComputePipeline> counts; // of each window

@@ -49,6 +49,7 @@ void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
       bits |= 1u << i;
   }
   flatten(bundle);
+  bundle.extent = {reach_m, 0.0f};
   bundle.centre = {centre, reach_m.x + reach_m.y + reach_m.z};
   diodes.boxes.push_back(box);
   diodes.bundles.push_back(bundle);

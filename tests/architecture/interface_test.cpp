@@ -10,6 +10,8 @@
 #include "spirv/accumulate_looped_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
+#include "spirv/lit_clear_double_float.h"
+#include "spirv/lit_clear_fp64.h"
 #include "spirv/lit_count.h"
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
@@ -146,7 +148,9 @@ const std::map<std::string, HostLayout> shadows{
        MEMBER(TreeNode, high_x), MEMBER(TreeNode, high_y), MEMBER(TreeNode, high_z),
        MEMBER(TreeNode, occluder)}}},
     {"DiodeBox", {sizeof(DiodeBox), {MEMBER(DiodeBox, low), MEMBER(DiodeBox, high)}}},
-    {"BundleDiodes", {sizeof(BundleDiodes), {MEMBER(BundleDiodes, centre), MEMBER(BundleDiodes, places)}}},
+    {"BundleDiodes",
+     {sizeof(BundleDiodes),
+      {MEMBER(BundleDiodes, centre), MEMBER(BundleDiodes, extent), MEMBER(BundleDiodes, places)}}},
     {"TilePart",
      {sizeof(TilePart),
       {MEMBER(TilePart, low), MEMBER(TilePart, high), MEMBER(TilePart, nearest_m),
@@ -183,7 +187,8 @@ const std::map<std::string, HostLayout> constants_of_shadows{
        MEMBER(LitDecideConstants, diodes), MEMBER(LitDecideConstants, work),
        MEMBER(LitDecideConstants, candidates), MEMBER(LitDecideConstants, reached),
        MEMBER(LitDecideConstants, bundle), MEMBER(LitDecideConstants, part_count),
-       MEMBER(LitDecideConstants, first_node), MEMBER(LitDecideConstants, last_node)}}},
+       MEMBER(LitDecideConstants, slots), MEMBER(LitDecideConstants, first_node),
+       MEMBER(LitDecideConstants, last_node)}}},
     {"LitCountConstants",
      {sizeof(LitCountConstants),
       {MEMBER(LitCountConstants, reached), MEMBER(LitCountConstants, diodes), MEMBER(LitCountConstants, lit),
@@ -252,6 +257,8 @@ const std::vector<Shader> shaders{
     {"lit_gather, float pairs", lit_gather_double_float_spirv},
     {"lit_try, fp64", lit_try_fp64_spirv},
     {"lit_try, float pairs", lit_try_double_float_spirv},
+    {"lit_clear, fp64", lit_clear_fp64_spirv},
+    {"lit_clear, float pairs", lit_clear_double_float_spirv},
     {"lit_trace, fp64", lit_trace_fp64_spirv},
     {"lit_trace, float pairs", lit_trace_double_float_spirv},
     {"lit_count", lit_count_spirv},
