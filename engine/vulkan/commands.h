@@ -29,7 +29,8 @@ private:
 void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags2 after,
                     vk::AccessFlags2 written, vk::PipelineStageFlags2 before, vk::AccessFlags2 used);
 
-// Between two compute passes of which the second uses what the first wrote, as data or to know how much to do.
+// Between two compute passes of which the second uses what the first wrote, as data or to know how much to
+// do.
 void compute_barrier(const vk::raii::CommandBuffer &commands);
 
 } // namespace pmdsim::vulkan
