@@ -79,7 +79,8 @@ void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const 
     if (shines)
       ++times[place.number];
     const glm::dvec3 from_centre_m(bundle.places[i]);
-    // Where no diode's z differs by more than a hundredth of a micrometre from the centre's, it is the centre's.
+    // Where no diode's z differs by more than a hundredth of a micrometre from the centre's, it is the
+    // centre's.
     REQUIRE(glm::distance(glm::dvec3(bundle.centre) + from_centre_m, place.position_m) <=
             1e-8 + 1e-7 * double(bundle.centre.w));
     for (glm::length_t axis = 0; axis < 3; ++axis)
