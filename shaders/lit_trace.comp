@@ -1,7 +1,7 @@
 #version 460
-// Traces a ray from each of a part's unclear samples to a diode of the bundle: any occluder in between will do. A workgroup is a part
-// and a diode. The first walk begins at the tree's root and may be too long; the parts of such rays are walked again, so many
-// nodes at a time that no walk is.
+// Traces a ray from each of a part's unclear samples to a diode of the bundle: any occluder in between will do. A workgroup is
+// a part and a diode. The first walk begins at the tree's root and may be too long; the parts of such rays are walked again, so
+// many nodes at a time that no walk is.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
