@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <variant>
@@ -64,6 +65,22 @@ std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, c
   return PointsPass(device, sensor, surfaces, paint.painted, precision);
 }
 
+// A strip is a row of a block's pixels at least, so a block is no wider than the largest strip.
+Projection project_blocks(const vulkan::Device &device, const CameraScene &camera, const Sensor &sensor,
+                          std::uint32_t largest_strip) {
+  const std::uint32_t fragments = std::min(raster_block_fragments(device), largest_strip / sensor.samples);
+  return project(camera, sensor.has_distortion() ? distorted_blocks(sensor, fragments)
+                                                 : chip_blocks(sensor, fragments));
+}
+
+SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
+                          const Sensor &sensor, Backscatter backscatter, TextureCache &textures) {
+  const auto planes = triangle_planes(camera, scene, backscatter,
+                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
+  return {vulkan::upload(device, std::as_bytes(std::span(planes))),
+          upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
+}
+
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
                         const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                         Backscatter backscatter, Shadows shadows, TextureCache &textures) {
@@ -77,19 +94,11 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
   const std::uint32_t strip_samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
-  // A strip is a row of a block's pixels at least, so a block is no wider than that.
-  const std::uint32_t block_fragments =
-      std::min(raster_block_fragments(device), largest_strip / sensor.samples);
-  const Projection projection =
-      project(camera, sensor.has_distortion() ? distorted_blocks(sensor, block_fragments)
-                                              : chip_blocks(sensor, block_fragments));
+  const Projection projection = project_blocks(device, camera, sensor, largest_strip);
   DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m());
   const SumModel model = sum_model(lights, backscatter, facing);
   const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
-  const auto planes = triangle_planes(camera, scene, backscatter,
-                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
-  SceneBuffers buffers{vulkan::upload(device, std::as_bytes(std::span(planes))),
-                       upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
+  SceneBuffers buffers = upload_scene(device, camera, scene, sensor, backscatter, textures);
   VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
   auto points = points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
                             buffers.paint, options.precision);
@@ -117,9 +126,9 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
 // What is left to the host: frames in which nothing stands in any light, and samples that see nothing.
 void finish_lit(const Prepared &prepared, Measurement &measurement) {
   if (!prepared.lit) {
-    measurement.lit.resize(measurement.coverage.size());
-    std::ranges::transform(measurement.coverage, measurement.lit.begin(),
-                           [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
+    const auto lit = std::views::transform(measurement.coverage,
+                                           [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
+    measurement.lit.assign(lit.begin(), lit.end());
     all_reached(prepared.groups, measurement.sample_reached);
   }
   if (!measurement.sample_reached.empty())

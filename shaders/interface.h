@@ -22,6 +22,8 @@ PMDSIM_CONSTANT workgroup_size = 64;
 // Diodes are summed in blocks of this size; the blocks' sums are then added (a two-level sum keeps float32
 // exact to a few units in the last place).
 PMDSIM_CONSTANT diodes_per_block = 16;
+// A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
+PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
 
 // Specialization constants of the accumulate pass, by moments and direct.
@@ -55,16 +57,6 @@ PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
 PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
-
-// Specialization constants of the lit pass's shaders.
-PMDSIM_CONSTANT constant_lit_tiled = 0;   // all that look at tags: 1: the tags lie in tiles
-PMDSIM_CONSTANT constant_lit_lanes = 1;   // try: invocations that share a part
-PMDSIM_CONSTANT constant_lit_samples = 2; // try: samples of each
-PMDSIM_CONSTANT constant_lit_flat = 3;    // try: 1: no diode stands before another of its bundle, z is the same
-PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
-PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
-PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window
-PMDSIM_CONSTANT constant_lit_first = 1;   // count: 1: this is the frame's first window
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -199,90 +191,6 @@ struct Tone {
   float harmonic;   // how many of its turns a turn of the fundamental is
 };
 
-// Which diodes reach which sample. Samples are taken in tiles of pixels, diodes in bundles; a sample has a
-// word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
-PMDSIM_CONSTANT tile_side = 8;
-PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
-PMDSIM_CONSTANT diodes_per_bundle = 32;
-PMDSIM_CONSTANT bundles_per_window = 8;
-PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
-PMDSIM_CONSTANT parts_per_tile = 2;
-// That a part tries one by one; where there are more, rays are traced.
-PMDSIM_CONSTANT largest_candidates = 256;
-PMDSIM_CONSTANT candidate_words = largest_candidates + 1; // of a part; their number comes first
-// lavapipe ends the loops of the invocations that share its vectors after 65,535 iterations of all of them together,
-// silently. So a walk through the tree counts its steps; whether it was too long is seen from where it ended,
-// whatever ended it; and a walk that must not be too long is a single loop over so many nodes.
-PMDSIM_CONSTANT steps_per_walk = 32000;
-PMDSIM_CONSTANT no_occluder = 0xffffffffu;
-PMDSIM_CONSTANT no_body = 0xffffffffu;
-
-// What may stand in the light: a triangle, or the one around a disc. Camera frame, m.
-struct Occluder {
-  vec4 plane_hi, plane_lo; // unit normal (counter-clockwise abc in front), offset
-  vec4 a_hi, b_hi, c_hi;   // corners
-  vec4 a_lo, b_lo, c_lo;
-  uint id;            // of the shape in the scene
-  uint edges;         // bit 0, 1, 2: ab, bc, ca run from the corner that comes later (vertex_order.h)
-  uint may_be_absent; // 1: it has holes, or is a disc
-  uint body;          // the convex body that it is a part of, or no_body
-};
-
-// A box of the tree over the occluders, rounded outwards, camera frame, m. Nodes lie in the order of a walk:
-// whoever meets the box goes on with the next node, whoever misses it at `skip`.
-struct TreeNode {
-  float low_x, low_y, low_z;
-  uint skip;
-  float high_x, high_y, high_z;
-  uint occluder; // of a leaf; else no_occluder
-};
-
-// Around the diodes of a window or of a bundle, rounded outwards, camera frame, m.
-struct DiodeBox {
-  vec4 low, high;
-};
-
-// The diodes of a bundle from a place among them, m.
-struct BundleDiodes {
-  vec4 centre;                    // camera frame; w: how far they stand from it at most, along each axis
-  vec4 extent;                    // the same for each axis
-  vec4 places[diodes_per_bundle]; // where there are fewer, the last one again; w: 1 of a diode that shines
-};
-
-// Samples of a tile that lie at similar depths. A tile has two parts, one of them empty where it is all of
-// one depth.
-struct TilePart {
-  vec4 low, high;              // box around their points, camera frame, m
-  float nearest_m, farthest_m; // depths z: nearest_m <= z < farthest_m
-  uint own; // shapes that they lie on, 0 where it is empty; beyond own_shapes: more than these
-  uint body; // the convex body that all of these are parts of, or no_body
-  uint own_ids[own_shapes];
-};
-
-// What is left to do, in lists of tiles' parts: `open`, whose light something may block; and of each bundle of
-// the window the parts that try candidates, those that have too many of them, those of which samples are unclear
-// all the same and trace rays, and those of which a ray was too long and walks again.
-PMDSIM_CONSTANT list_open = 0;
-PMDSIM_CONSTANT list_tried = 1; // of the first bundle; those of the others follow
-PMDSIM_CONSTANT list_traced = list_tried + bundles_per_window;
-PMDSIM_CONSTANT list_unclear = list_traced + bundles_per_window;
-PMDSIM_CONSTANT list_walked = list_unclear + bundles_per_window;
-PMDSIM_CONSTANT list_said = list_walked + bundles_per_window; // append_once() in lit.glsl
-PMDSIM_CONSTANT lists = list_said + 1;
-PMDSIM_CONSTANT workgroups_per_row = 32768; // of an indirect dispatch along x; devices may end at 65,535
-
-// Arguments of the indirect dispatch over a list: a workgroup a part along x and then z; over `open` an
-// invocation a part.
-struct Dispatch {
-  uint x, y, z;
-  uint count; // of the list
-};
-
-// The lists follow in words, each as long as there are parts.
-struct LitWork {
-  Dispatch list[lists];
-};
-
 // Where the strip of pixels that is being computed lies in the frame.
 struct Strip {
   uint column, row;   // of its first pixel
@@ -363,65 +271,7 @@ struct AccumulateConstants {
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
-  uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
-};
-
-// What the lit pass looks up about the scene.
-struct LitScene {
-  uvec2 planes;         // TrianglePlane[]
-  uvec2 occluders;      // Occluder[]
-  uvec2 tree;           // TreeNode[]
-  uvec2 bodies;         // uint[], of each shape the convex body that it is a part of, or no_body
-  uvec2 shapes;         // ShapePaint[], where occluders may have holes
-  uvec2 surfaces;       // SurfacePaint[], likewise
-  uint nodes;           // of the tree
-  float world_rounding; // what double rounding in the world's frame leaves of places, m
-};
-
-struct LitTilesConstants {
-  Strip strip;
-  uvec2 position_hi;
-  uvec2 tags;
-  uvec2 scene; // in: LitScene
-  uvec2 parts; // out: TilePart[]
-};
-
-struct LitGatherConstants {
-  Strip strip;
-  uvec2 position_hi;
-  uvec2 tags;
-  uvec2 parts;      // in: TilePart[]
-  uvec2 scene;      // in: LitScene
-  uvec2 boxes;      // in: DiodeBox of the window, then of its bundles
-  uvec2 work;       // in and out: LitWork and its lists
-  uvec2 candidates; // out: candidate_words of each part
-  uint part_count;
-  uint bundle; // of the window; open: not asked
-  uint slots;  // parts that `candidates` has room for; further ones trace rays
-};
-
-struct LitDecideConstants {
-  Strip strip;
-  uvec2 position_hi;
-  uvec2 position_lo;
-  uvec2 tags;
-  uvec2 parts;
-  uvec2 scene;
-  uvec2 diodes;     // in: BundleDiodes
-  uvec2 work;       // in, trace: and out
-  uvec2 candidates; // in, try
-  uvec2 reached;    // in and out: the bundle's word of each sample
-  uint bundle;      // of the window
-  uint part_count;
-  uint slots;                 // clear, trace: parts that `candidates` has room for
-  uint first_node, last_node; // trace: of a walk that must not be too long
-};
-
-struct LitCountConstants {
-  uvec2 reached;
-  uvec2 diodes; // in: for each bundle the bits of its diodes
-  uvec2 lit;    // out, and but for the first window in: uint a sample, the diodes that reach it
-  uint plane;   // samples
+  uvec2 reached;     // in, where shadowed: the words of the run's bundles, bundle by bundle
 };
 
 struct ResolveConstants {
@@ -460,7 +310,6 @@ PMDSIM_CONSTANT channel_distance_m = 2;
 PMDSIM_CONSTANT channel_first_tap = 3;
 
 #ifdef __cplusplus
-static_assert(steps_per_walk < 65535);
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
 static_assert(sizeof(GroupDiode) == 80);
@@ -474,11 +323,6 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeBox) == 32 &&
-              sizeof(TilePart) == 112);
-static_assert(sizeof(LitWork) == 16 * lists && sizeof(LitScene) == 56 &&
-              sizeof(BundleDiodes) == 16 * (2 + diodes_per_bundle));
-static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
 static_assert(sizeof(AccumulateConstants) == 120 && offsetof(AccumulateConstants, reference_hi) == 64);
 static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
 } // namespace pmdsim::shader

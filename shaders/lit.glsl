@@ -3,6 +3,7 @@
 #define PMDSIM_LIT_GLSL
 
 #include "buffers.glsl"
+#include "lit_interface.h"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LitScenes { LitScene at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Parts { TilePart at[]; };

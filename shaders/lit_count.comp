@@ -5,6 +5,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "buffers.glsl"
+#include "lit_interface.h"
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { LitCountConstants constants; };

@@ -48,9 +48,9 @@ float rise_over(Own own, Occluder occluder, float world_rounding) {
   return rise;
 }
 
-// Whether any of the tile's samples on other shapes lies within `reach_m` of the occluder, seen along its normal. Light from high
-// above passes over what hardly rises, but for the samples right beside it: so triangles that are level with their neighbours
-// to the last bit but one need not be tried.
+// Whether any of the tile's samples on other shapes lies within `reach_m` of the occluder, seen along its normal. Light from
+// high above passes over what hardly rises, but for the samples right beside it: so triangles that are level with their
+// neighbours to the last bit but one need not be tried.
 bool is_beside(Occluder occluder, uint part_index, float reach_m) {
   vec3 a = occluder.a_hi.xyz, b = occluder.b_hi.xyz, c = occluder.c_hi.xyz, normal = occluder.plane_hi.xyz;
   vec3 from_ab = normalize(cross(normal, b - a)), from_bc = normalize(cross(normal, c - b)),
@@ -84,8 +84,7 @@ bool may_be_inside(vec3 a, vec3 b, float side, TilePart part, DiodeBox box) {
 }
 
 // The same for all three edges of an occluder that has the part wholly on one side.
-bool may_be_behind(Occluder occluder, TilePart part, DiodeBox box) {
-  Range points = heights(occluder.plane_hi, part.low.xyz, part.high.xyz);
+bool may_be_behind(Occluder occluder, Range points, TilePart part, DiodeBox box) {
   if (occluder.body == no_body && points.low < 0.0 && points.high > 0.0)
     return true;
   float side = occluder.body != no_body || points.high <= 0.0 ? 1.0 : -1.0;
@@ -95,7 +94,8 @@ bool may_be_behind(Occluder occluder, TilePart part, DiodeBox box) {
 
 bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, Own own, float world_rounding,
                inout uint steps) {
-  if (!is_between(occluder.plane_hi, occluder.body, part, box) || !may_be_behind(occluder, part, box))
+  Range points = heights(occluder.plane_hi, part.low.xyz, part.high.xyz);
+  if (!is_between(occluder.plane_hi, occluder.body, points, part, box) || !may_be_behind(occluder, points, part, box))
     return false;
   if (!own.all_known)
     return true;
@@ -110,9 +110,8 @@ bool may_block(Occluder occluder, uint part_index, TilePart part, DiodeBox box, 
 }
 
 // Stores the part's candidates and returns how many they are, or too_many.
-uint gather(uint part_index, TilePart part, DiodeBox box) {
+uint gather(uint part_index, TilePart part, DiodeBox box, Own own) {
   LitScene scene = LitScenes(constants.scene).at;
-  Own own = own_of(part, box);
   Shaft shaft = shaft_of(part, box);
   Words candidates = Words(constants.candidates);
   uint node = 0u, steps = 0u, count = 0u;
@@ -137,14 +136,16 @@ void main() {
   uint part_index = entry_of(constants.work, list_open, constants.part_count, entry);
   TilePart part = Parts(constants.parts).at[part_index];
   DiodeBox box = DiodeBoxes(constants.boxes).at[1u + constants.bundle];
-  uint count = part_index < constants.slots ? gather(part_index, part, box) : too_many;
-  if (count == too_many)
+  Own own = own_of(part, box);
+  bool has_slot = part_index < constants.slots;
+  uint first = part_index * candidate_words;
+  uint count = has_slot ? gather(part_index, part, box, own) : too_many;
+  if (count == too_many) {
     append(constants.work, list_traced + constants.bundle, constants.part_count, part_index);
-  if (count == too_many && part_index < constants.slots) // lit_clear.comp
-    Words(constants.candidates).at[part_index * candidate_words] =
-        Words(constants.candidates).at[part_index * candidate_words + 1u] = 0u;
-  if (count == too_many || (count == 0u && lowest_diode(part, box) > 0.0))
-    return;
-  Words(constants.candidates).at[part_index * candidate_words] = count;
-  append(constants.work, list_tried + constants.bundle, constants.part_count, part_index);
+    if (has_slot) // for lit_clear.comp, a bit for each sample
+      Words(constants.candidates).at[first] = Words(constants.candidates).at[first + 1u] = 0u;
+  } else if (count > 0u || own.lowest_diode <= 0.0) {
+    append(constants.work, list_tried + constants.bundle, constants.part_count, part_index);
+    Words(constants.candidates).at[first] = count;
+  }
 }

@@ -25,9 +25,8 @@ Range heights(vec4 plane, vec3 low, vec3 high) {
 }
 
 // An occluder can only block what lies on the other side of its plane. Of a convex body only those count that show their front
-// to the diode, and none for what lies on the body itself.
-bool is_between(vec4 plane, uint body, TilePart part, DiodeBox box) {
-  Range points = heights(plane, part.low.xyz, part.high.xyz);
+// to the diode, and none for what lies on the body itself. `points` are the heights of the part's.
+bool is_between(vec4 plane, uint body, Range points, TilePart part, DiodeBox box) {
   Range diodes = heights(plane, box.low.xyz, box.high.xyz);
   bool from_behind = points.low < 0.0 && diodes.high > 0.0, from_front = points.high > 0.0 && diodes.low < 0.0;
   return body == no_body ? from_behind || from_front : from_behind && body != part.body;

@@ -21,8 +21,11 @@ bool is_blocked_perhaps(TilePart part, DiodeBox box) {
   bool perhaps = false;
   while (!perhaps && node < scene.nodes && steps < steps_per_walk) {
     uint index = next_occluder(scene.tree, shaft, scene.nodes, node, steps);
-    if (index != no_occluder)
-      perhaps = is_between(Occluders(scene.occluders).at[index].plane_hi, Occluders(scene.occluders).at[index].body, part, box);
+    if (index != no_occluder) {
+      vec4 plane = Occluders(scene.occluders).at[index].plane_hi;
+      perhaps = is_between(plane, Occluders(scene.occluders).at[index].body,
+                           heights(plane, part.low.xyz, part.high.xyz), part, box);
+    }
   }
   return perhaps || node < scene.nodes; // or the walk was too long
 }

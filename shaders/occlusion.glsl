@@ -5,6 +5,7 @@
 #define PMDSIM_OCCLUSION_GLSL
 
 #include "buffers.glsl"
+#include "lit_interface.h"
 #include "real.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Occluders { Occluder at[]; };

@@ -50,9 +50,8 @@ bool may_have_holes(const Occluders &occluders) {
                              [](const shader::Occluder &occluder) { return occluder.may_be_absent != 0; });
 }
 
-bool are_flat(const std::vector<LitWindow> &windows, const DiodeGroups &groups) {
-  return std::ranges::all_of(windows, [&](const LitWindow &window) {
-    const WindowDiodes diodes = diodes_of(window, groups);
+bool are_flat(const std::vector<WindowDiodes> &windows) {
+  return std::ranges::all_of(windows, [](const WindowDiodes &diodes) {
     return std::ranges::all_of(diodes.bundles, [](const shader::BundleDiodes &bundle) {
       return std::ranges::all_of(bundle.places, [](const shader::vec4 &place) { return place.z == 0.0f; });
     });
@@ -79,8 +78,7 @@ LitScene upload_scene(const vulkan::Device &device, const Occluders &occluders, 
   return lit;
 }
 
-LitDiodes upload_diodes(const vulkan::Device &device, const LitWindow &window, const DiodeGroups &groups) {
-  const WindowDiodes diodes = diodes_of(window, groups);
+LitDiodes upload_diodes(const vulkan::Device &device, const WindowDiodes &diodes) {
   return {vulkan::upload(device, std::as_bytes(std::span(diodes.boxes))),
           vulkan::upload(device, std::as_bytes(std::span(diodes.bundles))),
           vulkan::upload(device, std::as_bytes(std::span(diodes.bits)))};
@@ -98,11 +96,14 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
                     sizeof(shader::LitWork) +
                         vk::DeviceSize{shader::lists} * most_parts(strips) * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst)),
-      candidates_(storage(device, vk::DeviceSize{slots_} * shader::candidate_words * sizeof(std::uint32_t))),
-      pipelines_(make_lit_pipelines(
-          device, windows, {tiled, may_have_holes(occluders), are_flat(windows, groups)}, precision)) {
+      candidates_(storage(device, vk::DeviceSize{slots_} * shader::candidate_words * sizeof(std::uint32_t))) {
+  std::vector<WindowDiodes> diodes;
   for (const LitWindow &window : windows_)
-    diodes_.push_back(upload_diodes(device, window, groups));
+    diodes.push_back(diodes_of(window, groups));
+  for (const WindowDiodes &of_window : diodes)
+    diodes_.push_back(upload_diodes(device, of_window));
+  pipelines_ =
+      make_lit_pipelines(device, windows_, {tiled, may_have_holes(occluders), are_flat(diodes)}, precision);
 }
 
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

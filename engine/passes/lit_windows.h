@@ -2,7 +2,7 @@
 // The diodes as the lit pass takes them: in bundles of a word's bits, a window of bundles at a time.
 
 #include "engine/passes/diode_groups.h"
-#include "shaders/interface.h"
+#include "shaders/lit_interface.h"
 
 #include <span>
 #include <vector>

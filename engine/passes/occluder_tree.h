@@ -1,7 +1,7 @@
 #pragma once
 // The bounding volume hierarchy over the occluders, laid out in the order of a walk that needs no stack.
 
-#include "shaders/interface.h"
+#include "shaders/lit_interface.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 // does and is left out: the walls of a room, a single wall.
 
 #include "engine/passes/camera_scene.h"
-#include "shaders/interface.h"
+#include "shaders/lit_interface.h"
 
 #include <vector>
 

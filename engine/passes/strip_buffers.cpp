@@ -1,5 +1,7 @@
 #include "engine/passes/strip_buffers.h"
 
+#include "shaders/lit_interface.h"
+
 #include <algorithm>
 
 namespace pmdsim {

@@ -32,7 +32,7 @@ const std::vector<Rule> rules{
     {"engine/passes/occluder_tree.cpp",
      {"engine/passes/occluder_tree\\.h", "engine/error\\.h", "embree3/rtcore\\.h"}},
     {"engine/passes/",
-     {"engine/passes/.*", "engine/vulkan/.*", plain_engine, lens, "shaders/interface\\.h", "spirv/.*",
+     {"engine/passes/.*", "engine/vulkan/.*", plain_engine, lens, "shaders/(lit_)?interface\\.h", "spirv/.*",
       "vulkan/.*"}},
     {"engine/reference/", {"engine/reference/.*", plain_engine, "embree3/.*"}},
     {"engine/simulator.cpp", {"engine/passes/.*", "engine/vulkan/.*", public_engine}},
@@ -40,6 +40,7 @@ const std::vector<Rule> rules{
     {"host/input/", {"host/input/.*", public_engine}},
     {"host/output/", {"host/output/.*", public_engine}},
     {"host/", {"host/.*", public_engine}}, // never Vulkan, never the engine's inside
+    {"shaders/lit_interface.h", {"shaders/interface\\.h"}},
     {"shaders/", {}},
 };
 

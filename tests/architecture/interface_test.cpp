@@ -1,7 +1,7 @@
 // shaders/interface.h is read by GLSL and by C++: both must lay its structs out alike. Every member of every
 // struct that a compiled shader carries is compared with the compiler's.
 
-#include "shaders/interface.h"
+#include "shaders/lit_interface.h"
 #include "spirv/accumulate_direct_looped_double_float.h"
 #include "spirv/accumulate_direct_looped_fp64.h"
 #include "spirv/accumulate_direct_straight_double_float.h"

@@ -3,6 +3,7 @@
 
 #include "tests/gpu_against_reference/comparison.h"
 #include "tests/gpu_against_reference/grazing_light.h"
+#include "tests/gpu_against_reference/random_options.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/simulator.h"
 
@@ -75,16 +76,6 @@ Sensor sensor_for(Random &random, std::uint32_t seed) {
   return sensor;
 }
 
-SimulatorOptions options_for(Random &random) {
-  SimulatorOptions options;
-  options.keep_sample_tags = true;
-  options.keep_taps = random.flip();
-  options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
-  options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
-  options.sum = random.flip() ? DiodeSum::automatic : DiodeSum::direct;
-  return options;
-}
-
 // Where the illuminators' returns cancel to less than half, what is left is known that much worse.
 std::vector<bool> where_returns_cancel(const reference::Frame &frame, const Scene &scene,
                                        const Sensor &sensor, const std::vector<Illuminator> &lights,
@@ -123,7 +114,7 @@ TEST_CASE("random lights agree with the reference") {
     const std::vector<Illuminator> lights = random_lights(random, seed, sensor.world_from_camera);
     const Backscatter backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
     const auto expected = reference::simulate(scene, sensor, lights, backscatter);
-    Simulator simulator = make_simulator(options_for(random));
+    Simulator simulator = make_simulator(random_options(random));
     simulator.prepare(scene, sensor, lights, backscatter);
     const std::vector<bool> left_out = in_grazing_light(
         expected, scene, sensor, lights, where_returns_cancel(expected, scene, sensor, lights, backscatter));

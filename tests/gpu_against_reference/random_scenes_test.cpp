@@ -4,6 +4,7 @@
 #include "engine/lens_fault.h"
 #include "tests/gpu_against_reference/comparison.h"
 #include "tests/gpu_against_reference/grazing_light.h"
+#include "tests/gpu_against_reference/random_options.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
@@ -129,13 +130,8 @@ Sensor random_sensor(Random &random, std::uint32_t seed) {
   return sensor;
 }
 
-SimulatorOptions random_options(Random &random) {
-  SimulatorOptions options;
-  options.keep_sample_tags = true;
-  options.keep_taps = random.flip();
-  options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
-  options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
-  options.sum = random.flip() ? DiodeSum::automatic : DiodeSum::direct;
+SimulatorOptions options_in_strips(Random &random) {
+  SimulatorOptions options = random_options(random);
   options.max_strip_samples = random.flip() ? 0 : static_cast<std::uint32_t>(random.uniform(1, 20'000));
   return options;
 }
@@ -177,7 +173,7 @@ TEST_CASE("random cameras and signals agree with the reference") {
     const Illuminator illuminator = random_illuminator(random, 1 + 7 * (seed % 6), sensor.world_from_camera);
     const Backscatter backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
     const auto expected = reference::simulate(scene, sensor, {illuminator}, backscatter);
-    Simulator simulator = make_simulator(random_options(random));
+    Simulator simulator = make_simulator(options_in_strips(random));
     simulator.prepare(scene, sensor, {illuminator}, backscatter);
     const Comparison comparison = compare(simulator.measure(), expected, scene, sensor,
                                           pixels_in_grazing_light(expected, scene, sensor, illuminator));

@@ -2,6 +2,7 @@
 
 #include "host/input/setup.h"
 #include "tests/gpu_against_reference/comparison.h"
+#include "tests/gpu_against_reference/variants.h"
 #include "tests/support/simulator.h"
 
 #include <catch2/catch.hpp>
@@ -11,18 +12,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-struct Variant {
-  std::string name;
-  SamplePrecision precision;
-  DiodeLoop loop;
-};
-
-// What this device is given, and what other devices are.
-const std::vector<Variant> variants{
-    {"", SamplePrecision::automatic, DiodeLoop::automatic},
-    {", float pairs, loop", SamplePrecision::double_float, DiodeLoop::looped},
-};
 
 Comparison compare_variant(const Variant &variant, const Setup &setup, const Sensor &sensor,
                            const reference::Frame &expected) {

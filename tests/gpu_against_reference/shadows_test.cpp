@@ -5,6 +5,7 @@
 #include "tests/gpu_against_reference/comparison.h"
 #include "tests/gpu_against_reference/grazing_light.h"
 #include "tests/gpu_against_reference/reached_comparison.h"
+#include "tests/gpu_against_reference/variants.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
@@ -23,18 +24,6 @@ using namespace pmdsim::test;
 namespace {
 
 constexpr reference::Options reference_options{Shadows::automatic, true};
-
-struct Variant {
-  std::string name;
-  SamplePrecision precision;
-  DiodeLoop loop;
-};
-
-// What this device is given, and what other devices are.
-const std::vector<Variant> variants{
-    {"", SamplePrecision::automatic, DiodeLoop::automatic},
-    {", float pairs, loop", SamplePrecision::double_float, DiodeLoop::looped},
-};
 
 SimulatorOptions options_of(const Variant &variant) {
   return {.device = {},
