@@ -1,6 +1,7 @@
 #pragma once
 // What the camera measures of one frame. Every channel is row-major, row 0 at the top, rows * columns values.
 
+#include "engine/accuracy.h"
 #include "engine/pass_time.h"
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct Measurement {
   // through all illuminators) in bit m % 32 of word m / 32.
   std::vector<std::uint32_t> sample_reached;
 
+  AccuracyReport accuracy;
   double frame_ms = 0.0;        // first pass to results in host memory, by the clock
   std::vector<PassTime> passes; // the same by pass
 };

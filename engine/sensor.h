@@ -69,6 +69,8 @@ struct Sensor {
   // frame begins. The simulator and the reference measure one instant and leave it to their caller.
   double tap_interval_s = 0.0;
   std::uint32_t samples = 1; // S: S x S samples a pixel, 1 to 16
+  // A pixel that sees one smooth surface, unshadowed, may take fewer, as far as Accuracy::max_error_m bears.
+  bool adaptive_samples = false;
 
   // S2 of the thin lens, 1/S1 + 1/S2 = 1/f (paper, section 2.1).
   double image_distance_m() const {

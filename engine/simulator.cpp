@@ -262,7 +262,7 @@ const DeviceInfo &Simulator::device() const { return state_->info; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                        Shadows shadows) {
+                        Shadows shadows, const Accuracy & /*accuracy*/) {
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");

@@ -1,6 +1,7 @@
 #pragma once
 // The simulator: runs the passes of one frame on a Vulkan device, in order, and reads the measurement back.
 
+#include "engine/accuracy.h"
 #include "engine/device_info.h"
 #include "engine/illuminator.h"
 #include "engine/measurement.h"
@@ -27,10 +28,12 @@ public:
 
   const DeviceInfo &device() const;
 
-  // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost.
+  // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
+  // (the error asked for cannot be promised).
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, Shadows shadows = Shadows::off);
-  // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost.
+               Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {});
+  // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
+  // accuracy (the error asked for was not kept).
   Measurement measure(const Progress &progress = {});
 
 private:

@@ -43,11 +43,11 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
 }
 
 void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                     Backscatter backscatter, Shadows shadows) {
+                     Backscatter backscatter, Shadows shadows, const Accuracy &accuracy) {
   throw_if_interrupted();
   prepared_ = {&scene, sensor, illuminators, backscatter, shadows};
   if (simulator_)
-    simulator_->prepare(scene, sensor, illuminators, backscatter, shadows);
+    simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
 }
 
 Measurement Camera::measure(const Progress &progress) {

@@ -1,6 +1,7 @@
 #pragma once
 // Whatever computes frames: a Vulkan device or the reference on the CPU, behind one face.
 
+#include "engine/accuracy.h"
 #include "engine/illuminator.h"
 #include "engine/measurement.h"
 #include "engine/scene.h"
@@ -29,9 +30,9 @@ public:
   const std::string &driver() const { return driver_; }
   bool is_reference() const { return !simulator_; }
 
-  // What follows measures this. `scene` must outlive it.
+  // What follows measures this. `scene` must outlive it. The reference is always as exact as it can be.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, Shadows shadows);
+               Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
   // One frame. Throws Error, interrupted among others.
   Measurement measure(const Progress &progress = {});
 

@@ -65,8 +65,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
   return std::move(*frame);
 }
 
-Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps)
-    : setup_(setup), keep_taps_(keep_taps),
+Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy)
+    : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
       camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}) {}
 
 const Instant &Exposures::instant_at(double time_s) {
@@ -91,9 +91,9 @@ void Exposures::prepare(View view) {
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
   if (view.light == Light::in_lens) // it reaches whatever the lens sees
     camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                    setup_.backscatter, Shadows::off);
+                    setup_.backscatter, Shadows::off, accuracy_);
   else
-    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows);
+    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows, accuracy_);
   prepared_ = view;
 }
 

@@ -39,7 +39,7 @@ struct TakenFrame {
 class Exposures {
 public:
   // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken.
-  Exposures(const Setup &setup, const std::string &device, bool keep_taps);
+  Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
 
   const Camera &camera() const { return camera_; }
 
@@ -68,6 +68,7 @@ private:
 
   const Setup &setup_;
   bool keep_taps_;
+  Accuracy accuracy_;
   Camera camera_;
   std::optional<View> prepared_;
   std::optional<Moved> moved_; // the last instant; nothing where nothing moves

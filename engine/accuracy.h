@@ -1,0 +1,43 @@
+#pragma once
+// How exact a frame shall be, and how exact it was found to be. The truth is the design's sum over the
+// sensor's S x S samples and all diodes in exact arithmetic.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace pmdsim {
+
+// exact: every sample times every diode. reduced: fewer, weighted diodes stand in for all, within the error
+// asked for. automatic: the cheapest diodes, samples and precision that stay within it.
+enum class Mode { exact, reduced, automatic };
+
+// The arithmetic of the sum over the diodes.
+enum class Precision { fp32, fp64 };
+
+inline constexpr double default_max_error_m = 10e-6;
+
+// What is asked for.
+struct Accuracy {
+  Mode mode = Mode::exact;
+  std::optional<Precision> precision; // nothing: fp32, or, where automatic, what the error takes
+  double max_error_m =
+      default_max_error_m; // of distance in every pixel, wrapped; not of what mode exact does
+  double max_amplitude_error = std::numeric_limits<double>::infinity(); // relative, likewise
+};
+
+// What a frame came to. Errors are of distance, wrapped, and of amplitude, relative; the largest of all
+// pixels.
+struct AccuracyReport {
+  Precision precision = Precision::fp32;
+  std::uint32_t diodes = 0; // summed where all reach a point: those that stand in for all
+  // A bound from theory, known before the frame; nothing where theory has none.
+  std::optional<double> claimed_m, claimed_amplitude;
+  // Of pixels chosen at random (fixed seed) and evaluated exactly; nothing where that was not asked for.
+  std::optional<double> found_m, found_amplitude;
+  std::size_t checked_pixels = 0;
+  double check_ms = 0.0; // not part of Measurement::frame_ms
+};
+
+} // namespace pmdsim
