@@ -93,7 +93,8 @@ void Exposures::prepare(View view) {
     camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                     setup_.backscatter, Shadows::off, accuracy_);
   else
-    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows, accuracy_);
+    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows,
+                    accuracy_);
   prepared_ = view;
 }
 
