@@ -106,7 +106,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   std::optional<LitPass> lit;
   if (signal.lit)
     lit.emplace(device, occluders, groups, windows, buffers, strips, is_tiled(sensor), options.precision);
-  AccumulatePass accumulate(device, groups, model, signal, options);
+  AccumulatePass accumulate(device, groups, model, signal, options, {signal.lit, false});
   ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision);
   return {sensor,
           signal,

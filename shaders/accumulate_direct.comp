@@ -18,8 +18,8 @@ const uint totals = distinct_taps + 1;
 const uint tap_planes = (distinct_taps + 1) / 2;
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
-void find_tap_phases(ReferencePath path, Tone tone, out float phases[distinct_taps]) {
-  Real turns = phase_turns(add(path.rho, path.range), tone);
+void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phases[distinct_taps]) {
+  Real turns = phase_turns(add(path.rho, path.range), run, tone);
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
@@ -66,12 +66,13 @@ void add_taps(uint i, float total[totals], float backscatter) {
 }
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = sample_of_invocation();
+  LightRun run = LightRuns(constants.run).at;
   Point point;
-  ReferencePath path = load_point(i, point);
+  ReferencePath path = load_point(i, run, point);
   Tone tone = Tones(constants.tones).at[0];
   float phases[distinct_taps];
-  find_tap_phases(path, tone, phases);
+  find_tap_phases(path, run, tone, phases);
   float total[totals];
   [[unroll]] for (uint k = 0; k < totals; ++k)
     total[k] = 0.0;
@@ -89,7 +90,7 @@ void main() {
     add_taps(i, total, backscatter);
   } else {
     Real detour = add(path.rho, negate(path.range));
-    float turns = turn_fraction(phase_turns(detour, tone));
+    float turns = turn_fraction(phase_turns(detour, run, tone));
     add_to_plane(0, i, backscatter, complex_multiply(vec2(total[0], total[distinct_taps]), unit_phasor(turns)));
   }
 }

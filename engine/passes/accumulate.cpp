@@ -47,13 +47,15 @@ vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) 
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
                                       const SumModel &model, const Signal &signal,
-                                      const SimulatorOptions &options, bool first) {
+                                      const SimulatorOptions &options, const AccumulatePass::Extent &extent,
+                                      bool first) {
   return {device,
           (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
            first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps, groups.phased ? 1u : 0u, signal.lit ? 1u : 0u}};
+           signal.distinct_taps, groups.phased ? 1u : 0u, extent.shadowed ? 1u : 0u, extent.listed ? 1u : 0u,
+           signal.promised ? 1u : 0u}};
 }
 
 template <typename Property>
@@ -95,16 +97,35 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
   return model;
 }
 
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
+  std::vector<shader::LightRun> result;
+  for (const DiodeRun &run : groups.runs) {
+    const DoublePair4 reference(run.reference_m, 0.0);
+    const DoublePair phase_turns(run.phase_turns);
+    result.push_back({reference.hi, reference.lo, {phase_turns.hi, phase_turns.lo}, 0, 0});
+  }
+  return result;
+}
+
+namespace {
+
+vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups) {
+  const std::vector<shader::LightRun> runs = light_runs(groups);
+  return vulkan::upload(device, std::as_bytes(std::span(runs)));
+}
+
+} // namespace
+
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               const Signal &signal, const SimulatorOptions &options)
-    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
-      tones_(upload_tones(device, signal)),
+                               const Signal &signal, const SimulatorOptions &options, const Extent &extent)
+    : runs_(groups.runs), light_runs_(upload_runs(device, groups)), blocks_per_run_(groups.blocks_per_run),
+      bundles_per_run_(bundles_per_run(groups)), dispatches_(signal.by_moments ? 1 : signal.frequencies()),
+      planes_(signal.planes), tones_(upload_tones(device, signal)),
       diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      first_(make_pipeline(device, groups, model, signal, options, true)) {
+      first_(make_pipeline(device, groups, model, signal, options, extent, true)) {
   if (runs_.size() > 1)
-    later_ = make_pipeline(device, groups, model, signal, options, false);
+    later_ = make_pipeline(device, groups, model, signal, options, extent, false);
 }
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
@@ -113,12 +134,10 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                             const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
-                            std::uint32_t last) const {
+                            std::uint32_t last, const vulkan::Buffer *list) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
-    const DoublePair4 reference(runs_[run].reference_m, 0.0);
-    const DoublePair phase_turns(runs_[run].phase_turns);
     const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
@@ -127,16 +146,17 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           words(buffers.surface.address()),
           words(buffers.backscatter.address()),
           words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
+          words(light_runs_.address() + run * sizeof(shader::LightRun)),
           words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
           words(tones_.address() + d * sizeof(shader::Tone)),
+          words(diagrams_.address()),
+          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t)),
+          words(buffers.terms.address()),
+          address_of(list),
           blocks_per_run_,
           plane,
-          reference.hi,
-          reference.lo,
-          {phase_turns.hi, phase_turns.lo},
-          words(diagrams_.address()),
-          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t))};
-      (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
+          strip.padded_pixels};
+      dispatch_listed(run == 0 ? first_ : later_, commands, constants, plane, list, of_samples);
     }
   }
 }

@@ -3,6 +3,7 @@
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
 #include "engine/passes/lit_windows.h"
+#include "engine/passes/pixel_lists.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
@@ -20,24 +21,32 @@ struct SumModel {
   bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
 };
 
+// What the runs' diodes share, as the shaders read it.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups);
+
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 
 class AccumulatePass {
 public:
+  // `shadowed`: not every diode reaches every sample; `listed`: only of lists of pixels.
+  struct Extent {
+    bool shadowed, listed;
+  };
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                 const Signal &signal, const SimulatorOptions &options);
+                 const Signal &signal, const SimulatorOptions &options, const Extent &extent);
 
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
   // Adds the runs first ... last - 1 of the window to the strip's sums.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
-              std::uint32_t last) const;
+              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first, std::uint32_t last,
+              const vulkan::Buffer *list = nullptr) const;
 
 private:
   std::vector<DiodeRun> runs_;
+  vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_;
   std::uint32_t bundles_per_run_;
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency

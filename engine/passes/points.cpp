@@ -25,16 +25,17 @@ vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
 } // namespace
 
 PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
-                       SamplePrecision precision)
+                       SamplePrecision precision, bool listed)
     : slope_(slope_of(sensor)), chip_(upload_chip(device, sensor)),
-      pipeline_(device,
-                choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
-                sizeof(shader::PointsConstants),
-                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
-                 is_plain(sensor) ? 0u : 1u, is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u}) {}
+      pipeline_(
+          device, choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
+          sizeof(shader::PointsConstants),
+          {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, is_plain(sensor) ? 0u : 1u,
+           is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u, listed ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                        const StripBuffers &buffers, const SceneBuffers &scene) const {
+                        const StripBuffers &buffers, const SceneBuffers &scene,
+                        const vulkan::Buffer *list) const {
   const shader::PointsConstants constants{strip,
                                           slope_,
                                           words(chip_.address()),
@@ -45,8 +46,9 @@ void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::S
                                           words(buffers.surface.address()),
                                           words(buffers.backscatter.address()),
                                           words(scene.paint.shapes.address()),
-                                          words(scene.paint.surfaces.address())};
-  pipeline_.dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
+                                          words(scene.paint.surfaces.address()),
+                                          address_of(list)};
+  dispatch_listed(pipeline_, commands, constants, sample_count(strip), list, of_samples);
 }
 
 } // namespace pmdsim

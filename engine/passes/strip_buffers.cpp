@@ -26,6 +26,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
   const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
+  const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
   return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
           storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
@@ -35,9 +36,12 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
           storage(samples * sizeof(float)),
           storage(reached_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(lit_bytes),
+          storage(signal.promised ? samples * sizeof(float) : 0),
+          storage(broken_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * signal.sum_planes() * sizeof(shader::vec4)),
           storage(channel_bytes, Usage::eTransferSrc),
           read(channel_bytes),
+          read(broken_bytes),
           read(options.keep_sample_tags || options.keep_reached ? tag_bytes : 0),
           read(options.keep_reached ? reached_bytes : 0)};
 }

@@ -17,9 +17,12 @@ struct StripBuffers {
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;      // diodes that reach it, a word a sample; likewise
+  vulkan::Buffer terms;    // sum of |terms|, a float a sample; empty unless an error was promised
+  vulkan::Buffer broken;   // shader::BrokenPromise; likewise
   vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 a sample
   vulkan::Buffer channels; // channel by channel, padded_pixels words each
   vulkan::Buffer channels_read;
+  vulkan::Buffer broken_read;
   vulkan::Buffer tags_read;    // empty unless the samples' triangles are asked for
   vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
 };
