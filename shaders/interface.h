@@ -67,8 +67,8 @@ PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a 
 // after the other, then its own.
 PMDSIM_CONSTANT short_way_resolve = 14;
 PMDSIM_CONSTANT short_way_points = 23;
-PMDSIM_CONSTANT constant_runs = 29; // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_far = 30;  // 1: pixels that not all diodes light or face have a list of their own
+PMDSIM_CONSTANT constant_runs = 29;      // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 30;   // S
 PMDSIM_CONSTANT constant_one_place = 31; // 1: pixels of several samples may be evaluated at their centre
 
 PMDSIM_CONSTANT distortion_brown = 0;
@@ -342,8 +342,8 @@ struct PixelList {
   uint padding;
 };
 PMDSIM_CONSTANT pixel_lists = 2;
-PMDSIM_CONSTANT list_near = 0; // all diodes light and face every sample that hits
-PMDSIM_CONSTANT list_far = 1;  // the others
+PMDSIM_CONSTANT list_lit = 0;  // every diode lights whatever they see
+PMDSIM_CONSTANT list_rest = 1; // the others
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
@@ -367,8 +367,10 @@ struct ShortWayLight {
   uvec2 diagrams;      // vec2[]
   uvec2 frequencies;   // Frequency[]
   float pattern_slope; // at most, of ln J, per radian
-  float spread_m;      // at most, how much the paths of two diodes over one point differ
-  uint padding_1, padding_2;
+  float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
+                    // theirs do
+  float wavenumber; // of the highest frequency, rad/m
+  uint padding;
 };
 
 // Sees a pixel from its tags to its channels, or lists it.

@@ -56,7 +56,7 @@ void main() {
     pixel = listed_pixel(PixelLists(constants.list), pixel, constants.padded_pixels);
   if (pixel >= constants.pixels)
     return;
-  Frequency frequency = Frequencies(constants.frequency).at;
+  Frequency frequency = Frequencies(constants.frequency).at[0];
   PixelSum sum;
   sum_samples(pixel, frequency, sum);
   uint samples = constants.samples * constants.samples;
