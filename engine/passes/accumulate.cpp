@@ -1,7 +1,7 @@
 #include "engine/passes/accumulate.h"
 
 #include "engine/passes/double_pair.h"
-#include "engine/passes/sample_precision.h"
+#include "engine/passes/forms.h"
 #include "engine/vulkan/commands.h"
 #include "spirv/accumulate_direct_looped_double_float.h"
 #include "spirv/accumulate_direct_looped_fp64.h"
@@ -21,18 +21,6 @@ namespace {
 // Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
 constexpr double largest_whole_power = 8.0;
 
-// One of the forms of a shader: straight or looped, with fp64 or with pairs of floats.
-struct Forms {
-  std::span<const std::uint32_t> straight_fp64, straight_double_float, looped_fp64, looped_double_float;
-
-  std::span<const std::uint32_t> choose(const vulkan::Device &device, const SimulatorOptions &options) const {
-    const bool straight =
-        options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line;
-    return straight ? pmdsim::choose(device, options.precision, straight_fp64, straight_double_float)
-                    : pmdsim::choose(device, options.precision, looped_fp64, looped_double_float);
-  }
-};
-
 const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
                          shader::accumulate_straight_double_float_spirv, shader::accumulate_looped_fp64_spirv,
                          shader::accumulate_looped_double_float_spirv};
@@ -40,22 +28,39 @@ const Forms direct_forms{
     shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
     shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
 
+} // namespace
+
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
   const std::vector<shader::Tone> tones = signal.all_tones();
   return vulkan::upload(device, std::as_bytes(std::span(tones)));
 }
 
+vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Extent &extent, bool first) {
+  return {groups.moments,
+          model.backscatter,
+          model.pattern,
+          model.order,
+          groups.blocks_per_run,
+          first ? 1u : 0u,
+          signal.tones * signal.frequencies(),
+          signal.waveform,
+          signal.taps,
+          signal.distinct_taps,
+          groups.phased ? 1u : 0u,
+          extent.shadowed ? 1u : 0u,
+          extent.listed ? 1u : 0u,
+          signal.promised ? 1u : 0u};
+}
+
+namespace {
+
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
                                       const SumModel &model, const Signal &signal,
                                       const SimulatorOptions &options, const AccumulatePass::Extent &extent,
                                       bool first) {
-  return {device,
-          (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
-          sizeof(shader::AccumulateConstants),
-          {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
-           first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps, groups.phased ? 1u : 0u, extent.shadowed ? 1u : 0u, extent.listed ? 1u : 0u,
-           signal.promised ? 1u : 0u}};
+  return {device, (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
+          sizeof(shader::AccumulateConstants), sum_constants(groups, model, signal, extent, first)};
 }
 
 template <typename Property>

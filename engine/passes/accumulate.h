@@ -21,9 +21,6 @@ struct SumModel {
   bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
 };
 
-// What the runs' diodes share, as the shaders read it.
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups);
-
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 
@@ -57,5 +54,14 @@ private:
   vulkan::ComputePipeline first_; // of a frame's runs
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
+
+// What the runs' diodes share, as the shaders read it.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups);
+
+// Of the moments' forms and what they share with other sums: specialization constants, and the tones that
+// they read.
+vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Extent &extent, bool first);
+vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal);
 
 } // namespace pmdsim

@@ -7,15 +7,24 @@
 #include "spirv/resolve_fp64.h"
 
 namespace pmdsim {
+vulkan::Specialization resolve_constants(const Signal &signal, bool tiled, bool listed, bool first) {
+  return {signal.planes,
+          signal.waveform,
+          signal.taps,
+          signal.keep_taps ? 1u : 0u,
+          first ? 1u : 0u,
+          tiled ? 1u : 0u,
+          first && signal.lit ? 1u : 0u,
+          listed ? 1u : 0u,
+          signal.promised ? 1u : 0u};
+}
+
 namespace {
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
                                       SamplePrecision precision, bool tiled, bool listed, bool first) {
-  return {device,
-          choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
-          sizeof(shader::ResolveConstants),
-          {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u,
-           tiled ? 1u : 0u, first && signal.lit ? 1u : 0u, listed ? 1u : 0u, signal.promised ? 1u : 0u}};
+  return {device, choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
+          sizeof(shader::ResolveConstants), resolve_constants(signal, tiled, listed, first)};
 }
 
 vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &signal,

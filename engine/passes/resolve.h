@@ -33,4 +33,7 @@ private:
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
+// The specialization constants of the resolve pass, for what resolves likewise.
+vulkan::Specialization resolve_constants(const Signal &signal, bool tiled, bool listed, bool first);
+
 } // namespace pmdsim
