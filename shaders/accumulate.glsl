@@ -63,12 +63,18 @@ struct ReferencePath {
   Real rho;   // sample - reference point, m
 };
 
-ReferencePath load_point(uint i, out Point point) {
+// `from_reference`: P - G.
+ReferencePath load_path(uint i, out Real3 from_reference) {
   Real3 position = real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
+  from_reference = subtract3(position, real3(constants.reference_hi.xyz, constants.reference_lo.xyz));
+  return ReferencePath(length3(position), length3(from_reference));
+}
+
+ReferencePath load_point(uint i, out Point point) {
+  Real3 from_reference;
+  ReferencePath path = load_path(i, from_reference);
   vec4 surface = Vec4s(constants.surface).at[i];
-  vec4 reference_hi = constants.reference_hi, reference_lo = constants.reference_lo;
-  Real3 from_reference = subtract3(position, real3(reference_hi.xyz, reference_lo.xyz));
-  ReferencePath path = ReferencePath(length3(position), length3(from_reference));
+  vec4 reference_hi = constants.reference_hi;
   point.position = high3(from_reference);
   point.rho = high(path.rho);
   point.normal = surface.xyz;

@@ -7,7 +7,7 @@
 #include "real.glsl"
 
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = constant_surfaces) const uint surfaces = 1;
+layout(constant_id = constant_surfaces) const uint surface_vectors = 1;
 layout(constant_id = constant_vignetting) const uint vignetting = 0;
 layout(constant_id = constant_painted) const uint painted = 0;
 
@@ -54,8 +54,10 @@ void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, uint id, Triang
   if (painted != 0)
     backscatter = look_of(to.shapes, to.surfaces, id, point).backscatter;
   Floats(to.backscatter).at[i] = vignetting != 0 ? backscatter * cos4(ray) : backscatter;
-  if (surfaces != 0)
-    Vec4s(to.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  if (surface_vectors > 0)
+    Vec4s(to.surface).at[surface_vectors * i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  if (surface_vectors > 1)
+    Vec4s(to.surface).at[surface_vectors * i + 1] = vec4(plane.plane_lo.xyz, -plane.plane_lo.w);
 }
 
 #endif

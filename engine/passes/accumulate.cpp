@@ -9,6 +9,9 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_precise_looped_double_float.h"
+#include "spirv/accumulate_precise_looped_fp64.h"
+#include "spirv/accumulate_precise_straight_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
 
@@ -39,6 +42,19 @@ const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
 const Forms direct_forms{
     shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
     shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
+// Pairs of floats as a straight line would take minutes to compile.
+const Forms precise_forms{
+    shader::accumulate_precise_straight_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv,
+    shader::accumulate_precise_looped_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv};
+
+const Forms &forms_of(const Signal &signal, Precision precision) {
+  return !signal.by_moments ? direct_forms : precision == Precision::fp64 ? precise_forms : moment_forms;
+}
+
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
+  return vulkan::upload(device, precision == Precision::fp64 ? std::as_bytes(std::span(groups.precise_diodes))
+                                                             : std::as_bytes(std::span(groups.diodes)));
+}
 
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
   const std::vector<shader::Tone> tones = signal.all_tones();
@@ -47,9 +63,9 @@ vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) 
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
                                       const SumModel &model, const Signal &signal,
-                                      const SimulatorOptions &options, bool first) {
+                                      const SimulatorOptions &options, Precision precision, bool first) {
   return {device,
-          (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
+          forms_of(signal, precision).choose(device, options),
           sizeof(shader::AccumulateConstants),
           {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
            first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
@@ -95,16 +111,20 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
   return model;
 }
 
+Precision sum_precision(const Signal &signal, Precision wanted) {
+  return signal.by_moments ? wanted : Precision::fp32;
+}
+
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               const Signal &signal, const SimulatorOptions &options)
+                               const Signal &signal, const SimulatorOptions &options, Precision precision)
     : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
+      diode_bytes_(precision == Precision::fp64 ? sizeof(shader::PreciseDiode) : sizeof(shader::GroupDiode)),
       dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
-      tones_(upload_tones(device, signal)),
-      diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
+      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, precision)),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      first_(make_pipeline(device, groups, model, signal, options, true)) {
+      first_(make_pipeline(device, groups, model, signal, options, precision, true)) {
   if (runs_.size() > 1)
-    later_ = make_pipeline(device, groups, model, signal, options, false);
+    later_ = make_pipeline(device, groups, model, signal, options, precision, false);
 }
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
@@ -127,7 +147,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           words(buffers.surface.address()),
           words(buffers.backscatter.address()),
           words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
-          words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
+          words(diodes_.address() + runs_[run].first * diode_bytes_),
           words(tones_.address() + d * sizeof(shader::Tone)),
           blocks_per_run_,
           plane,

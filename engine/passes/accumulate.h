@@ -2,6 +2,7 @@
 // The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
+#include "engine/accuracy.h"
 #include "engine/passes/lit_windows.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
@@ -17,16 +18,24 @@ struct SumModel {
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
 
-  bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
+  // Of normals and heights a sample: none, one, or, to double precision, two.
+  std::uint32_t surface_vectors(Precision precision) const {
+    return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
+  }
 };
 
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 
+// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
+Precision sum_precision(const Signal &signal, Precision wanted);
+
 class AccumulatePass {
 public:
+  // `precision` is the one of `groups` and of the surfaces' vectors.
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                 const Signal &signal, const SimulatorOptions &options);
+                 const Signal &signal, const SimulatorOptions &options,
+                 Precision precision = Precision::fp32);
 
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
@@ -40,8 +49,9 @@ private:
   std::vector<DiodeRun> runs_;
   std::uint32_t blocks_per_run_;
   std::uint32_t bundles_per_run_;
-  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
-  std::uint32_t planes_;     // of the sum, of each frequency
+  vk::DeviceSize diode_bytes_; // of a diode's record
+  std::uint32_t dispatches_;   // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;       // of the sum, of each frequency
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
   vulkan::Buffer diagrams_;

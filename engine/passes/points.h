@@ -12,8 +12,8 @@ namespace pmdsim {
 
 class PointsPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights.
-  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
+  // `surface_vectors`: of normals and heights, that the sum asks for a sample (SumModel).
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, std::uint32_t surface_vectors, bool painted,
              SamplePrecision precision);
 
   // `scene.planes` holds the TrianglePlane of each of the scene's triangles.
