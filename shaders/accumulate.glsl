@@ -27,17 +27,21 @@ uint reached_of_block(uint i, uint block) {
   return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
+Real3 load_position(uint i) {
+  return real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
+}
+
 ReferencePath load_point(uint i, LightRun run, out Point point) {
-  Real3 position = real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
-  return see_point(position, Vec4s(constants.surface).at[i], run, point);
+  return see_point(load_position(i), Vec4s(constants.surface).at[i], run, point);
 }
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
-void add_terms(uint i, float terms) {
+void add_terms(uint i, float backscatter, float terms) {
   if (promised == 0)
     return;
   Floats sums = Floats(constants.terms);
-  sums.at[i] = is_first != 0 ? terms : sums.at[i] + terms;
+  float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;
+  sums.at[i] = is_first != 0 ? scattered : sums.at[i] + scattered;
 }
 
 // Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even

@@ -59,6 +59,7 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
 
 void add_taps(uint i, float total[totals], float backscatter) {
   float weight = total[distinct_taps];
+  add_terms(i, backscatter, weight);
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
     uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
     add_to_plane(p, i, backscatter, 4.0 * vec2(total[2 * p], total[second]) - weight);

@@ -54,7 +54,7 @@ PMDSIM_CONSTANT constant_resolve_listed = 7;   // 1: only the pixels of a list
 PMDSIM_CONSTANT constant_resolve_promised = 8; // 1: an error was promised
 
 // Specialization constants of the points passes.
-PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
+PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
 PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
 PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or is filled in part; 0: nominal
 PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
@@ -197,6 +197,16 @@ struct GroupDiode {
   vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
 
+// The same for the precise sum, with what rounding to float took.
+struct PreciseDiode {
+  GroupDiode rounded;
+  vec4 position_rest;
+  vec4 axis_rest;
+  float intensity_rest;
+  float order_rest;
+  float padding_1, padding_2;
+};
+
 // What the diodes of a run share.
 struct LightRun {
   vec4 reference_hi; // the group's reference point (camera frame, m)
@@ -251,8 +261,8 @@ struct PointsConstants {
   uvec2 planes; // in: TrianglePlane[]
   uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
   uvec2 position_lo; // out: float[3] a sample, their rests
-  uvec2
-      surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for it
+  uvec2 surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
+                 // it; where it is precise each followed by its rest
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
   uvec2 shapes;      // in, where painted: ShapePaint[]
   uvec2 surfaces;    // in, where painted: SurfacePaint[]
@@ -286,7 +296,7 @@ struct AccumulateConstants {
   uvec2 backscatter;
   uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
   uvec2 run;      // in: LightRun
-  uvec2 diodes;   // in: GroupDiode[], the run's
+  uvec2 diodes;   // in: GroupDiode[] or, precise, PreciseDiode[], the run's
   uvec2 tones;    // in: Tone[]
   uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
   uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
@@ -411,7 +421,7 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
-static_assert(sizeof(GroupDiode) == 80);
+static_assert(sizeof(GroupDiode) == 80 && sizeof(PreciseDiode) == 128);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);

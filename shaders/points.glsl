@@ -10,7 +10,7 @@
 #define POINTS_BASE 0
 #endif
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = POINTS_BASE + constant_surfaces) const uint surfaces = 1;
+layout(constant_id = POINTS_BASE + constant_surfaces) const uint surface_vectors = 1;
 layout(constant_id = POINTS_BASE + constant_vignetting) const uint vignetting = 0;
 layout(constant_id = POINTS_BASE + constant_painted) const uint painted = 0;
 
@@ -71,8 +71,10 @@ void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, uint id, Triang
   store_vec3(to.position_hi, i, high3(point));
   store_vec3(to.position_lo, i, rest3(point));
   Floats(to.backscatter).at[i] = backscatter_of(to.shapes, to.surfaces, ray, point, id, plane);
-  if (surfaces != 0)
-    Vec4s(to.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  if (surface_vectors > 0)
+    Vec4s(to.surface).at[surface_vectors * i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  if (surface_vectors > 1)
+    Vec4s(to.surface).at[surface_vectors * i + 1] = vec4(plane.plane_lo.xyz, -plane.plane_lo.w);
 }
 
 #endif

@@ -52,10 +52,16 @@ struct ReferencePath {
   Real rho;   // sample - reference point, m
 };
 
+// `from_reference`: P - G.
+ReferencePath see_path(Real3 position, LightRun run, out Real3 from_reference) {
+  from_reference = subtract3(position, real3(run.reference_hi.xyz, run.reference_lo.xyz));
+  return ReferencePath(length3(position), length3(from_reference));
+}
+
 // `surface` as in PointsConstants.
 ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point point) {
-  Real3 from_reference = subtract3(position, real3(run.reference_hi.xyz, run.reference_lo.xyz));
-  ReferencePath path = ReferencePath(length3(position), length3(from_reference));
+  Real3 from_reference;
+  ReferencePath path = see_path(position, run, from_reference);
   point.position = high3(from_reference);
   point.rho = high(path.rho);
   point.normal = surface.xyz;

@@ -9,6 +9,9 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_precise_looped_double_float.h"
+#include "spirv/accumulate_precise_looped_fp64.h"
+#include "spirv/accumulate_precise_straight_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
 
@@ -27,6 +30,19 @@ const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
 const Forms direct_forms{
     shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
     shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
+// Pairs of floats as a straight line would take minutes to compile.
+const Forms precise_forms{
+    shader::accumulate_precise_straight_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv,
+    shader::accumulate_precise_looped_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv};
+
+const Forms &forms_of(const Signal &signal, Precision precision) {
+  return !signal.by_moments ? direct_forms : precision == Precision::fp64 ? precise_forms : moment_forms;
+}
+
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
+  return vulkan::upload(device, precision == Precision::fp64 ? std::as_bytes(std::span(groups.precise_diodes))
+                                                             : std::as_bytes(std::span(groups.diodes)));
+}
 
 } // namespace
 
@@ -36,7 +52,7 @@ vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) 
 }
 
 vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
-                                     const AccumulatePass::Extent &extent, bool first) {
+                                     const AccumulatePass::Scope &scope, bool first) {
   return {groups.moments,
           model.backscatter,
           model.pattern,
@@ -48,8 +64,8 @@ vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &
           signal.taps,
           signal.distinct_taps,
           groups.phased ? 1u : 0u,
-          extent.shadowed ? 1u : 0u,
-          extent.listed ? 1u : 0u,
+          scope.shadowed ? 1u : 0u,
+          scope.listed ? 1u : 0u,
           signal.promised ? 1u : 0u};
 }
 
@@ -57,10 +73,10 @@ namespace {
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
                                       const SumModel &model, const Signal &signal,
-                                      const SimulatorOptions &options, const AccumulatePass::Extent &extent,
+                                      const SimulatorOptions &options, const AccumulatePass::Scope &scope,
                                       bool first) {
-  return {device, (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
-          sizeof(shader::AccumulateConstants), sum_constants(groups, model, signal, extent, first)};
+  return {device, forms_of(signal, scope.precision).choose(device, options),
+          sizeof(shader::AccumulateConstants), sum_constants(groups, model, signal, scope, first)};
 }
 
 template <typename Property>
@@ -102,6 +118,10 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
   return model;
 }
 
+Precision sum_precision(const Signal &signal, Precision wanted) {
+  return signal.by_moments ? wanted : Precision::fp32;
+}
+
 std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
   std::vector<shader::LightRun> result;
   for (const DiodeRun &run : groups.runs) {
@@ -122,15 +142,17 @@ vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &grou
 } // namespace
 
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               const Signal &signal, const SimulatorOptions &options, const Extent &extent)
+                               const Signal &signal, const SimulatorOptions &options, const Scope &scope)
     : runs_(groups.runs), light_runs_(upload_runs(device, groups)), blocks_per_run_(groups.blocks_per_run),
-      bundles_per_run_(bundles_per_run(groups)), dispatches_(signal.by_moments ? 1 : signal.frequencies()),
-      planes_(signal.planes), tones_(upload_tones(device, signal)),
-      diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
+      bundles_per_run_(bundles_per_run(groups)),
+      diode_bytes_(scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
+                                                      : sizeof(shader::GroupDiode)),
+      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
+      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, scope.precision)),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      first_(make_pipeline(device, groups, model, signal, options, extent, true)) {
+      first_(make_pipeline(device, groups, model, signal, options, scope, true)) {
   if (runs_.size() > 1)
-    later_ = make_pipeline(device, groups, model, signal, options, extent, false);
+    later_ = make_pipeline(device, groups, model, signal, options, scope, false);
 }
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
@@ -152,7 +174,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           words(buffers.backscatter.address()),
           words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
           words(light_runs_.address() + run * sizeof(shader::LightRun)),
-          words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
+          words(diodes_.address() + runs_[run].first * diode_bytes_),
           words(tones_.address() + d * sizeof(shader::Tone)),
           words(diagrams_.address()),
           words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t)),

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
-constexpr std::uint32_t largest_run_blocks = 16;
+// A straight line in fp64 takes several times as long to compile as one in float.
+constexpr std::uint32_t largest_run_blocks = 16, largest_precise_run_blocks = 4;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
 constexpr std::uint64_t run_overhead_blocks = 4;
-constexpr double remainder = 0x1p-26;
 
 struct NumberedDiode : Diode {
   std::uint32_t number; // among those of all illuminators
@@ -132,6 +132,29 @@ shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m
   return record;
 }
 
+float rest(double value, float rounded) { return static_cast<float>(value - static_cast<double>(rounded)); }
+
+glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
+  return glm::vec4(value - glm::dvec4(rounded));
+}
+
+// What rounding to `rounded` took; nothing of a dark one.
+shader::PreciseDiode precise_diode(const shader::GroupDiode &rounded, const Diode &diode,
+                                   const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
+  shader::PreciseDiode record{};
+  record.rounded = rounded;
+  if (rounded.intensity == 0.0f)
+    return record;
+  const glm::dvec3 position_m = diode.position_m - reference_m;
+  record.position_rest =
+      rest(glm::dvec4(-2.0 * position_m, glm::dot(position_m, position_m)), rounded.position);
+  record.axis_rest = rest(glm::dvec4(diode.axis, glm::dot(diode.axis, position_m)), rounded.axis);
+  record.intensity_rest = rest(diode.intensity_w_sr / largest_intensity_w_sr, rounded.intensity);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order_rest = rest(diode.pattern.order, rounded.order);
+  return record;
+}
+
 std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
   std::vector<NumberedDiode> all;
   for (const CameraIlluminator &illuminator : illuminators)
@@ -198,7 +221,7 @@ std::uint32_t blocks_for(std::size_t diodes) {
 }
 
 // All runs have the same length, so short groups are padded and long ones cut: the length that costs least.
-std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
+std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_t most) {
   const auto cost = [&](std::uint32_t run_blocks) {
     std::uint64_t runs = 0;
     for (const Group &group : groups)
@@ -206,13 +229,13 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
     return runs * (run_blocks + run_overhead_blocks);
   };
   std::uint32_t cheapest = 1;
-  for (std::uint32_t run_blocks = 2; run_blocks <= largest_run_blocks; ++run_blocks)
+  for (std::uint32_t run_blocks = 2; run_blocks <= most; ++run_blocks)
     if (cost(run_blocks) < cost(cheapest))
       cheapest = run_blocks;
   return cheapest;
 }
 
-void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) {
+void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back(
@@ -223,6 +246,9 @@ void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) 
       result.diodes.push_back(
           dark ? dark_diode()
                : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams));
+      if (precision == Precision::fp64)
+        result.precise_diodes.push_back(
+            precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
       result.places.push_back({diode.position_m, dark ? no_id : diode.number});
     }
   }
@@ -230,7 +256,9 @@ void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) 
 
 } // namespace
 
-std::uint32_t moments_needed(double phase_rad) {
+double largest_remainder(Precision precision) { return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26; }
+
+std::uint32_t moments_needed(double phase_rad, double remainder) {
   std::uint32_t k = 1;
   double term = phase_rad; // (kappa e)^k / k!
   while (term > remainder)
@@ -239,7 +267,8 @@ std::uint32_t moments_needed(double phase_rad) {
 }
 
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                         Precision precision) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
@@ -254,14 +283,18 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
     left = left.subspan(diodes.size());
   }
 
-  double excess_m = 0.0;
-  for (const Group &group : grouping.groups())
-    excess_m = std::max(excess_m, group.excess_m);
-  result.moments = moments_needed(wavenumber_rad_m * excess_m);
-  result.blocks_per_run = cheapest_run_blocks(grouping.groups());
+  for (const Group &group : grouping.groups()) {
+    result.excess_m = std::max(result.excess_m, group.excess_m);
+    result.radius_m = std::max(result.radius_m, group.radius_m);
+    if (group.radius_m > 0.0)
+      result.radius_over_range = std::max(result.radius_over_range, group.radius_m / group.range_m);
+  }
+  result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
+  result.blocks_per_run = cheapest_run_blocks(
+      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : largest_run_blocks);
   DiagramTables diagrams;
   for (const Group &group : grouping.groups())
-    add_runs(group, result, diagrams);
+    add_runs(group, precision, result, diagrams);
   result.diagrams = diagrams.values();
   return result;
 }

@@ -8,14 +8,14 @@
 
 namespace pmdsim {
 
-PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
-                       SamplePrecision precision, bool listed)
+PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, std::uint32_t surface_vectors,
+                       bool painted, SamplePrecision precision, bool listed)
     : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
-      pipeline_(
-          device, choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
-          sizeof(shader::PointsConstants),
-          {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, is_plain(sensor) ? 0u : 1u,
-           is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u, listed ? 1u : 0u}) {}
+      pipeline_(device,
+                choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
+                sizeof(shader::PointsConstants),
+                {surface_vectors, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, is_plain(sensor) ? 0u : 1u,
+                 is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u, listed ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                         const StripBuffers &buffers, const SceneBuffers &scene,

@@ -13,8 +13,9 @@ namespace pmdsim {
 
 class PointsPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights; `listed`: only of lists of pixels.
-  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
+  // `surface_vectors`: of normals and heights, that the sum asks for a sample (SumModel); `listed`: only of
+  // lists of pixels.
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, std::uint32_t surface_vectors, bool painted,
              SamplePrecision precision, bool listed = false);
 
   // `scene.planes` holds the TrianglePlane of each of the scene's triangles.

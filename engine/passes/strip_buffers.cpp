@@ -8,7 +8,7 @@ namespace pmdsim {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SimulatorOptions &options) {
+                                std::uint32_t surface_vectors, const SimulatorOptions &options) {
   using Usage = vk::BufferUsageFlagBits;
   vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
@@ -32,7 +32,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
           storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * 3 * sizeof(float)),
           storage(samples * 3 * sizeof(float)),
-          storage(samples * sizeof(shader::vec4)),
+          storage(samples * surface_vectors * sizeof(shader::vec4)),
           storage(samples * sizeof(float)),
           storage(reached_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(lit_bytes),

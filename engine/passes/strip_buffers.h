@@ -13,7 +13,7 @@ struct StripBuffers {
   vulkan::Buffer
       position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;
-  vulkan::Buffer surface;     // vec4 a sample
+  vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;      // diodes that reach it, a word a sample; likewise
@@ -29,7 +29,7 @@ struct StripBuffers {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SimulatorOptions &options);
+                                std::uint32_t surface_vectors, const SimulatorOptions &options);
 
 // The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
 // MiB.
