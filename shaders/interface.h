@@ -52,6 +52,7 @@ PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light reaches the pixel, too
 PMDSIM_CONSTANT constant_resolve_listed = 7;   // 1: only the pixels of a list
 PMDSIM_CONSTANT constant_resolve_promised = 8; // 1: an error was promised
+PMDSIM_CONSTANT constant_resolve_precise = 9;  // 1: samples' returns are turned and added in Real
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
@@ -66,10 +67,10 @@ PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a 
 // Specialization constants of the short way: those of the accumulate, the resolve and the points pass, one
 // after the other, then its own.
 PMDSIM_CONSTANT short_way_resolve = 14;
-PMDSIM_CONSTANT short_way_points = 23;
-PMDSIM_CONSTANT constant_runs = 29;      // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_samples = 30;   // S
-PMDSIM_CONSTANT constant_one_place = 31; // 1: pixels of several samples may be evaluated at their centre
+PMDSIM_CONSTANT short_way_points = 24;
+PMDSIM_CONSTANT constant_runs = 30;      // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 31;   // S
+PMDSIM_CONSTANT constant_one_place = 32; // 1: pixels of several samples may be evaluated at their centre
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;

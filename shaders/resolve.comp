@@ -5,14 +5,30 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "pixel_list.glsl"
+#include "real_elementary.glsl"
 #include "resolve.glsl"
 
 layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
 layout(constant_id = constant_resolve_listed) const uint listed = 0;
+layout(constant_id = constant_resolve_precise) const uint precise_sum = 0;
+
+// Adds `z`, turned, in Real; the sum stays a pair.
+vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
+  RealComplex value = RealComplex(real(z.x, z.z), real(z.y, z.w));
+  if (waveform != waveform_square)
+    value = complex_multiply(value, real_unit_phasor(real_turn_fraction(turns)));
+  Real re = add(real(sum.x, sum.z), value.re), im = add(real(sum.y, sum.w), value.im);
+  return vec4(high(re), high(im), rest(re), rest(im));
+}
 
 void add_return(inout PixelSum sum, Frequency frequency, uint i, Real excess_m) {
   [[unroll]] for (uint p = 0; p < planes; ++p) {
-    vec2 z = compensated_value(Vec4s(constants.sum).at[p * constants.plane + i]);
+    vec4 pair = Vec4s(constants.sum).at[p * constants.plane + i];
+    if (precise_sum != 0) {
+      sum.z[p] = add_precisely(sum.z[p], pair, multiply(excess_m, turns_per_m(frequency, p)));
+      continue;
+    }
+    vec2 z = compensated_value(pair);
     if (waveform != waveform_square) // each plane is a harmonic
       z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(frequency, p)))));
     sum.z[p] = compensated_add(sum.z[p], z);

@@ -7,24 +7,26 @@
 #include "spirv/resolve_fp64.h"
 
 namespace pmdsim {
-vulkan::Specialization resolve_constants(const Signal &signal, bool tiled, bool listed, bool first) {
+vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
   return {signal.planes,
           signal.waveform,
           signal.taps,
           signal.keep_taps ? 1u : 0u,
           first ? 1u : 0u,
-          tiled ? 1u : 0u,
+          scope.tiled ? 1u : 0u,
           first && signal.lit ? 1u : 0u,
-          listed ? 1u : 0u,
-          signal.promised ? 1u : 0u};
+          scope.listed ? 1u : 0u,
+          signal.promised ? 1u : 0u,
+          scope.precision == Precision::fp64 ? 1u : 0u};
 }
 
 namespace {
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
-                                      SamplePrecision precision, bool tiled, bool listed, bool first) {
+                                      SamplePrecision precision, const ResolvePass::Scope &scope,
+                                      bool first) {
   return {device, choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
-          sizeof(shader::ResolveConstants), resolve_constants(signal, tiled, listed, first)};
+          sizeof(shader::ResolveConstants), resolve_constants(signal, scope, first)};
 }
 
 vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &signal,
@@ -36,14 +38,13 @@ vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &si
 } // namespace
 
 ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
-                         bool tiled, SamplePrecision precision, const std::optional<Promise> &promise,
-                         bool listed)
+                         const SimulatorOptions &options, const Scope &scope)
     : signal_(signal), diodes_(groups.diode_count),
-      frequencies_(upload_frequencies(device, signal, groups, promise)),
+      frequencies_(upload_frequencies(device, signal, groups, scope.promise)),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
-      first_(make_pipeline(device, signal, precision, tiled, listed, true)) {
+      first_(make_pipeline(device, signal, options.precision, scope, true)) {
   if (signal.frequencies() > 1)
-    later_ = make_pipeline(device, signal, precision, tiled, listed, false);
+    later_ = make_pipeline(device, signal, options.precision, scope, false);
 }
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

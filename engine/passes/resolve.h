@@ -1,6 +1,7 @@
 #pragma once
 // The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
+#include "engine/accuracy.h"
 #include "engine/passes/diode_groups.h"
 #include "engine/passes/pixel_lists.h"
 #include "engine/passes/promise.h"
@@ -15,10 +16,15 @@ namespace pmdsim {
 
 class ResolvePass {
 public:
-  // `tiled`: whether the tags lie in tiles (shaders/interface.h); `promise` where Signal::promised; `listed`:
-  // only lists of pixels.
-  ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups, bool tiled,
-              SamplePrecision precision, const std::optional<Promise> &promise = {}, bool listed = false);
+  // Which pixels, and how they were summed.
+  struct Scope {
+    bool tiled = false;  // the tags lie in tiles (shaders/interface.h)
+    bool listed = false; // only those of lists
+    Precision precision = Precision::fp32;
+    std::optional<Promise> promise; // where Signal::promised
+  };
+  ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
+              const SimulatorOptions &options, const Scope &scope);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
               const StripBuffers &buffers, const vulkan::Buffer &planes,
@@ -34,6 +40,6 @@ private:
 };
 
 // The specialization constants of the resolve pass, for what resolves likewise.
-vulkan::Specialization resolve_constants(const Signal &signal, bool tiled, bool listed, bool first);
+vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first);
 
 } // namespace pmdsim

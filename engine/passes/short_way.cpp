@@ -26,7 +26,8 @@ const Forms forms{shader::short_way_straight_fp64_spirv, shader::short_way_strai
 vulkan::Specialization constants_of(const Sensor &sensor, const DiodeGroups &groups, const SumModel &model,
                                     const Signal &signal, const ShortWayOptions &ways) {
   vulkan::Specialization constants = sum_constants(groups, model, signal, {false, false}, true);
-  const vulkan::Specialization resolve = resolve_constants(signal, is_tiled(sensor), false, true);
+  const vulkan::Specialization resolve =
+      resolve_constants(signal, {is_tiled(sensor), false, Precision::fp32, {}}, true);
   constants.insert(constants.end(), resolve.begin(), resolve.end());
   const vulkan::Specialization points{1,
                                       sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
