@@ -16,6 +16,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double largest_amplitude_error = 1e-3;
+constexpr std::size_t most_candidates = 512;
 constexpr std::size_t fewest_diodes = 3; // of a cluster: fewer are not worth a look
 constexpr double flat_over_wide = 0.1;   // of a cluster's spreads: flatter, it has axes of its own
 
@@ -93,26 +94,77 @@ DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::s
   return cluster;
 }
 
-// The fewest diodes that are good enough, as shares of the cluster's intensity.
-struct Reduction {
+// The diodes of a cluster that may stand in for all: evenly spread, the first of each part, with the part's
+// share.
+struct Candidates {
+  std::vector<std::size_t> diodes;
   Eigen::VectorXd shares;
-  MomentBounds::Error error{0.0, 0.0};
-
-  Eigen::Index diodes() const { return (shares.array() > 0.0).count(); }
 };
 
+Candidates candidates_of(const DiodeCluster &cluster) {
+  const std::size_t all = cluster.offsets_m.size(), count = std::min(all, most_candidates);
+  Candidates candidates{{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count))};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = i * all / count, end = (i + 1) * all / count;
+    candidates.diodes.push_back(first);
+    candidates.shares[static_cast<Eigen::Index>(i)] =
+        cluster.shares.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first))
+            .sum();
+  }
+  return candidates;
+}
+
+Eigen::VectorXd moments_of(const DiodeCluster &cluster, const std::vector<Powers> &moments) {
+  constexpr std::size_t at_a_time = 512;
+  const std::span<const glm::dvec3> offsets_m = cluster.offsets_m;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(moments.size()));
+  for (std::size_t first = 0; first < offsets_m.size(); first += at_a_time) {
+    const std::size_t count = std::min(at_a_time, offsets_m.size() - first);
+    sums += moment_values(moments, cluster, offsets_m.subspan(first, count)) *
+            cluster.shares.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+  }
+  return sums;
+}
+
+// Few diodes that stand in for a cluster.
+struct Reduction {
+  std::vector<std::size_t> diodes; // of the cluster
+  std::vector<double> shares;      // of its intensity, > 0; their sum is 1
+  MomentBounds::Error error{0.0, 0.0};
+};
+
+Reduction reduction_of(const Candidates &candidates, const Eigen::VectorXd &shares,
+                       const MomentBounds::Error &error) {
+  Reduction reduction{{}, {}, error};
+  for (std::size_t i = 0; i < candidates.diodes.size(); ++i)
+    if (const double share = shares[static_cast<Eigen::Index>(i)]; share > 0.0) {
+      reduction.diodes.push_back(candidates.diodes[i]);
+      reduction.shares.push_back(share);
+    }
+  return reduction;
+}
+
+// The fewest diodes that are good enough; nothing where not even all combinations of moments are.
 std::optional<Reduction> fewest(const DiodeCluster &cluster, const MomentBounds &bounds,
                                 const ErrorScale &scale) {
-  const Quadrature quadrature(bounds.importance(scale).asDiagonal() * bounds.moments, cluster.shares);
+  const Candidates candidates = candidates_of(cluster);
+  std::vector<glm::dvec3> offsets_m;
+  for (const std::size_t diode : candidates.diodes)
+    offsets_m.push_back(cluster.offsets_m[diode]);
+  const Eigen::MatrixXd values = moment_values(bounds.moments, cluster, offsets_m);
+  const Eigen::VectorXd moments = moments_of(cluster, bounds.moments);
+  const Eigen::VectorXd importance = bounds.importance(scale);
+  const Quadrature quadrature(importance.asDiagonal() * values, importance.cwiseProduct(moments),
+                              candidates.shares);
   const auto attempt = [&](Eigen::Index combinations) -> std::optional<Reduction> {
-    Reduction reduction{quadrature.keeping(combinations)};
-    reduction.error = bounds.error(bounds.moments * (reduction.shares - cluster.shares), scale);
-    const bool good = reduction.error.distance_m <= scale.max_error_m &&
-                      reduction.error.amplitude <= scale.max_amplitude_error;
-    return good ? std::optional(reduction) : std::nullopt;
+    Eigen::VectorXd shares = quadrature.keeping(combinations);
+    shares /= shares.sum();
+    const MomentBounds::Error error = bounds.error(values * shares - moments, scale);
+    const bool good = error.distance_m <= scale.max_error_m && error.amplitude <= scale.max_amplitude_error;
+    return good ? std::optional(reduction_of(candidates, shares, error)) : std::nullopt;
   };
   Eigen::Index too_few = 0, enough = quadrature.rank();
-  std::optional<Reduction> best = attempt(enough);
+  std::optional<Reduction> best = enough > 0 ? attempt(enough) : std::nullopt;
   while (best && enough - too_few > 1) {
     const Eigen::Index middle = (too_few + enough) / 2;
     if (std::optional<Reduction> fewer = attempt(middle)) {
@@ -138,6 +190,15 @@ void part_in_two(const std::vector<Diode> &diodes, std::span<std::size_t> member
   });
 }
 
+// Orders diodes so that those that stand near each other follow each other.
+void order(const std::vector<Diode> &diodes, std::span<std::size_t> members) {
+  if (members.size() <= 1)
+    return;
+  part_in_two(diodes, members);
+  order(diodes, members.first(members.size() / 2));
+  order(diodes, members.subspan(members.size() / 2));
+}
+
 class Reducer {
 public:
   Reducer(std::vector<VisibleBox> pieces, const ErrorScale &scale, ReducedLight &result)
@@ -157,14 +218,16 @@ public:
         classes[{true, order, axis.x, axis.y, axis.z}].push_back(i);
     }
     drop_.assign(diodes.size(), false);
-    for (auto &[kind, members] : classes)
+    for (auto &[kind, members] : classes) {
+      order(diodes, members);
       reduce(diodes, members);
+    }
     std::size_t i = 0;
     std::erase_if(diodes, [&](const Diode &) { return drop_[i++]; });
   }
 
 private:
-  void reduce(std::vector<Diode> &diodes, std::span<std::size_t> members) {
+  void reduce(std::vector<Diode> &diodes, std::span<const std::size_t> members) {
     if (members.size() < fewest_diodes)
       return;
     const DiodeCluster cluster = cluster_of(diodes, members);
@@ -172,11 +235,10 @@ private:
     const std::optional<MomentBounds> bounds = moments_that_matter(cluster, sights, scale_);
     const std::optional<Reduction> reduction = bounds ? fewest(cluster, *bounds, scale_) : std::nullopt;
     if (reduction) {
-      if (static_cast<std::size_t>(reduction->diodes()) < members.size())
+      if (reduction->diodes.size() < members.size())
         replace(diodes, members, cluster, *reduction);
       return;
     }
-    part_in_two(diodes, members);
     reduce(diodes, members.first(members.size() / 2));
     reduce(diodes, members.subspan(members.size() / 2));
   }
@@ -186,10 +248,12 @@ private:
     double intensity_w_sr = 0.0;
     for (const std::size_t member : members)
       intensity_w_sr += diodes[member].intensity_w_sr;
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const double share = reduction.shares[static_cast<Eigen::Index>(i)];
-      diodes[members[i]].intensity_w_sr = share * intensity_w_sr;
-      drop_[members[i]] = share <= 0.0;
+    for (const std::size_t member : members)
+      drop_[member] = true;
+    for (std::size_t i = 0; i < reduction.diodes.size(); ++i) {
+      const std::size_t member = members[reduction.diodes[i]];
+      drop_[member] = false;
+      diodes[member].intensity_w_sr = reduction.shares[i] * intensity_w_sr;
     }
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0})

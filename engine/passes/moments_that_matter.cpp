@@ -11,13 +11,10 @@ namespace {
 constexpr double largest_x = 0.6;          // of |x|
 constexpr double largest_beam_step = 0.5;  // of |a.I| / a.P
 constexpr std::size_t largest_degree = 24; // in x
-constexpr std::size_t most_moments = 256;
+constexpr std::size_t most_moments = 1500;
 constexpr double bearable_rest = 0.05; // of the error that is bearable, for all that is left out
 
 using Series = std::vector<double>; // coefficients
-
-// Powers of |I|^2, the three coordinates and a.I.
-using Powers = std::array<std::uint8_t, 5>;
 
 // With nonnegative coefficients that are, in absolute value, at least those of the real and the imaginary
 // part of the series in y, x = largest_x y; `re_sum` and `im_sum` are the sums of all coefficients.
@@ -141,6 +138,14 @@ public:
 
 private:
   void add_all(const std::array<std::size_t, 4> &powers, std::size_t degree, double factorial) {
+    const auto is_zero = [&](const SightSeries &series) {
+      double share = 1.0;
+      for (std::size_t part = 0; part < powers.size(); ++part)
+        share *= series.shares[part][powers[part]];
+      return share == 0.0;
+    };
+    if (std::ranges::all_of(series_, is_zero))
+      return;
     std::size_t beam_powers = 0;
     for (const SightSeries &series : series_)
       beam_powers = std::max(beam_powers, series.in_beam.coefficients.size());
@@ -220,17 +225,34 @@ void leave_out_the_least(Coefficients &coefficients, const ErrorScale &scale) {
                 [&](const auto &moment) { return largest_excess(moment.second, scale) <= least; });
 }
 
-double value_at(const Powers &powers, const DiodeCluster &cluster, const glm::dvec3 &offset_m) {
-  const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-  const double size = over(glm::length(offset_m), cluster.radius_m);
-  double value = std::pow(size, 2 * powers[0]);
-  for (int i = 0; i < 3; ++i)
-    value *= std::pow(over(offset_m[i], cluster.extents_m[i]), powers[static_cast<std::size_t>(i) + 1]);
-  if (powers[4] > 0)
-    value *=
-        std::pow(over(glm::dot(cluster.axes * offset_m, cluster.beam), cluster.beam_extent_m), powers[4]);
-  return value;
-}
+// Powers 0 ... largest_degree + 1 of what a moment is made of.
+class PowerTables {
+public:
+  PowerTables(const DiodeCluster &cluster, const glm::dvec3 &offset_m) {
+    const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+    const double size = over(glm::length(offset_m), cluster.radius_m);
+    set(0, size * size);
+    for (int i = 0; i < 3; ++i)
+      set(static_cast<std::size_t>(i) + 1, over(offset_m[i], cluster.extents_m[i]));
+    set(4, over(glm::dot(cluster.axes * offset_m, cluster.beam), cluster.beam_extent_m));
+  }
+
+  double value(const Powers &powers) const {
+    double value = 1.0;
+    for (std::size_t part = 0; part < powers.size(); ++part)
+      value *= tables_[part][powers[part]];
+    return value;
+  }
+
+private:
+  void set(std::size_t part, double base) {
+    tables_[part][0] = 1.0;
+    for (std::size_t k = 1; k < tables_[part].size(); ++k)
+      tables_[part][k] = tables_[part][k - 1] * base;
+  }
+
+  std::array<std::array<double, largest_degree + 2>, std::tuple_size_v<Powers>> tables_;
+};
 
 // Of the sum of all coefficients, what the moments do not have; twice, for the weights before and after.
 void set_rest(MomentBounds &bounds, const std::vector<SightSeries> &series, const ErrorScale &scale) {
@@ -246,23 +268,20 @@ void set_rest(MomentBounds &bounds, const std::vector<SightSeries> &series, cons
   }
 }
 
-MomentBounds bounds_of(const Coefficients &coefficients, const DiodeCluster &cluster,
-                       const std::vector<SightSeries> &series, const ErrorScale &scale) {
+MomentBounds bounds_of(const Coefficients &coefficients, const std::vector<SightSeries> &series,
+                       const ErrorScale &scale) {
   const auto moments = static_cast<Eigen::Index>(coefficients.size());
   const auto sights = static_cast<Eigen::Index>(series.size() * slants(scale));
   MomentBounds bounds;
   bounds.re.resize(sights, moments);
   bounds.im.resize(sights, moments);
-  bounds.moments.resize(moments, cluster.shares.size());
   Eigen::Index moment = 0;
   for (const auto &[powers, of_sights] : coefficients) {
     for (Eigen::Index sight = 0; sight < sights; ++sight) {
       bounds.re(sight, moment) = of_sights[static_cast<std::size_t>(sight)].re;
       bounds.im(sight, moment) = of_sights[static_cast<std::size_t>(sight)].im;
     }
-    for (Eigen::Index diode = 0; diode < cluster.shares.size(); ++diode)
-      bounds.moments(moment, diode) =
-          value_at(powers, cluster, cluster.offsets_m[static_cast<std::size_t>(diode)]);
+    bounds.moments.push_back(powers);
     ++moment;
   }
   set_rest(bounds, series, scale);
@@ -293,6 +312,18 @@ MomentBounds::Error MomentBounds::error(const Eigen::VectorXd &changes, const Er
   return largest;
 }
 
+Eigen::MatrixXd moment_values(const std::vector<Powers> &moments, const DiodeCluster &cluster,
+                              std::span<const glm::dvec3> offsets_m) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(moments.size()),
+                         static_cast<Eigen::Index>(offsets_m.size()));
+  for (Eigen::Index diode = 0; diode < values.cols(); ++diode) {
+    const PowerTables tables(cluster, offsets_m[static_cast<std::size_t>(diode)]);
+    for (Eigen::Index moment = 0; moment < values.rows(); ++moment)
+      values(moment, diode) = tables.value(moments[static_cast<std::size_t>(moment)]);
+  }
+  return values;
+}
+
 std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
                                                 const ErrorScale &scale) {
   std::vector<SightSeries> series;
@@ -306,7 +337,7 @@ std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, con
   leave_out_the_least(coefficients, scale);
   if (coefficients.size() > most_moments)
     return std::nullopt;
-  MomentBounds bounds = bounds_of(coefficients, cluster, series, scale);
+  MomentBounds bounds = bounds_of(coefficients, series, scale);
   for (Eigen::Index sight = 0; sight < bounds.rest_re.size(); ++sight)
     if (scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) > bearable_rest)
       return std::nullopt;

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pmdsim {
@@ -52,9 +53,13 @@ struct ErrorScale {
 // varies less.
 constexpr double clearance_over_extent = 2.0;
 
+// A moment: a sum over the diodes of these powers of |I|^2, the coordinates of I and a.I, each over its
+// extent.
+using Powers = std::array<std::uint8_t, 5>;
+
 struct MomentBounds {
-  Eigen::MatrixXd moments; // a row each: |I|^2, coordinates and a.I over their extents, to some powers
-  Eigen::MatrixXd re, im;  // error per change of a moment (columns) in each sight (rows)
+  std::vector<Powers> moments;
+  Eigen::MatrixXd re, im;           // error per change of a moment (columns) in each sight (rows)
   Eigen::VectorXd rest_re, rest_im; // error by all that is not among the moments
 
   Eigen::VectorXd importance(const ErrorScale &scale) const; // of the moments: largest excess per change
@@ -64,6 +69,10 @@ struct MomentBounds {
   // The largest over all sights, for moments that changed so much.
   Error error(const Eigen::VectorXd &changes, const ErrorScale &scale) const;
 };
+
+// What a diode of the cluster at each of some offsets (columns) adds to the moments (rows), for a share of 1.
+Eigen::MatrixXd moment_values(const std::vector<Powers> &moments, const DiodeCluster &cluster,
+                              std::span<const glm::dvec3> offsets_m);
 
 // The moments that matter; nothing where the series converges too slowly.
 std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
