@@ -3,7 +3,6 @@
 #include "engine/passes/moments_that_matter.h"
 #include "engine/passes/nonnegative_quadrature.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,7 +17,6 @@ namespace {
 constexpr double largest_amplitude_error = 1e-3;
 constexpr std::size_t most_candidates = 512;
 constexpr std::size_t fewest_diodes = 3; // of a cluster: fewer are not worth a look
-constexpr double flat_over_wide = 0.1;   // of a cluster's spreads: flatter, it has axes of its own
 
 VisibleBox box_of(std::span<const Diode> diodes) {
   VisibleBox box{diodes.front().position_m, diodes.front().position_m};
@@ -42,58 +40,6 @@ VisibleBox box_of(const std::vector<CameraIlluminator> &illuminators) {
   return all;
 }
 
-// The cluster's own axes where it is flat or thin, else the camera's; within a plane as much along the
-// camera's as can be, because the view is.
-glm::dmat3 axes_of(const Eigen::Matrix3d &covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d spreads = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(); // ascending
-  const auto axis = [&](int i) {
-    const Eigen::Vector3d v = solver.eigenvectors().col(i);
-    return glm::dvec3(v[0], v[1], v[2]);
-  };
-  if (spreads[1] < flat_over_wide * spreads[2])
-    return {axis(2), axis(1), axis(0)};
-  if (spreads[0] >= flat_over_wide * spreads[1])
-    return glm::dmat3(1.0);
-  const glm::dvec3 normal = axis(0), size = glm::abs(normal);
-  const glm::dvec3 camera_axis = size.x <= size.y ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 across = glm::normalize(camera_axis - glm::dot(camera_axis, normal) * normal);
-  return {across, glm::cross(normal, across), normal};
-}
-
-DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::size_t> members) {
-  DiodeCluster cluster;
-  cluster.shares.resize(static_cast<Eigen::Index>(members.size()));
-  double largest = 0.0;
-  for (const std::size_t member : members)
-    largest = std::max(largest, diodes[member].intensity_w_sr);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    cluster.shares[static_cast<Eigen::Index>(i)] = diodes[members[i]].intensity_w_sr / largest;
-  cluster.shares /= cluster.shares.sum();
-  for (std::size_t i = 0; i < members.size(); ++i)
-    cluster.centre_m += cluster.shares[static_cast<Eigen::Index>(i)] * diodes[members[i]].position_m;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const std::size_t member : members) {
-    const glm::dvec3 p = diodes[member].position_m - cluster.centre_m;
-    const Eigen::Vector3d v(p.x, p.y, p.z);
-    covariance += v * v.transpose();
-  }
-  cluster.axes = axes_of(covariance);
-  const Diode &first = diodes[members.front()];
-  cluster.beam = first.axis;
-  if (first.pattern.kind == Pattern::Kind::cosine)
-    cluster.order = first.pattern.order;
-  for (const std::size_t member : members) {
-    const glm::dvec3 p = diodes[member].position_m - cluster.centre_m;
-    const glm::dvec3 offset_m = glm::transpose(cluster.axes) * p;
-    cluster.offsets_m.push_back(offset_m);
-    cluster.extents_m = glm::max(cluster.extents_m, glm::abs(offset_m));
-    cluster.radius_m = std::max(cluster.radius_m, glm::length(offset_m));
-    cluster.beam_extent_m = std::max(cluster.beam_extent_m, std::abs(glm::dot(cluster.beam, p)));
-  }
-  return cluster;
-}
-
 // The diodes of a cluster that may stand in for all: evenly spread, the first of each part, with the part's
 // share.
 struct Candidates {
@@ -114,27 +60,14 @@ Candidates candidates_of(const DiodeCluster &cluster) {
   return candidates;
 }
 
-Eigen::VectorXd moments_of(const DiodeCluster &cluster, const std::vector<Powers> &moments) {
-  constexpr std::size_t at_a_time = 512;
-  const std::span<const glm::dvec3> offsets_m = cluster.offsets_m;
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(moments.size()));
-  for (std::size_t first = 0; first < offsets_m.size(); first += at_a_time) {
-    const std::size_t count = std::min(at_a_time, offsets_m.size() - first);
-    sums += moment_values(moments, cluster, offsets_m.subspan(first, count)) *
-            cluster.shares.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
-  }
-  return sums;
-}
-
 // Few diodes that stand in for a cluster.
 struct Reduction {
   std::vector<std::size_t> diodes; // of the cluster
   std::vector<double> shares;      // of its intensity, > 0; their sum is 1
-  MomentBounds::Error error{0.0, 0.0};
+  SumError error;
 };
 
-Reduction reduction_of(const Candidates &candidates, const Eigen::VectorXd &shares,
-                       const MomentBounds::Error &error) {
+Reduction reduction_of(const Candidates &candidates, const Eigen::VectorXd &shares, const SumError &error) {
   Reduction reduction{{}, {}, error};
   for (std::size_t i = 0; i < candidates.diodes.size(); ++i)
     if (const double share = shares[static_cast<Eigen::Index>(i)]; share > 0.0) {
@@ -159,7 +92,7 @@ std::optional<Reduction> fewest(const DiodeCluster &cluster, const MomentBounds 
   const auto attempt = [&](Eigen::Index combinations) -> std::optional<Reduction> {
     Eigen::VectorXd shares = quadrature.keeping(combinations);
     shares /= shares.sum();
-    const MomentBounds::Error error = bounds.error(values * shares - moments, scale);
+    const SumError error = bounds.error(values * shares - moments, scale);
     const bool good = error.distance_m <= scale.max_error_m && error.amplitude <= scale.max_amplitude_error;
     return good ? std::optional(reduction_of(candidates, shares, error)) : std::nullopt;
   };
@@ -259,8 +192,7 @@ private:
       for (const double y : {-1.0, 1.0})
         for (const double z : {-1.0, 1.0})
           widen(result_.lights,
-                cluster.centre_m +
-                    clearance_over_extent * (cluster.axes * (glm::dvec3(x, y, z) * cluster.extents_m)));
+                cluster.centre_m + cluster.axes * (glm::dvec3(x, y, z) * cluster.clearance_m));
     result_.error_per_condition_m = std::max(result_.error_per_condition_m, reduction.error.distance_m);
     result_.amplitude_error_per_condition =
         std::max(result_.amplitude_error_per_condition, reduction.error.amplitude);

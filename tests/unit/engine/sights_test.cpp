@@ -26,9 +26,10 @@ TEST_CASE("pieces cover their boxes, and sights bound every point of them") {
         return glm::clamp(point_m, piece.low_m, piece.high_m) == point_m;
       }));
       CHECK(std::ranges::any_of(sights, [&](const Sight &sight) {
+        const glm::dvec3 along = glm::transpose(axes) * p / range_m;
         return sight.range_m <= range_m && glm::dot(beam, p) >= (sight.beam_cosine - rounding) * range_m &&
-               glm::all(glm::lessThanEqual(glm::abs(glm::transpose(axes) * p),
-                                           (sight.slopes + rounding) * range_m));
+               glm::all(glm::lessThanEqual(sight.least - rounding, along)) &&
+               glm::all(glm::lessThanEqual(along, sight.largest + rounding));
       }));
     }
   }
