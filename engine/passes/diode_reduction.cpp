@@ -3,7 +3,6 @@
 #include "engine/passes/moments_that_matter.h"
 #include "engine/passes/nonnegative_quadrature.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,8 +15,8 @@ namespace pmdsim {
 namespace {
 
 constexpr double largest_amplitude_error = 1e-3;
+constexpr std::size_t most_candidates = 512;
 constexpr std::size_t fewest_diodes = 3; // of a cluster: fewer are not worth a look
-constexpr double flat_over_wide = 0.1;   // of a cluster's spreads: flatter, it has axes of its own
 
 VisibleBox box_of(std::span<const Diode> diodes) {
   VisibleBox box{diodes.front().position_m, diodes.front().position_m};
@@ -41,78 +40,64 @@ VisibleBox box_of(const std::vector<CameraIlluminator> &illuminators) {
   return all;
 }
 
-// The cluster's own axes where it is flat or thin, else the camera's; within a plane as much along the
-// camera's as can be, because the view is.
-glm::dmat3 axes_of(const Eigen::Matrix3d &covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d spreads = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(); // ascending
-  const auto axis = [&](int i) {
-    const Eigen::Vector3d v = solver.eigenvectors().col(i);
-    return glm::dvec3(v[0], v[1], v[2]);
-  };
-  if (spreads[1] < flat_over_wide * spreads[2])
-    return {axis(2), axis(1), axis(0)};
-  if (spreads[0] >= flat_over_wide * spreads[1])
-    return glm::dmat3(1.0);
-  const glm::dvec3 normal = axis(0), size = glm::abs(normal);
-  const glm::dvec3 camera_axis = size.x <= size.y ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 across = glm::normalize(camera_axis - glm::dot(camera_axis, normal) * normal);
-  return {across, glm::cross(normal, across), normal};
-}
-
-DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::size_t> members) {
-  DiodeCluster cluster;
-  cluster.shares.resize(static_cast<Eigen::Index>(members.size()));
-  double largest = 0.0;
-  for (const std::size_t member : members)
-    largest = std::max(largest, diodes[member].intensity_w_sr);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    cluster.shares[static_cast<Eigen::Index>(i)] = diodes[members[i]].intensity_w_sr / largest;
-  cluster.shares /= cluster.shares.sum();
-  for (std::size_t i = 0; i < members.size(); ++i)
-    cluster.centre_m += cluster.shares[static_cast<Eigen::Index>(i)] * diodes[members[i]].position_m;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const std::size_t member : members) {
-    const glm::dvec3 p = diodes[member].position_m - cluster.centre_m;
-    const Eigen::Vector3d v(p.x, p.y, p.z);
-    covariance += v * v.transpose();
-  }
-  cluster.axes = axes_of(covariance);
-  const Diode &first = diodes[members.front()];
-  cluster.beam = first.axis;
-  if (first.pattern.kind == Pattern::Kind::cosine)
-    cluster.order = first.pattern.order;
-  for (const std::size_t member : members) {
-    const glm::dvec3 p = diodes[member].position_m - cluster.centre_m;
-    const glm::dvec3 offset_m = glm::transpose(cluster.axes) * p;
-    cluster.offsets_m.push_back(offset_m);
-    cluster.extents_m = glm::max(cluster.extents_m, glm::abs(offset_m));
-    cluster.radius_m = std::max(cluster.radius_m, glm::length(offset_m));
-    cluster.beam_extent_m = std::max(cluster.beam_extent_m, std::abs(glm::dot(cluster.beam, p)));
-  }
-  return cluster;
-}
-
-// The fewest diodes that are good enough, as shares of the cluster's intensity.
-struct Reduction {
+// The diodes of a cluster that may stand in for all: evenly spread, the first of each part, with the part's
+// share.
+struct Candidates {
+  std::vector<std::size_t> diodes;
   Eigen::VectorXd shares;
-  MomentBounds::Error error{0.0, 0.0};
-
-  Eigen::Index diodes() const { return (shares.array() > 0.0).count(); }
 };
 
+Candidates candidates_of(const DiodeCluster &cluster) {
+  const std::size_t all = cluster.offsets_m.size(), count = std::min(all, most_candidates);
+  Candidates candidates{{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count))};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = i * all / count, end = (i + 1) * all / count;
+    candidates.diodes.push_back(first);
+    candidates.shares[static_cast<Eigen::Index>(i)] =
+        cluster.shares.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first))
+            .sum();
+  }
+  return candidates;
+}
+
+// Few diodes that stand in for a cluster.
+struct Reduction {
+  std::vector<std::size_t> diodes; // of the cluster
+  std::vector<double> shares;      // of its intensity, > 0; their sum is 1
+  SumError error;
+};
+
+Reduction reduction_of(const Candidates &candidates, const Eigen::VectorXd &shares, const SumError &error) {
+  Reduction reduction{{}, {}, error};
+  for (std::size_t i = 0; i < candidates.diodes.size(); ++i)
+    if (const double share = shares[static_cast<Eigen::Index>(i)]; share > 0.0) {
+      reduction.diodes.push_back(candidates.diodes[i]);
+      reduction.shares.push_back(share);
+    }
+  return reduction;
+}
+
+// The fewest diodes that are good enough; nothing where not even all combinations of moments are.
 std::optional<Reduction> fewest(const DiodeCluster &cluster, const MomentBounds &bounds,
                                 const ErrorScale &scale) {
-  const Quadrature quadrature(bounds.importance(scale).asDiagonal() * bounds.moments, cluster.shares);
+  const Candidates candidates = candidates_of(cluster);
+  std::vector<glm::dvec3> offsets_m;
+  for (const std::size_t diode : candidates.diodes)
+    offsets_m.push_back(cluster.offsets_m[diode]);
+  const Eigen::MatrixXd values = moment_values(bounds.moments, cluster, offsets_m);
+  const Eigen::VectorXd moments = moments_of(cluster, bounds.moments);
+  const Eigen::VectorXd importance = bounds.importance(scale);
+  const Quadrature quadrature(importance.asDiagonal() * values, importance.cwiseProduct(moments),
+                              candidates.shares);
   const auto attempt = [&](Eigen::Index combinations) -> std::optional<Reduction> {
-    Reduction reduction{quadrature.keeping(combinations)};
-    reduction.error = bounds.error(bounds.moments * (reduction.shares - cluster.shares), scale);
-    const bool good = reduction.error.distance_m <= scale.max_error_m &&
-                      reduction.error.amplitude <= scale.max_amplitude_error;
-    return good ? std::optional(reduction) : std::nullopt;
+    Eigen::VectorXd shares = quadrature.keeping(combinations);
+    shares /= shares.sum();
+    const SumError error = bounds.error(values * shares - moments, scale);
+    const bool good = error.distance_m <= scale.max_error_m && error.amplitude <= scale.max_amplitude_error;
+    return good ? std::optional(reduction_of(candidates, shares, error)) : std::nullopt;
   };
   Eigen::Index too_few = 0, enough = quadrature.rank();
-  std::optional<Reduction> best = attempt(enough);
+  std::optional<Reduction> best = enough > 0 ? attempt(enough) : std::nullopt;
   while (best && enough - too_few > 1) {
     const Eigen::Index middle = (too_few + enough) / 2;
     if (std::optional<Reduction> fewer = attempt(middle)) {
@@ -138,6 +123,15 @@ void part_in_two(const std::vector<Diode> &diodes, std::span<std::size_t> member
   });
 }
 
+// Orders diodes so that those that stand near each other follow each other.
+void order(const std::vector<Diode> &diodes, std::span<std::size_t> members) {
+  if (members.size() <= 1)
+    return;
+  part_in_two(diodes, members);
+  order(diodes, members.first(members.size() / 2));
+  order(diodes, members.subspan(members.size() / 2));
+}
+
 class Reducer {
 public:
   Reducer(std::vector<VisibleBox> pieces, const ErrorScale &scale, ReducedLight &result)
@@ -157,14 +151,16 @@ public:
         classes[{true, order, axis.x, axis.y, axis.z}].push_back(i);
     }
     drop_.assign(diodes.size(), false);
-    for (auto &[kind, members] : classes)
+    for (auto &[kind, members] : classes) {
+      order(diodes, members);
       reduce(diodes, members);
+    }
     std::size_t i = 0;
     std::erase_if(diodes, [&](const Diode &) { return drop_[i++]; });
   }
 
 private:
-  void reduce(std::vector<Diode> &diodes, std::span<std::size_t> members) {
+  void reduce(std::vector<Diode> &diodes, std::span<const std::size_t> members) {
     if (members.size() < fewest_diodes)
       return;
     const DiodeCluster cluster = cluster_of(diodes, members);
@@ -172,11 +168,10 @@ private:
     const std::optional<MomentBounds> bounds = moments_that_matter(cluster, sights, scale_);
     const std::optional<Reduction> reduction = bounds ? fewest(cluster, *bounds, scale_) : std::nullopt;
     if (reduction) {
-      if (static_cast<std::size_t>(reduction->diodes()) < members.size())
+      if (reduction->diodes.size() < members.size())
         replace(diodes, members, cluster, *reduction);
       return;
     }
-    part_in_two(diodes, members);
     reduce(diodes, members.first(members.size() / 2));
     reduce(diodes, members.subspan(members.size() / 2));
   }
@@ -186,17 +181,18 @@ private:
     double intensity_w_sr = 0.0;
     for (const std::size_t member : members)
       intensity_w_sr += diodes[member].intensity_w_sr;
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const double share = reduction.shares[static_cast<Eigen::Index>(i)];
-      diodes[members[i]].intensity_w_sr = share * intensity_w_sr;
-      drop_[members[i]] = share <= 0.0;
+    for (const std::size_t member : members)
+      drop_[member] = true;
+    for (std::size_t i = 0; i < reduction.diodes.size(); ++i) {
+      const std::size_t member = members[reduction.diodes[i]];
+      drop_[member] = false;
+      diodes[member].intensity_w_sr = reduction.shares[i] * intensity_w_sr;
     }
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0})
         for (const double z : {-1.0, 1.0})
           widen(result_.lights,
-                cluster.centre_m +
-                    clearance_over_extent * (cluster.axes * (glm::dvec3(x, y, z) * cluster.extents_m)));
+                cluster.centre_m + cluster.axes * (glm::dvec3(x, y, z) * cluster.clearance_m));
     result_.error_per_condition_m = std::max(result_.error_per_condition_m, reduction.error.distance_m);
     result_.amplitude_error_per_condition =
         std::max(result_.amplitude_error_per_condition, reduction.error.amplitude);

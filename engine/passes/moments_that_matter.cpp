@@ -11,13 +11,11 @@ namespace {
 constexpr double largest_x = 0.6;          // of |x|
 constexpr double largest_beam_step = 0.5;  // of |a.I| / a.P
 constexpr std::size_t largest_degree = 24; // in x
-constexpr std::size_t most_moments = 256;
-constexpr double bearable_rest = 0.05; // of the error that is bearable, for all that is left out
+constexpr std::size_t most_moments = 1500;
+constexpr std::size_t fewest_sampled_diodes = 100; // of a cluster
+constexpr double bearable_rest = 0.05;             // of the error that is bearable, for all that is left out
 
 using Series = std::vector<double>; // coefficients
-
-// Powers of |I|^2, the three coordinates and a.I.
-using Powers = std::array<std::uint8_t, 5>;
 
 // With nonnegative coefficients that are, in absolute value, at least those of the real and the imaginary
 // part of the series in y, x = largest_x y; `re_sum` and `im_sum` are the sums of all coefficients.
@@ -63,13 +61,11 @@ struct BeamSeries {
 BeamSeries beam_series(double order, double z) {
   BeamSeries result;
   double coefficient = 1.0;
-  for (double j = 0.0; coefficient > 1e-20 || j < order; ++j) {
+  for (double j = 0.0; coefficient > 1e-20 || (order - j) * z > 0.5 * (j + 1.0); ++j) {
     result.sum += coefficient;
     if (result.coefficients.size() <= largest_degree)
       result.coefficients.push_back(coefficient);
     coefficient *= std::abs(order - j) / (j + 1.0) * z;
-    if (coefficient == 0.0)
-      break;
   }
   return result;
 }
@@ -87,9 +83,10 @@ std::optional<SightSeries> series_of(const DiodeCluster &cluster, const Sight &s
   const double order = cluster.order.value_or(0.0);
   const double s = 2.0 + order + (scale.lambert ? 1.0 : 0.0);
   const double size = cluster.radius_m / sight.range_m;
+  const glm::dvec3 slopes = glm::max(glm::abs(sight.least), glm::abs(sight.largest));
   std::array<double, 4> parts{size * size};
   for (int i = 0; i < 3; ++i)
-    parts[static_cast<std::size_t>(i) + 1] = 2.0 * cluster.extents_m[i] * sight.slopes[i] / sight.range_m;
+    parts[static_cast<std::size_t>(i) + 1] = 2.0 * cluster.extents_m[i] * slopes[i] / sight.range_m;
   const double x = std::accumulate(parts.begin(), parts.end(), 0.0);
   if (!(x <= largest_x))
     return std::nullopt;
@@ -103,6 +100,9 @@ std::optional<SightSeries> series_of(const DiodeCluster &cluster, const Sight &s
                      beam_series(order, z),
                      {},
                      std::pow(1.0 + x, -0.5 * s) * std::pow(1.0 - z, order)};
+  if (!(series.least_terms > 0.0) ||
+      !std::isfinite(series.in_x.re_sum * series.in_beam.sum / series.least_terms))
+    return std::nullopt;
   for (std::size_t part = 0; part < parts.size(); ++part) { // p^k / k!, for the multinomial
     Series &powers = series.shares[part];
     powers.assign(largest_degree + 1, 0.0);
@@ -126,8 +126,8 @@ std::size_t slants(const ErrorScale &scale) { return scale.lambert ? 3 : 1; }
 
 class Enumeration {
 public:
-  Enumeration(const std::vector<SightSeries> &series, const ErrorScale &scale)
-      : series_(series), scale_(scale) {}
+  Enumeration(const DiodeCluster &cluster, const std::vector<SightSeries> &series, const ErrorScale &scale)
+      : cluster_(cluster), series_(series), scale_(scale) {}
 
   Coefficients all() {
     double factorial = 1.0;
@@ -141,6 +141,14 @@ public:
 
 private:
   void add_all(const std::array<std::size_t, 4> &powers, std::size_t degree, double factorial) {
+    const auto is_zero = [&](const SightSeries &series) {
+      double share = 1.0;
+      for (std::size_t part = 0; part < powers.size(); ++part)
+        share *= series.shares[part][powers[part]];
+      return share == 0.0;
+    };
+    if (std::ranges::all_of(series_, is_zero))
+      return;
     std::size_t beam_powers = 0;
     for (const SightSeries &series : series_)
       beam_powers = std::max(beam_powers, series.in_beam.coefficients.size());
@@ -173,7 +181,7 @@ private:
       if (scale_.lambert) {
         Powers slanted = key;
         ++slanted[slant + 1];
-        add(slanted, slant, 1.0 / clearance_over_extent, coefficients);
+        add(slanted, slant, cluster_.slant(static_cast<int>(slant)), coefficients);
       }
     }
   }
@@ -191,6 +199,7 @@ private:
   // Of the bearable error: thousands of such moments are nothing.
   static constexpr double negligible = 1e-7;
 
+  const DiodeCluster &cluster_;
   const std::vector<SightSeries> &series_;
   const ErrorScale &scale_;
   Coefficients result_;
@@ -220,26 +229,15 @@ void leave_out_the_least(Coefficients &coefficients, const ErrorScale &scale) {
                 [&](const auto &moment) { return largest_excess(moment.second, scale) <= least; });
 }
 
-double value_at(const Powers &powers, const DiodeCluster &cluster, const glm::dvec3 &offset_m) {
-  const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-  const double size = over(glm::length(offset_m), cluster.radius_m);
-  double value = std::pow(size, 2 * powers[0]);
-  for (int i = 0; i < 3; ++i)
-    value *= std::pow(over(offset_m[i], cluster.extents_m[i]), powers[static_cast<std::size_t>(i) + 1]);
-  if (powers[4] > 0)
-    value *=
-        std::pow(over(glm::dot(cluster.axes * offset_m, cluster.beam), cluster.beam_extent_m), powers[4]);
-  return value;
-}
-
 // Of the sum of all coefficients, what the moments do not have; twice, for the weights before and after.
-void set_rest(MomentBounds &bounds, const std::vector<SightSeries> &series, const ErrorScale &scale) {
+void set_rest(MomentBounds &bounds, const DiodeCluster &cluster, const std::vector<SightSeries> &series,
+              const ErrorScale &scale) {
   bounds.rest_re = -2.0 * bounds.re.rowwise().sum();
   bounds.rest_im = -2.0 * bounds.im.rowwise().sum();
-  const double slanted = scale.lambert ? 1.0 + 1.0 / clearance_over_extent : 1.0;
   constexpr double rounding = 1e-15;
   for (Eigen::Index i = 0; i < bounds.re.rows(); ++i) {
     const SightSeries &sight = series[static_cast<std::size_t>(i) / slants(scale)];
+    const double slanted = scale.lambert ? 1.0 + cluster.slant(static_cast<int>(i % 3)) : 1.0;
     const double factor = 2.0 * (1.0 + rounding) * slanted * sight.in_beam.sum / sight.least_terms;
     bounds.rest_re[i] = std::max(0.0, bounds.rest_re[i] + factor * sight.in_x.re_sum);
     bounds.rest_im[i] = std::max(0.0, bounds.rest_im[i] + factor * sight.in_x.im_sum);
@@ -253,23 +251,37 @@ MomentBounds bounds_of(const Coefficients &coefficients, const DiodeCluster &clu
   MomentBounds bounds;
   bounds.re.resize(sights, moments);
   bounds.im.resize(sights, moments);
-  bounds.moments.resize(moments, cluster.shares.size());
   Eigen::Index moment = 0;
   for (const auto &[powers, of_sights] : coefficients) {
     for (Eigen::Index sight = 0; sight < sights; ++sight) {
       bounds.re(sight, moment) = of_sights[static_cast<std::size_t>(sight)].re;
       bounds.im(sight, moment) = of_sights[static_cast<std::size_t>(sight)].im;
     }
-    for (Eigen::Index diode = 0; diode < cluster.shares.size(); ++diode)
-      bounds.moments(moment, diode) =
-          value_at(powers, cluster, cluster.offsets_m[static_cast<std::size_t>(diode)]);
+    bounds.moments.push_back(powers);
     ++moment;
   }
-  set_rest(bounds, series, scale);
+  set_rest(bounds, cluster, series, scale);
   return bounds;
 }
 
+SumError largest_of(const std::vector<SumError> &errors) {
+  SumError largest;
+  for (const SumError &error : errors) {
+    largest.distance_m = std::max(largest.distance_m, error.distance_m);
+    largest.amplitude = std::max(largest.amplitude, error.amplitude);
+  }
+  return largest;
+}
+
 } // namespace
+
+std::vector<SumError> MomentBounds::errors(const Eigen::VectorXd &sizes, const ErrorScale &scale) const {
+  const Eigen::VectorXd all_re = re * sizes + rest_re, all_im = im * sizes + rest_im;
+  std::vector<SumError> result;
+  for (Eigen::Index i = 0; i < all_re.size(); ++i)
+    result.push_back({scale.distance_m(all_re[i], all_im[i]), std::hypot(all_re[i], all_im[i])});
+  return result;
+}
 
 Eigen::VectorXd MomentBounds::importance(const ErrorScale &scale) const {
   Eigen::VectorXd result(re.cols());
@@ -282,15 +294,24 @@ Eigen::VectorXd MomentBounds::importance(const ErrorScale &scale) const {
   return result;
 }
 
-MomentBounds::Error MomentBounds::error(const Eigen::VectorXd &changes, const ErrorScale &scale) const {
-  const Eigen::VectorXd all_re = re * changes.cwiseAbs() + rest_re;
-  const Eigen::VectorXd all_im = im * changes.cwiseAbs() + rest_im;
-  Error largest{0.0, 0.0};
-  for (Eigen::Index sight = 0; sight < all_re.size(); ++sight) {
-    largest.distance_m = std::max(largest.distance_m, scale.distance_m(all_re[sight], all_im[sight]));
-    largest.amplitude = std::max(largest.amplitude, std::hypot(all_re[sight], all_im[sight]));
+SumError MomentBounds::error(const Eigen::VectorXd &changes, const ErrorScale &scale) const {
+  const Eigen::VectorXd sizes = changes.cwiseAbs();
+  const std::vector<SumError> one_by_one = errors(sizes, scale);
+  if (samples.empty())
+    return largest_of(one_by_one);
+  Eigen::VectorXd others = sizes;
+  for (const Eigen::Index moment : samples.front().held())
+    others[moment] = 0.0;
+  std::vector<SumError> least = errors(others, scale);
+  SumError together;
+  const std::size_t slants = least.size() / samples.size();
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    if (i % slants == 0)
+      together = samples[i / slants].largest_error(changes, scale);
+    least[i].distance_m = std::min(one_by_one[i].distance_m, least[i].distance_m + together.distance_m);
+    least[i].amplitude = std::min(one_by_one[i].amplitude, least[i].amplitude + together.amplitude);
   }
-  return largest;
+  return largest_of(least);
 }
 
 std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
@@ -302,14 +323,17 @@ std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, con
       return std::nullopt;
     series.push_back(std::move(*of_sight));
   }
-  Coefficients coefficients = Enumeration(series, scale).all();
+  Coefficients coefficients = Enumeration(cluster, series, scale).all();
   leave_out_the_least(coefficients, scale);
   if (coefficients.size() > most_moments)
     return std::nullopt;
   MomentBounds bounds = bounds_of(coefficients, cluster, series, scale);
   for (Eigen::Index sight = 0; sight < bounds.rest_re.size(); ++sight)
-    if (scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) > bearable_rest)
+    if (!(scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) <= bearable_rest))
       return std::nullopt;
+  if (cluster.offsets_m.size() >= fewest_sampled_diodes && cluster.radius_m > 0.0)
+    for (std::size_t i = 0; i < sights.size(); ++i)
+      bounds.samples.emplace_back(cluster, sights[i], scale, bounds.moments, series[i].least_terms);
   return bounds;
 }
 

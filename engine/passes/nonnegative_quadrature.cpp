@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <limits>
+#include <random>
 #include <vector>
 
 namespace pmdsim {
@@ -13,24 +13,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index points_at_a_time = 2048;
 constexpr double smallest_gain = 1e-13;      // of a point's function values, relative: below it is rounding
 constexpr double smallest_importance = 1e-3; // of a combination: sums are off by so much of what is bearable
+constexpr Index most_combinations = 200;
 
-// R of the QR decomposition of `functions` transposed, its rows (the points) times the weights' roots.
-MatrixXd triangle_of(const MatrixXd &functions, const VectorXd &weights) {
-  const Index count = functions.rows();
-  MatrixXd triangle = MatrixXd::Zero(0, count);
-  for (Index first = 0; first < functions.cols(); first += points_at_a_time) {
-    const Index points = std::min(points_at_a_time, functions.cols() - first);
-    MatrixXd stacked(triangle.rows() + points, count);
-    stacked << triangle, weights.segment(first, points).cwiseSqrt().asDiagonal() *
-                             functions.middleCols(first, points).transpose();
-    const Index rows = std::min(stacked.rows(), count);
-    const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> in_place(stacked);
-    triangle = stacked.topRows(rows).triangularView<Eigen::Upper>();
-  }
-  return triangle;
+// Columns that span, all but for rounding, what the columns of `a` do most in: a random mixture of them
+// (Halko, Martinsson, Tropp 2011), orthonormal.
+MatrixXd span_of(const MatrixXd &a) {
+  std::mt19937 random(1);
+  MatrixXd mixture(a.cols(), std::min({a.rows(), a.cols(), most_combinations}));
+  for (double &entry : mixture.reshaped())
+    entry = 0x1p-31 * static_cast<double>(random()) - 1.0;
+  const MatrixXd mixed = a * mixture;
+  return mixed.householderQr().householderQ() * MatrixXd::Identity(mixed.rows(), mixed.cols());
 }
 
 // The points in use and their weights.
@@ -115,15 +110,18 @@ VectorXd nonnegative_least_squares(const MatrixXd &a, const VectorXd &b) {
   return active.weights();
 }
 
-Quadrature::Quadrature(MatrixXd functions, VectorXd weights) {
-  const Eigen::BDCSVD<MatrixXd> svd(triangle_of(functions, weights), Eigen::ComputeThinV);
+Quadrature::Quadrature(const MatrixXd &functions, const VectorXd &sums, const VectorXd &weights) {
+  const MatrixXd weighted = functions * weights.cwiseSqrt().asDiagonal();
+  const MatrixXd span = span_of(weighted);
+  const Eigen::BDCSVD<MatrixXd> svd(span.transpose() * weighted, Eigen::ComputeThinU);
   const VectorXd &importance = svd.singularValues();
   Index rank = 0;
   while (rank < importance.size() && importance[rank] > smallest_importance)
     ++rank;
-  combinations_ = importance.head(rank).cwiseInverse().asDiagonal() *
-                  (svd.matrixV().leftCols(rank).transpose() * functions);
-  sums_ = combinations_ * weights;
+  const MatrixXd combine =
+      importance.head(rank).cwiseInverse().asDiagonal() * (span * svd.matrixU().leftCols(rank)).transpose();
+  combinations_ = combine * functions;
+  sums_ = combine * sums;
 }
 
 VectorXd Quadrature::keeping(Index count) const {

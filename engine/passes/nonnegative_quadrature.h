@@ -9,16 +9,17 @@ namespace pmdsim {
 // nonzeros as `a` has rows.
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd &a, const Eigen::VectorXd &b);
 
-// The functions by what they matter: their most important combinations, orthonormal over the weights.
+// Functions by what they matter: their most important combinations, orthonormal over the points' weights.
 class Quadrature {
 public:
-  // functions: a row each, at the points (columns), times how much their sums matter. weights: of the points,
-  // > 0, their sum 1.
-  Quadrature(Eigen::MatrixXd functions, Eigen::VectorXd weights);
+  // functions: a row each, at the points (columns), times how much their sums matter. sums: those to be kept.
+  // weights: of the points, >= 0, their sum 1; they only say which combinations are important.
+  Quadrature(const Eigen::MatrixXd &functions, const Eigen::VectorXd &sums, const Eigen::VectorXd &weights);
 
   // How many combinations there are.
   Eigen::Index rank() const { return combinations_.rows(); }
-  // Weights that keep the sums of the first `count` combinations; at most `count` of them are not 0.
+  // Weights that keep the sums of the first `count` combinations as nearly as can be; at most `count` of them
+  // are not 0.
   Eigen::VectorXd keeping(Eigen::Index count) const;
 
 private:

@@ -38,22 +38,27 @@ Sight sight_of(const VisibleBox &box, const glm::dvec3 &place_m, const glm::dmat
   const glm::dvec3 centre_m = 0.5 * (box.low_m + box.high_m) - place_m;
   const glm::dvec3 half_m = 0.5 * (box.high_m - box.low_m);
   const double range_m = glm::distance(place_m, glm::clamp(place_m, box.low_m, box.high_m));
-  Sight sight{range_m, glm::dvec3(1.0), -1.0};
+  Sight sight{range_m, glm::dvec3(-1.0), glm::dvec3(1.0), -1.0};
+  const double largest_range_m = glm::length(glm::abs(centre_m) + half_m);
+  const auto over_range = [&](double at_m, bool rounded_up) {
+    return at_m / ((at_m > 0.0) == rounded_up ? range_m : largest_range_m);
+  };
   if (!(range_m > 0.0))
     return sight;
   for (int i = 0; i < 3; ++i) {
     const auto [middle_m, side_m] = along(axes[i], centre_m, half_m);
-    sight.slopes[i] = std::min(1.0, (std::abs(middle_m) + side_m) / range_m);
+    sight.least[i] = std::max(-1.0, over_range(middle_m - side_m, false));
+    sight.largest[i] = std::min(1.0, over_range(middle_m + side_m, true));
   }
   const auto [middle_m, side_m] = along(beam, centre_m, half_m);
-  const double least_m = middle_m - side_m;
-  sight.beam_cosine = least_m / (least_m > 0.0 ? glm::length(glm::abs(centre_m) + half_m) : range_m);
+  sight.beam_cosine = over_range(middle_m - side_m, false);
   return sight;
 }
 
 void widen(Sight &sight, const Sight &other) {
   sight.range_m = std::min(sight.range_m, other.range_m);
-  sight.slopes = glm::max(sight.slopes, other.slopes);
+  sight.least = glm::min(sight.least, other.least);
+  sight.largest = glm::max(sight.largest, other.largest);
   sight.beam_cosine = std::min(sight.beam_cosine, other.beam_cosine);
 }
 

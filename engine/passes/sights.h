@@ -9,9 +9,9 @@ namespace pmdsim {
 
 // Bounds for points P of some visible boxes, seen from a place.
 struct Sight {
-  double range_m;     // |P| at least
-  glm::dvec3 slopes;  // |e . P| / |P| at most, for three unit vectors e
-  double beam_cosine; // b . P / |P| at least, for a unit vector b; below 0 where a point is behind
+  double range_m;            // |P| at least
+  glm::dvec3 least, largest; // of P / |P| along each of three unit vectors
+  double beam_cosine;        // b . P / |P| at least, for a unit vector b; below 0 where a point is behind
 };
 
 // The boxes cut until they are small against their distance from `around` (or too many), so that the bounds
