@@ -1,6 +1,8 @@
 #pragma once
 // What commands print on stdout.
 
+#include "engine/accuracy.h"
+
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -16,6 +18,12 @@ std::string frequency_text(double modulation_hz);
 
 // A number for a table, six significant digits; "-" for NaN.
 std::string table_number(double value);
+
+// "12.3 µm", four significant digits.
+std::string micrometres_text(double length_m);
+
+// A line of what was summed, one of the error claimed and found; only those that say something.
+std::string accuracy_text(Mode mode, const AccuracyReport &report);
 
 // Over the values that are finite; NaN where there is none.
 struct Spread {

@@ -1,0 +1,2 @@
+#include "host/commands/commands.h"
+namespace pmdsim { void run_tradeoff(const Options &) {} }
