@@ -16,7 +16,7 @@ constexpr double min_error_m = 1e-9, max_error_m = 1e6;
 const std::map<std::string, Mode> mode_names{
     {"exact", Mode::exact}, {"reduced", Mode::reduced}, {"auto", Mode::automatic}};
 const std::map<std::string, Precision> precision_names{{"fp32", Precision::fp32}, {"fp64", Precision::fp64}};
-const std::map<std::string_view, double> units_m{{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}};
+const std::map<std::string_view, double> units_per_m{{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}};
 
 struct NumberAndRest {
   double number;
@@ -99,10 +99,10 @@ Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference) {
 
 std::optional<double> length_m(std::string_view text) {
   const auto parsed = leading_number(text);
-  const auto unit = parsed ? units_m.find(parsed->rest) : units_m.end();
-  if (unit == units_m.end())
+  const auto unit = parsed ? units_per_m.find(parsed->rest) : units_per_m.end();
+  if (unit == units_per_m.end())
     return std::nullopt;
-  const double length_m = parsed->number * unit->second;
+  const double length_m = parsed->number / unit->second;
   return length_m >= min_error_m && length_m <= max_error_m ? std::optional(length_m) : std::nullopt;
 }
 

@@ -127,7 +127,9 @@ std::string row_text(const Setup &setup, const Row &row) {
   const auto &[mode, timing, checks] = row;
   const std::string sensors =
       setup.start.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.start.sensors.size()) : "";
-  std::string text = fmt::format("\nmode       {}\n", mode_name(mode)) + accuracy_text(mode, timing.accuracy);
+  std::string text = fmt::format("\nmode       {}\n", sum_text(mode, timing.accuracy));
+  if (const std::string errors = errors_text(timing.accuracy); !errors.empty())
+    text += fmt::format("error      {}\n", errors);
   for (const AccuracyCheck &check : checks)
     text += fmt::format("error      {}\n", error_text(check));
   text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames{}), {:.4g} frames/s\n",

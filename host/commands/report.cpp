@@ -35,7 +35,7 @@ Spread spread(std::span<const T> values) {
 }
 
 // "at most 1.2 µm, 3e-06 of the amplitude".
-std::string errors_text(const std::optional<double> &distance_m, const std::optional<double> &amplitude) {
+std::string bounds_text(const std::optional<double> &distance_m, const std::optional<double> &amplitude) {
   std::vector<std::string> errors;
   if (distance_m)
     errors.push_back(micrometres_text(*distance_m));
@@ -61,19 +61,29 @@ std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::f
 
 std::string micrometres_text(double length_m) { return fmt::format("{:.4g} µm", 1e6 * length_m); }
 
+std::string sum_text(Mode mode, const AccuracyReport &report) {
+  return fmt::format("{}, {}, {} diode{} summed", mode_name(mode), precision_name(report.precision),
+                     report.diodes, report.diodes == 1 ? "" : "s");
+}
+
+std::string errors_text(const AccuracyReport &report) {
+  std::vector<std::string> errors;
+  if (report.claimed_m || report.claimed_amplitude)
+    errors.push_back(bounds_text(report.claimed_m, report.claimed_amplitude) + " claimed");
+  if (report.found_m || report.found_amplitude)
+    errors.push_back(fmt::format("{} found in {} pixels, checked in {:.3f} ms",
+                                 bounds_text(report.found_m, report.found_amplitude), report.checked_pixels,
+                                 report.check_ms));
+  return fmt::format("{}", fmt::join(errors, ", "));
+}
+
 std::string accuracy_text(Mode mode, const AccuracyReport &report) {
   std::string text;
   if (mode != Mode::exact || report.precision == Precision::fp64)
-    text += fmt::format("mode {}, {}, {} diodes summed\n", mode_name(mode), precision_name(report.precision),
-                        report.diodes);
-  std::vector<std::string> errors;
-  if (report.claimed_m || report.claimed_amplitude)
-    errors.push_back(errors_text(report.claimed_m, report.claimed_amplitude) + " claimed");
-  if (report.found_m || report.found_amplitude)
-    errors.push_back(fmt::format("{} found in {} pixels, checked in {:.3f} ms",
-                                 errors_text(report.found_m, report.found_amplitude), report.checked_pixels,
-                                 report.check_ms));
-  return errors.empty() ? text : text + fmt::format("error {}\n", fmt::join(errors, ", "));
+    text += fmt::format("mode {}\n", sum_text(mode, report));
+  if (const std::string errors = errors_text(report); !errors.empty())
+    text += fmt::format("error {}\n", errors);
+  return text;
 }
 
 Spread spread_of(std::span<const float> values) { return spread(values); }

@@ -1,2 +1,4 @@
 #include "host/commands/commands.h"
-namespace pmdsim { void run_tradeoff(const Options &) {} }
+namespace pmdsim {
+void run_tradeoff(const Options &) {}
+} // namespace pmdsim
