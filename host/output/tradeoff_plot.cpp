@@ -96,6 +96,7 @@ void draw_front(Canvas &canvas, const std::vector<Marker> &markers, Sweep sweep,
 // Filled on the front, a ring elsewhere.
 void draw_marker(Canvas &canvas, double x, double y, const Colour &colour, bool filled) {
   cairo_t *context = canvas.context();
+  cairo_new_path(context); // a text leaves its end as a point to go on from
   cairo_arc(context, x, y, marker_radius, 0.0, 6.283185307179586);
   const Colour &inside = filled ? colour : white;
   cairo_set_source_rgb(context, inside[0], inside[1], inside[2]);
@@ -109,19 +110,16 @@ bool overlap(const Box &a, const Box &b) {
   return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
 }
 
+// Where a label may stand beside its marker, best first: fronts fall to the right.
+constexpr std::array<std::pair<double, double>, 8> directions{
+    {{1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, -1.0}, {-1.0, 1.0}, {0.0, 1.0}, {-1.0, 0.0}, {-1.0, -1.0}}};
+
 // Beside its marker where that is free, else farther and farther off; nothing where it is crowded all around.
 std::optional<Box> free_place(const Marker &marker, double width, const std::vector<Box> &taken,
                               const Box &whole) {
   const double height = text_size;
   for (double away = marker_radius + 3.0; away < 60.0; away += 4.0)
-    for (const auto &[right, down] : {std::pair{1.0, 0.0},
-                                      {1.0, -1.0},
-                                      {1.0, 1.0},
-                                      {0.0, -1.0},
-                                      {0.0, 1.0},
-                                      {-1.0, -1.0},
-                                      {-1.0, 1.0},
-                                      {-1.0, 0.0}}) {
+    for (const auto &[right, down] : directions) {
       const double x = marker.x + right * (away + 0.5 * width), y = marker.y + down * (away + 0.5 * height);
       const Box place{x - 0.5 * width, y - 0.5 * height, width, height};
       const bool inside = place.left > whole.left && place.right() < whole.right() && place.top > whole.top &&
