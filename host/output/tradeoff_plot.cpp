@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
@@ -56,7 +57,7 @@ Range range_of(const std::vector<const TradeoffPoint *> &points, const Value &va
   return range.max > 0.0 ? Range{0.5 * range.min, 2.0 * range.max} : Range{0.1, 10.0};
 }
 
-void draw_grid(Canvas &canvas, const Plot &plot) {
+void draw_axes(Canvas &canvas, const Plot &plot, const std::string &device) {
   const Box &box = plot.box;
   for (const Tick &tick : plot.time_ms.ticks) {
     const double x = box.left + along(plot.time_ms.range, tick.value, box.width);
@@ -69,7 +70,8 @@ void draw_grid(Canvas &canvas, const Plot &plot) {
   canvas.outline(box);
   canvas.bottom_axis(box, plot.time_ms);
   canvas.left_axis(box, plot.error_um);
-  canvas.text(box.left + 0.5 * box.width, plot_height - 22.0, "median time of a frame (ms)", Anchor::centre);
+  canvas.text(box.left + 0.5 * box.width, plot_height - 22.0,
+              fmt::format("median time of a frame on {} (ms)", device), Anchor::centre);
   canvas.vertical_text(22.0, box.top + 0.5 * box.height, "largest distance error beside edges (µm)");
 }
 
@@ -179,8 +181,9 @@ Canvas draw_tradeoff(const Tradeoff &tradeoff) {
 
   Canvas canvas(plot_width, plot_height);
   canvas.title(plot.box.left, 24.0,
-               fmt::format("speed against accuracy, {}, {}", tradeoff.setup, tradeoff.sensor));
-  draw_grid(canvas, plot);
+               fmt::format("speed against accuracy, {}, {}",
+                           std::filesystem::path(tradeoff.setup).filename().string(), tradeoff.sensor));
+  draw_axes(canvas, plot, tradeoff.device);
   const std::vector<Marker> markers = markers_of(plot, points);
   draw_front(canvas, markers, Sweep::modes, all_series[0].colour);
   draw_front(canvas, markers, Sweep::samples, all_series[3].colour);
