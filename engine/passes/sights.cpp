@@ -93,6 +93,7 @@ std::vector<Sight> sights_of(const std::vector<VisibleBox> &pieces, const glm::d
       widen(found->second, sight);
   }
   std::vector<Sight> sights;
+  sights.reserve(by_range.size());
   for (const auto &[octave, sight] : by_range)
     sights.push_back(sight);
   return sights;
