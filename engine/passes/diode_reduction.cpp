@@ -249,7 +249,7 @@ ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
                            const Wavenumbers &wavenumbers, double max_error_m, double max_amplitude_error) {
   ReducedLight result{illuminators, box_of(illuminators)};
-  if (visible.empty())
+  if (visible.empty() || !(max_error_m > 0.0) || !(max_amplitude_error > 0.0))
     return result;
   std::vector<VisibleBox> pieces = pieces_of(visible, result.lights);
   ErrorScale scale{wavenumbers.largest_rad_m,

@@ -384,6 +384,10 @@ TEST_CASE("diodes stay as they are where nothing is known or gained") {
     diode.intensity_w_sr = 0.0;
   const Pattern table{Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>()};
   stays({{rings(48)}}, {});
+  const double k = wavenumber(20e6);
+  CHECK(
+      diodes_of(reduce_diodes({{rings(48)}}, room(), Backscatter::constant, {k, k}, 0.0, 1.0).illuminators) ==
+      240);
   stays({{dark}}, wall(0.2, 2.0));
   stays({{with(rings(48), table)}}, wall(0.2, 2.0));
   stays({{std::vector<Diode>(1)}}, wall(0.2, 2.0));
