@@ -109,7 +109,7 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   if (signal.lit)
     lit.emplace(device, occluders, groups, windows, buffers, strips, is_tiled(sensor), options.precision);
   AccumulatePass accumulate(device, groups, model, signal, options, precision);
-  ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision);
+  ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision, precision);
   return {sensor,
           signal,
           strips,

@@ -48,6 +48,7 @@ PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
 PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light reaches the pixel, too
+PMDSIM_CONSTANT constant_resolve_precise = 7;  // 1: samples' returns are turned and added in Real
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2

@@ -9,6 +9,7 @@
 #include "compensated.glsl"
 #include "elementary.glsl"
 #include "real.glsl"
+#include "real_elementary.glsl"
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
@@ -19,6 +20,7 @@ layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
 layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
 layout(constant_id = constant_resolve_tiled) const uint tiled = 0;
 layout(constant_id = constant_resolve_lit) const uint shadowed = 0;
+layout(constant_id = constant_resolve_precise) const uint precise_sum = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -35,9 +37,23 @@ Real turns_per_m(uint plane) {
   return multiply(real(constants.turns_per_m.x, constants.turns_per_m.y), real(float(plane + 1)));
 }
 
+// Adds `z`, turned, in Real; the sum stays a pair.
+vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
+  RealComplex value = RealComplex(real(z.x, z.z), real(z.y, z.w));
+  if (waveform != waveform_square)
+    value = complex_multiply(value, real_unit_phasor(real_turn_fraction(turns)));
+  Real re = add(real(sum.x, sum.z), value.re), im = add(real(sum.y, sum.w), value.im);
+  return vec4(high(re), high(im), rest(re), rest(im));
+}
+
 void add_return(inout PixelSum sum, uint i, Real excess_m) {
   [[unroll]] for (uint p = 0; p < planes; ++p) {
-    vec2 z = compensated_value(Vec4s(constants.sum).at[p * constants.plane + i]);
+    vec4 pair = Vec4s(constants.sum).at[p * constants.plane + i];
+    if (precise_sum != 0) {
+      sum.z[p] = add_precisely(sum.z[p], pair, multiply(excess_m, turns_per_m(p)));
+      continue;
+    }
+    vec2 z = compensated_value(pair);
     if (waveform != waveform_square) // each plane is a harmonic
       z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(p)))));
     sum.z[p] = compensated_add(sum.z[p], z);

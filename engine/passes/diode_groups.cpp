@@ -1,10 +1,10 @@
 #include "engine/passes/diode_groups.h"
 
 #include "engine/passes/diagram_tables.h"
+#include "engine/passes/excess.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 
@@ -39,58 +39,17 @@ struct Group {
   std::span<NumberedDiode> diodes;
   double phase_turns; // the illuminator's
   glm::dvec3 reference_m;
-  double radius_m = 0.0; // of the sphere around the reference point that holds all its diodes
-  double range_m =
-      std::numeric_limits<double>::infinity(); // at least, from the reference point to what is visible
-  double excess_m = 0.0; // at most, |r_nm - rho| over its diodes and all that is visible
+  Excess reach; // of its diodes
 };
-
-// How far diodes reach from a reference point, along each axis and across it.
-struct Reach {
-  glm::dvec3 along_m{0.0};
-  glm::dvec3 across_m{0.0};
-
-  void add(const glm::dvec3 &p) {
-    along_m = glm::max(along_m, glm::abs(p));
-    across_m =
-        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
-  }
-};
-
-// A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
-// Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
-// exact.)
-double largest_product(const glm::dvec3 &p, const Reach &reach) {
-  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
-  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
-  return std::min({bounds.x, bounds.y, bounds.z});
-}
-
-// |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
-// across the view; it is never more than |I|.
-double excess_at_most_m(const Group &group, const Reach &reach, const VisibleBox &box, double rho_m) {
-  const glm::dvec3 farthest_m =
-      glm::max(glm::abs(box.low_m - group.reference_m), glm::abs(box.high_m - group.reference_m));
-  const double q_m2 = group.radius_m * group.radius_m + 2.0 * largest_product(farthest_m, reach);
-  const double sum_m = rho_m + std::max(0.0, rho_m - group.radius_m);
-  return sum_m > 0.0 ? std::min(group.radius_m, q_m2 / sum_m) : group.radius_m;
-}
 
 Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
   const Box box = box_of(diodes);
   // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
-  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
-  Reach reach;
-  for (const Diode &diode : diodes) {
-    group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
-    reach.add(diode.position_m - group.reference_m);
-  }
-  for (const VisibleBox &seen : visible) {
-    const double rho_m =
-        glm::distance(group.reference_m, glm::clamp(group.reference_m, seen.low_m, seen.high_m));
-    group.range_m = std::min(group.range_m, rho_m);
-    group.excess_m = std::max(group.excess_m, excess_at_most_m(group, reach, seen, rho_m));
-  }
+  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
+  std::vector<glm::dvec3> places_m;
+  for (const Diode &diode : diodes)
+    places_m.push_back(diode.position_m);
+  group.reach = excess_of(group.reference_m, places_m, visible);
   return group;
 }
 
@@ -207,8 +166,8 @@ public:
 
 private:
   bool is_small_enough(const Group &group) const {
-    return wavenumber_rad_m_ * group.excess_m <= largest_phase_rad &&
-           group.radius_m <= largest_radius_over_range * group.range_m;
+    return wavenumber_rad_m_ * group.reach.excess_m <= largest_phase_rad &&
+           group.reach.radius_m <= largest_radius_over_range * group.reach.range_m;
   }
 
   const std::vector<VisibleBox> &visible_;
@@ -284,10 +243,11 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
   }
 
   for (const Group &group : grouping.groups()) {
-    result.excess_m = std::max(result.excess_m, group.excess_m);
-    result.radius_m = std::max(result.radius_m, group.radius_m);
-    if (group.radius_m > 0.0)
-      result.radius_over_range = std::max(result.radius_over_range, group.radius_m / group.range_m);
+    result.excess_m = std::max(result.excess_m, group.reach.excess_m);
+    result.radius_m = std::max(result.radius_m, group.reach.radius_m);
+    if (group.reach.radius_m > 0.0)
+      result.radius_over_range =
+          std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
   }
   result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
   result.blocks_per_run = cheapest_run_blocks(

@@ -18,24 +18,24 @@ float largest_float_below(double value) {
 }
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
-                                      SamplePrecision precision, bool tiled, bool first) {
+                                      SamplePrecision precision, Precision sum, bool tiled, bool first) {
   return {device,
           choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants),
           {signal.planes, signal.waveform, signal.taps, signal.keep_taps ? 1u : 0u, first ? 1u : 0u,
-           tiled ? 1u : 0u, first && signal.lit ? 1u : 0u}};
+           tiled ? 1u : 0u, first && signal.lit ? 1u : 0u, sum == Precision::fp64 ? 1u : 0u}};
 }
 
 } // namespace
 
 ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
-                         bool tiled, SamplePrecision precision)
+                         bool tiled, SamplePrecision precision, Precision sum)
     : signal_(signal), amplitude_scale_(static_cast<float>(groups.largest_intensity_w_sr)),
       diodes_(groups.diode_count),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
-      first_(make_pipeline(device, signal, precision, tiled, true)) {
+      first_(make_pipeline(device, signal, precision, sum, tiled, true)) {
   if (signal.frequencies() > 1)
-    later_ = make_pipeline(device, signal, precision, tiled, false);
+    later_ = make_pipeline(device, signal, precision, sum, tiled, false);
 }
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

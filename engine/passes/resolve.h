@@ -11,9 +11,9 @@ namespace pmdsim {
 
 class ResolvePass {
 public:
-  // `tiled`: whether the tags lie in tiles (shaders/interface.h).
+  // `tiled`: whether the tags lie in tiles (shaders/interface.h); `sum` is the precision of the sum.
   ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups, bool tiled,
-              SamplePrecision precision);
+              SamplePrecision precision, Precision sum = Precision::fp32);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
               const StripBuffers &buffers, const vulkan::Buffer &planes) const;
