@@ -161,7 +161,8 @@ private:
   double summation() const {
     const double blocks = groups_.blocks_per_run;
     const double of_run = scope_.precision == Precision::fp64 ? block * blocks : block + blocks;
-    return u_ * of_run + 0x1p-47 * static_cast<double>(groups_.runs.size() + scope_.samples * scope_.samples);
+    const double samples = scope_.samples;
+    return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
   }
 
   // Phases that differ by more than the paths': as bad as any.
