@@ -58,11 +58,12 @@ struct Prepared {
 
 std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, const Sensor &sensor,
                                                  const CameraScene &camera, const Scene &scene,
-                                                 const std::vector<RasterBlock> &blocks, bool surfaces,
-                                                 const PaintBuffers &paint, SamplePrecision precision) {
+                                                 const std::vector<RasterBlock> &blocks,
+                                                 std::uint32_t surface_vectors, const PaintBuffers &paint,
+                                                 SamplePrecision precision) {
   if (sensor.has_distortion())
-    return SearchPass(device, sensor, camera, scene, blocks, surfaces, paint, precision);
-  return PointsPass(device, sensor, surfaces, paint.painted, precision);
+    return SearchPass(device, sensor, camera, scene, blocks, surface_vectors, paint, precision);
+  return PointsPass(device, sensor, surface_vectors, paint.painted, precision);
 }
 
 // A strip is a row of a block's pixels at least, so a block is no wider than the largest strip.
@@ -83,7 +84,7 @@ SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camer
 
 Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
                         const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                        Backscatter backscatter, Shadows shadows, TextureCache &textures) {
+                        Backscatter backscatter, Shadows shadows, Precision wanted, TextureCache &textures) {
   const CameraScene camera = to_camera(scene, sensor);
   const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
   const bool facing = all_face_the_light(camera, lights);
@@ -95,24 +96,26 @@ Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &op
   const std::uint32_t strip_samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
   const Projection projection = project_blocks(device, camera, sensor, largest_strip);
-  DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m());
+  const Precision precision = sum_precision(signal, wanted);
+  DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m(), precision);
   const SumModel model = sum_model(lights, backscatter, facing);
   const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
   SceneBuffers buffers = upload_scene(device, camera, scene, sensor, backscatter, textures);
   VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
-  auto points = points_pass(device, sensor, camera, scene, projection.blocks, model.asks_for_surfaces(),
-                            buffers.paint, options.precision);
+  auto points = points_pass(device, sensor, camera, scene, projection.blocks,
+                            model.surface_vectors(precision), buffers.paint, options.precision);
   std::vector<LitWindow> windows = signal.lit ? plan_windows(groups) : std::vector{all_runs(groups)};
   std::optional<LitPass> lit;
   if (signal.lit)
     lit.emplace(device, occluders, groups, windows, buffers, strips, is_tiled(sensor), options.precision);
-  AccumulatePass accumulate(device, groups, model, signal, options);
-  ResolvePass resolve(device, signal, groups, is_tiled(sensor), options.precision);
+  AccumulatePass accumulate(device, groups, model, signal, options, {signal.lit, false, precision});
+  ResolvePass resolve(device, signal, groups, options, {is_tiled(sensor), false, precision, {}});
   return {sensor,
           signal,
           strips,
           std::move(buffers),
-          make_strip_buffers(device, strips, projection.blocks, signal, options),
+          make_strip_buffers(device, strips, projection.blocks, signal, model.surface_vectors(precision),
+                             options),
           std::move(visibility),
           std::move(points),
           shadows,
@@ -262,13 +265,14 @@ const DeviceInfo &Simulator::device() const { return state_->info; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                        Shadows shadows, const Accuracy & /*accuracy*/) {
+                        Shadows shadows, const Accuracy &accuracy) {
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
   state_->prepared.reset(); // its memory first
   state_->prepared.emplace(prepare_passes(state_->device, state_->options, scene, sensor, illuminators,
-                                          backscatter, shadows, state_->textures));
+                                          backscatter, shadows, accuracy.precision.value_or(Precision::fp32),
+                                          state_->textures));
   state_->textures.drop_unused();
   state_->warm_up();
 }

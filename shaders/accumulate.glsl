@@ -1,52 +1,22 @@
-// What both forms of the accumulate pass share: the point of a sample as a group of diodes sees it, a diode's weight there
-// and how much longer its path is than the reference point's, and how a run's terms join the sum.
+// What both forms of the accumulate pass share: which samples they sum, and how a run's terms join the sum.
 #ifndef PMDSIM_ACCUMULATE_GLSL
 #define PMDSIM_ACCUMULATE_GLSL
 
 #include "buffers.glsl"
 #include "compensated.glsl"
-#include "elementary.glsl"
-#include "real.glsl"
+#include "pixel_list.glsl"
 
-layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
-layout(constant_id = constant_backscatter) const uint backscatter_model = backscatter_flat;
-layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotropic;
-layout(constant_id = constant_order) const uint power = 1;
-layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
 layout(constant_id = constant_first) const uint is_first = 0;
-layout(constant_id = constant_phased) const uint phased = 0;
-layout(constant_id = constant_shadowed) const uint shadowed = 0;
+layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_promised) const uint promised = 0;
 
-// A sample's point as the group sees it.
-struct Point {
-  vec3 position; // P - G, m
-  float rho;     // |P - G|, m
-  vec3 normal;   // turned to the lens
-  float height;  // of G over the surface's plane, m
-};
+#define DIAGRAM_VALUES constants.diagrams
+#include "sum.glsl"
 
-#include "radiation.glsl"
-
-// w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
-vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
-  float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
-  float r2 = point.rho * point.rho + q;
-  float r = sqrt(r2);
-  float sum = r + point.rho;
-  float inverse = 1.0 / (r2 * sum);
-  float inverse_r2 = sum * inverse;
-  float weight = diode.intensity * inverse_r2;
-  float inverse_r = r * inverse_r2;
-  if (backscatter_model != backscatter_flat) {
-    float height = point.height - 0.5 * dot(point.normal, diode.position.xyz); // of the diode over the surface
-    weight *= backscatter_model == backscatter_lambert ? max(0.0, height * inverse_r) : (height > 0.0 ? 1.0 : 0.0);
-  }
-  if (pattern_model != pattern_isotropic)
-    weight *= radiation(point, diode, r, inverse_r, inverse_r2);
-  if (shadowed != 0)
-    weight = reached ? weight : 0.0;
-  return vec2(weight, q * r2 * inverse);
+uint sample_of_invocation() {
+  uint i = gl_GlobalInvocationID.x;
+  return listed != 0 ? listed_sample(PixelLists(constants.list), i, constants.padded_pixels) : i;
 }
 
 // Of the block's diodes, those that reach sample i, a bit each.
@@ -57,33 +27,21 @@ uint reached_of_block(uint i, uint block) {
   return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
-// The paths from a sample over the reference point, in double.
-struct ReferencePath {
-  Real range; // sample - lens, m
-  Real rho;   // sample - reference point, m
-};
-
-ReferencePath load_point(uint i, out Point point) {
-  Real3 position = real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
-  vec4 surface = Vec4s(constants.surface).at[i];
-  vec4 reference_hi = constants.reference_hi, reference_lo = constants.reference_lo;
-  Real3 from_reference = subtract3(position, real3(reference_hi.xyz, reference_lo.xyz));
-  ReferencePath path = ReferencePath(length3(position), length3(from_reference));
-  point.position = high3(from_reference);
-  point.rho = high(path.rho);
-  point.normal = surface.xyz;
-  // By the way that is shorter, which cancels less: over the lens's height, or from the sample.
-  point.height = point.rho < length(reference_hi.xyz) ? -dot(surface.xyz, point.position)
-                                                      : surface.w + dot(surface.xyz, reference_hi.xyz);
-  return path;
+Real3 load_position(uint i) {
+  return real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
 }
 
-// The phase of a path at a tone, the illuminator's with it, in turns.
-Real phase_turns(Real path_m, Tone tone) {
-  Real turns = multiply(path_m, real(tone.turns_per_m.x, tone.turns_per_m.y));
-  if (phased != 0)
-    turns = add(turns, multiply(real(constants.phase_turns.x, constants.phase_turns.y), real(tone.harmonic)));
-  return turns;
+ReferencePath load_point(uint i, LightRun run, out Point point) {
+  return see_point(load_position(i), Vec4s(constants.surface).at[i], run, point);
+}
+
+// What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
+void add_terms(uint i, float backscatter, float terms) {
+  if (promised == 0)
+    return;
+  Floats sums = Floats(constants.terms);
+  float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;
+  sums.at[i] = is_first != 0 ? scattered : sums.at[i] + scattered;
 }
 
 // Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even

@@ -18,8 +18,8 @@ const uint totals = distinct_taps + 1;
 const uint tap_planes = (distinct_taps + 1) / 2;
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
-void find_tap_phases(ReferencePath path, Tone tone, out float phases[distinct_taps]) {
-  Real turns = phase_turns(add(path.rho, path.range), tone);
+void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phases[distinct_taps]) {
+  Real turns = phase_turns(add(path.rho, path.range), run, tone);
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
@@ -59,6 +59,7 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
 
 void add_taps(uint i, float total[totals], float backscatter) {
   float weight = total[distinct_taps];
+  add_terms(i, backscatter, weight);
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
     uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
     add_to_plane(p, i, backscatter, 4.0 * vec2(total[2 * p], total[second]) - weight);
@@ -66,12 +67,13 @@ void add_taps(uint i, float total[totals], float backscatter) {
 }
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = sample_of_invocation();
+  LightRun run = LightRuns(constants.run).at;
   Point point;
-  ReferencePath path = load_point(i, point);
+  ReferencePath path = load_point(i, run, point);
   Tone tone = Tones(constants.tones).at[0];
   float phases[distinct_taps];
-  find_tap_phases(path, tone, phases);
+  find_tap_phases(path, run, tone, phases);
   float total[totals];
   [[unroll]] for (uint k = 0; k < totals; ++k)
     total[k] = 0.0;
@@ -89,7 +91,7 @@ void main() {
     add_taps(i, total, backscatter);
   } else {
     Real detour = add(path.rho, negate(path.range));
-    float turns = turn_fraction(phase_turns(detour, tone));
+    float turns = turn_fraction(phase_turns(detour, run, tone));
     add_to_plane(0, i, backscatter, complex_multiply(vec2(total[0], total[distinct_taps]), unit_phasor(turns)));
   }
 }

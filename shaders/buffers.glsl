@@ -19,6 +19,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Bl
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Views { RasterView at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupDiode at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRuns { LightRun at; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Frequencies { Frequency at[]; };
 
 // Where the tag of a pixel's sample is, in a strip of `extent` pixels (interface.h).
 uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool tiled) {

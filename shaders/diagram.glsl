@@ -1,5 +1,5 @@
 // J from a measured diagram's table on even grids of theta, the angle to the diode's axis, and phi, the angle about it
-// (engine/passes/diagram_tables.h).
+// (engine/passes/diagram_tables.h). DIAGRAM_VALUES: the address of the values of all, each with the next theta's.
 #ifndef PMDSIM_DIAGRAM_GLSL
 #define PMDSIM_DIAGRAM_GLSL
 
@@ -18,10 +18,10 @@ float half_plane_angle(float x, float y, float length) {
 // double, which is one component, takes half the time of a vec2.
 #ifdef REAL_DOUBLE_FLOAT
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Pairs { vec2 at[]; };
-vec2 pair_at(uint i) { return Pairs(constants.diagrams).at[i]; }
+vec2 pair_at(uint i) { return Pairs(DIAGRAM_VALUES).at[i]; }
 #else
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Pairs { double at[]; };
-vec2 pair_at(uint i) { return uintBitsToFloat(unpackDouble2x32(Pairs(constants.diagrams).at[i])); }
+vec2 pair_at(uint i) { return uintBitsToFloat(unpackDouble2x32(Pairs(DIAGRAM_VALUES).at[i])); }
 #endif
 
 // The last value of a row at or before a place in it, and how far beyond that is; places outside 0 ... last (and what is

@@ -39,6 +39,8 @@ PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
 PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
 PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation phase
 PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sample
+PMDSIM_CONSTANT constant_listed = 12;     // 1: only the samples of a list of pixels
+PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to without their phases
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -48,15 +50,27 @@ PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
 PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light reaches the pixel, too
+PMDSIM_CONSTANT constant_resolve_listed = 7;   // 1: only the pixels of a list
+PMDSIM_CONSTANT constant_resolve_promised = 8; // 1: an error was promised
+PMDSIM_CONSTANT constant_resolve_precise = 9;  // 1: samples' returns are turned and added in Real
 
 // Specialization constants of the points passes.
-PMDSIM_CONSTANT constant_surfaces = 0;   // 1 where the sum asks for the surfaces
+PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
 PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
 PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or is filled in part; 0: nominal
 PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
 PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
 PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
+PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a list of pixels
+
+// Specialization constants of the short way: those of the accumulate, the resolve and the points pass, one
+// after the other, then its own.
+PMDSIM_CONSTANT short_way_resolve = 14;
+PMDSIM_CONSTANT short_way_points = 24;
+PMDSIM_CONSTANT constant_runs = 30;      // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 31;   // S
+PMDSIM_CONSTANT constant_one_place = 32; // 1: pixels of several samples may be evaluated at their centre
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -184,6 +198,24 @@ struct GroupDiode {
   vec4 across; // camera frame, unit length, where the diagram's first phi is; steps of phi in a turn
 };
 
+// The same for the precise sum, with what rounding to float took.
+struct PreciseDiode {
+  GroupDiode rounded;
+  vec4 position_rest;
+  vec4 axis_rest;
+  float intensity_rest;
+  float order_rest;
+  float padding_1, padding_2;
+};
+
+// What the diodes of a run share.
+struct LightRun {
+  vec4 reference_hi; // the group's reference point (camera frame, m)
+  vec4 reference_lo; // its rest
+  vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
+  uint padding_1, padding_2;
+};
+
 // A harmonic of a modulation frequency.
 struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
@@ -230,11 +262,12 @@ struct PointsConstants {
   uvec2 planes; // in: TrianglePlane[]
   uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
   uvec2 position_lo; // out: float[3] a sample, their rests
-  uvec2
-      surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for it
+  uvec2 surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
+                 // it; where it is precise each followed by its rest
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
   uvec2 shapes;      // in, where painted: ShapePaint[]
   uvec2 surfaces;    // in, where painted: SurfacePaint[]
+  uvec2 list;        // in, where listed: PixelList and its pixels
 };
 
 struct SearchConstants {
@@ -262,16 +295,31 @@ struct AccumulateConstants {
   uvec2 position_lo;
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;         // in (but for the first run) and out: of the first tone, or direct, of the frequency
-  uvec2 diodes;      // in: GroupDiode[]
-  uvec2 tones;       // in: Tone[]
-  uint blocks;       // blocks of diodes to sum, for the looped variant
-  uint plane;        // elements of a plane of the sum
-  vec4 reference_hi; // the group's reference point (camera frame, m)
-  vec4 reference_lo; // its rest
-  vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
-  uvec2 diagrams;    // in: vec2[], the diagrams' values, each with the next theta's
-  uvec2 reached;     // in, where shadowed: the words of the run's bundles, bundle by bundle
+  uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
+  uvec2 run;      // in: LightRun
+  uvec2 diodes;   // in: GroupDiode[] or, precise, PreciseDiode[], the run's
+  uvec2 tones;    // in: Tone[]
+  uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
+  uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
+  uvec2 terms; // in (but for the first run) and out, where promised: float[], sum of |terms| of each sample
+  uvec2 list;  // in, where listed: PixelList and its pixels
+  uint blocks; // blocks of diodes to sum, for the looped variant
+  uint plane;  // elements of a plane of the sum
+  uint padded_pixels;
+};
+
+// How a modulation frequency becomes channels, and what was promised of it: a distance within limit_m and an
+// amplitude within amplitude_limit. Both are off by fixed + per_condition * condition at most, the condition
+// being sum of |terms| / |sum|.
+struct Frequency {
+  vec2 turns_per_m;      // of range, 2 f / c: hi, lo
+  vec2 ambiguity_m;      // c / (2 f): hi, lo
+  vec2 below;            // the largest floats below 2 pi and below c / (2 f)
+  float amplitude_scale; // amplitude per unit of the mean return
+  uint first_channel;
+  float limit_m, fixed_m, per_condition_m;
+  float amplitude_limit, amplitude_fixed, amplitude_per_condition;
+  uint padding_1, padding_2;
 };
 
 struct ResolveConstants {
@@ -280,20 +328,82 @@ struct ResolveConstants {
   uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
   uvec2 planes;
-  uvec2 channels;        // out: channel by channel (channel_*), each padded_pixels values of 32 bits
-  uvec2 harmonics;       // in: float[], amplitudes of the harmonics
-  vec2 turns_per_m;      // of range, 2 f / c: hi, lo
-  vec2 ambiguity_m;      // c / (2 f): hi, lo
-  vec2 limits;           // the largest floats below 2 pi and below c / (2 f)
-  float amplitude_scale; // amplitude per unit of the mean return
-  uint columns;          // of the strip
+  uvec2 channels;  // out: channel by channel (channel_*), each padded_pixels values of 32 bits
+  uvec2 harmonics; // in: float[], amplitudes of the harmonics
+  uvec2 frequency; // in: Frequency
+  uvec2 lit;       // in: uint a sample, the diodes that reach it
+  uvec2 terms;     // in, where promised: sum of |terms| of each sample
+  uvec2 broken;    // in and out, where promised: BrokenPromise
+  uvec2 list;      // in, where listed: PixelList and its pixels
+  uint columns;    // of the strip
   uint samples;
   uint padded_pixels;
-  uint pixels;        // of the strip
-  uint plane;         // elements of a plane of the sum
-  uint first_channel; // of the frequency
+  uint pixels; // of the strip
+  uint plane;  // elements of a plane of the sum
   uint lit_channel;
-  uvec2 lit;   // in: uint a sample, the diodes that reach it
+  uint diodes; // of all illuminators
+};
+
+// Pixels that wait for their samples to be summed; their numbers follow. Numbers of workgroups are counted
+// once all are there.
+struct PixelList {
+  uint sample_groups_x, sample_groups_y, sample_groups_z; // an invocation for each sample
+  uint pixel_groups_x, pixel_groups_y, pixel_groups_z;    // an invocation for each pixel
+  uint count;
+  uint padding;
+};
+PMDSIM_CONSTANT pixel_lists = 2;
+PMDSIM_CONSTANT list_lit = 0;  // every diode lights whatever they see
+PMDSIM_CONSTANT list_rest = 1; // the others
+
+struct PixelListConstants {
+  uvec2 lists[pixel_lists]; // in and out: PixelList
+  uint samples;             // of a pixel, S x S
+};
+
+// Pixels that may be off by more than was promised.
+struct BrokenPromise {
+  uint pixels;
+  float worst_m;   // as far as is known; bits of a float >= 0 compare as the float does
+  float amplitude; // relative, likewise
+  uint padding;
+};
+
+// The diodes that stand in for all, as the short way sees them. Their LightRuns follow.
+struct ShortWayLight {
+  vec4 middle_m;       // of the box around the light, camera frame
+  vec4 extent_m;       // half of it; w: the radius of the sphere around it
+  uvec2 diodes;        // GroupDiode[], run by run
+  uvec2 tones;         // Tone[], one for each frequency
+  uvec2 diagrams;      // vec2[]
+  uvec2 frequencies;   // Frequency[]
+  float pattern_slope; // at most, of ln J, per radian
+  float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
+                    // theirs do
+  float wavenumber; // of the highest frequency, rad/m
+  uint padding;
+};
+
+// Sees a pixel from its tags to its channels, or lists it.
+struct ShortWayConstants {
+  Strip strip;
+  vec4 slope; // as in PointsConstants
+  uvec2 chip; // likewise
+  uvec2 tags;
+  uvec2 planes;
+  uvec2 shapes;
+  uvec2 surfaces;
+  uvec2 lit;      // in, where shadowed: uint a sample, the diodes that reach it
+  uvec2 light;    // in: ShortWayLight
+  uvec2 channels; // out, as in ResolveConstants
+  uvec2 work;     // in and out: ShortWayWork
+};
+
+// Where the short way leaves what it cannot do.
+struct ShortWayWork {
+  uvec2 lists[pixel_lists]; // PixelList
+  uvec2 broken;             // BrokenPromise
+  uint lit_channel;
   uint diodes; // of all illuminators
 };
 
@@ -312,7 +422,7 @@ PMDSIM_CONSTANT channel_first_tap = 3;
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);
-static_assert(sizeof(GroupDiode) == 80);
+static_assert(sizeof(GroupDiode) == 80 && sizeof(PreciseDiode) == 128);
 static_assert(sizeof(Strip) == 32);
 static_assert(sizeof(TriangleCorners) == 112);
 static_assert(sizeof(ChipPlace) == 160);
@@ -320,11 +430,14 @@ static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
 static_assert(sizeof(VisibilityConstants) == 80);
-static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(AccumulateConstants) == 120 && offsetof(AccumulateConstants, reference_hi) == 64);
-static_assert(sizeof(ResolveConstants) == 124 && offsetof(ResolveConstants, turns_per_m) == 56);
+static_assert(sizeof(LightRun) == 48 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 80);
+static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
+static_assert(sizeof(AccumulateConstants) == 108);
+static_assert(sizeof(ResolveConstants) == 124);
+static_assert(sizeof(ShortWayConstants) == 120 && offsetof(ShortWayConstants, slope) == 32);
 } // namespace pmdsim::shader
 #endif
 

@@ -1,4 +1,4 @@
-// What both points passes leave of a sample.
+// What both points passes leave of a sample, and what the short way makes of it at once.
 #ifndef PMDSIM_POINTS_GLSL
 #define PMDSIM_POINTS_GLSL
 
@@ -6,10 +6,13 @@
 #include "paint.glsl"
 #include "real.glsl"
 
+#ifndef POINTS_BASE // the first specialization constant's number
+#define POINTS_BASE 0
+#endif
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = constant_surfaces) const uint surfaces = 1;
-layout(constant_id = constant_vignetting) const uint vignetting = 0;
-layout(constant_id = constant_painted) const uint painted = 0;
+layout(constant_id = POINTS_BASE + constant_surfaces) const uint surface_vectors = 1;
+layout(constant_id = POINTS_BASE + constant_vignetting) const uint vignetting = 0;
+layout(constant_id = POINTS_BASE + constant_painted) const uint painted = 0;
 
 // Which sample an invocation is.
 struct Sample {
@@ -46,16 +49,32 @@ float cos4(vec3 ray) {
   return cos2 * cos2;
 }
 
+// Where the ray (x, y, 1) meets the plane.
+Real3 point_on_plane(Real3 ray, TrianglePlane plane) {
+  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
+  Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
+  // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
+  Real depth = real_clamp(divide(offset, dot3(normal, ray)), plane.along_min, plane.along_max);
+  return Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth);
+}
+
+// B of the shape `id` at a point that the ray, of any length, leads to, over the cosine, with the lens's vignetting.
+float backscatter_of(uvec2 shapes, uvec2 surfaces_at, vec3 ray, Real3 point, uint id, TrianglePlane plane) {
+  float backscatter = plane.backscatter;
+  if (painted != 0)
+    backscatter = look_of(shapes, surfaces_at, id, point).backscatter;
+  return vignetting != 0 ? backscatter * cos4(ray) : backscatter;
+}
+
 // A sample whose ray, of any length, meets the shape `id` at `point` of its plane.
 void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, uint id, TrianglePlane plane) {
   store_vec3(to.position_hi, i, high3(point));
   store_vec3(to.position_lo, i, rest3(point));
-  float backscatter = plane.backscatter;
-  if (painted != 0)
-    backscatter = look_of(to.shapes, to.surfaces, id, point).backscatter;
-  Floats(to.backscatter).at[i] = vignetting != 0 ? backscatter * cos4(ray) : backscatter;
-  if (surfaces != 0)
-    Vec4s(to.surface).at[i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  Floats(to.backscatter).at[i] = backscatter_of(to.shapes, to.surfaces, ray, point, id, plane);
+  if (surface_vectors > 0)
+    Vec4s(to.surface).at[surface_vectors * i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+  if (surface_vectors > 1)
+    Vec4s(to.surface).at[surface_vectors * i + 1] = vec4(plane.plane_lo.xyz, -plane.plane_lo.w);
 }
 
 #endif

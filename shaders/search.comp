@@ -125,7 +125,7 @@ void main() {
   Sample at = sample_of(i, strip);
   // Before anything branches, so that lavapipe reads the lens once for all lanes.
   Lenses lens = Lenses(constants.lens);
-  Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, at.subsample));
+  Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, from_centre_of(at.subsample, strip)));
   if (at.pixel >= strip.columns * strip.rows) {
     store_miss(to, i);
     return;

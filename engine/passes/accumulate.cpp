@@ -1,7 +1,7 @@
 #include "engine/passes/accumulate.h"
 
 #include "engine/passes/double_pair.h"
-#include "engine/passes/sample_precision.h"
+#include "engine/passes/forms.h"
 #include "engine/vulkan/commands.h"
 #include "spirv/accumulate_direct_looped_double_float.h"
 #include "spirv/accumulate_direct_looped_fp64.h"
@@ -9,6 +9,9 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_precise_looped_double_float.h"
+#include "spirv/accumulate_precise_looped_fp64.h"
+#include "spirv/accumulate_precise_straight_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
 
@@ -21,39 +24,59 @@ namespace {
 // Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
 constexpr double largest_whole_power = 8.0;
 
-// One of the forms of a shader: straight or looped, with fp64 or with pairs of floats.
-struct Forms {
-  std::span<const std::uint32_t> straight_fp64, straight_double_float, looped_fp64, looped_double_float;
-
-  std::span<const std::uint32_t> choose(const vulkan::Device &device, const SimulatorOptions &options) const {
-    const bool straight =
-        options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line;
-    return straight ? pmdsim::choose(device, options.precision, straight_fp64, straight_double_float)
-                    : pmdsim::choose(device, options.precision, looped_fp64, looped_double_float);
-  }
-};
-
 const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
                          shader::accumulate_straight_double_float_spirv, shader::accumulate_looped_fp64_spirv,
                          shader::accumulate_looped_double_float_spirv};
 const Forms direct_forms{
     shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
     shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
+// Pairs of floats as a straight line would take minutes to compile.
+const Forms precise_forms{
+    shader::accumulate_precise_straight_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv,
+    shader::accumulate_precise_looped_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv};
+
+const Forms &forms_of(const Signal &signal, Precision precision) {
+  return !signal.by_moments ? direct_forms : precision == Precision::fp64 ? precise_forms : moment_forms;
+}
+
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
+  return vulkan::upload(device, precision == Precision::fp64 ? std::as_bytes(std::span(groups.precise_diodes))
+                                                             : std::as_bytes(std::span(groups.diodes)));
+}
+
+} // namespace
 
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
   const std::vector<shader::Tone> tones = signal.all_tones();
   return vulkan::upload(device, std::as_bytes(std::span(tones)));
 }
 
+vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Scope &scope, bool first) {
+  return {groups.moments,
+          model.backscatter,
+          model.pattern,
+          model.order,
+          groups.blocks_per_run,
+          first ? 1u : 0u,
+          signal.tones * signal.frequencies(),
+          signal.waveform,
+          signal.taps,
+          signal.distinct_taps,
+          groups.phased ? 1u : 0u,
+          scope.shadowed ? 1u : 0u,
+          scope.listed ? 1u : 0u,
+          signal.promised ? 1u : 0u};
+}
+
+namespace {
+
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
                                       const SumModel &model, const Signal &signal,
-                                      const SimulatorOptions &options, bool first) {
-  return {device,
-          (signal.by_moments ? moment_forms : direct_forms).choose(device, options),
-          sizeof(shader::AccumulateConstants),
-          {groups.moments, model.backscatter, model.pattern, model.order, groups.blocks_per_run,
-           first ? 1u : 0u, signal.tones * signal.frequencies(), signal.waveform, signal.taps,
-           signal.distinct_taps, groups.phased ? 1u : 0u, signal.lit ? 1u : 0u}};
+                                      const SimulatorOptions &options, const AccumulatePass::Scope &scope,
+                                      bool first) {
+  return {device, forms_of(signal, scope.precision).choose(device, options),
+          sizeof(shader::AccumulateConstants), sum_constants(groups, model, signal, scope, first)};
 }
 
 template <typename Property>
@@ -95,16 +118,41 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
   return model;
 }
 
+Precision sum_precision(const Signal &signal, Precision wanted) {
+  return signal.by_moments ? wanted : Precision::fp32;
+}
+
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
+  std::vector<shader::LightRun> result;
+  for (const DiodeRun &run : groups.runs) {
+    const DoublePair4 reference(run.reference_m, 0.0);
+    const DoublePair phase_turns(run.phase_turns);
+    result.push_back({reference.hi, reference.lo, {phase_turns.hi, phase_turns.lo}, 0, 0});
+  }
+  return result;
+}
+
+namespace {
+
+vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups) {
+  const std::vector<shader::LightRun> runs = light_runs(groups);
+  return vulkan::upload(device, std::as_bytes(std::span(runs)));
+}
+
+} // namespace
+
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               const Signal &signal, const SimulatorOptions &options)
-    : runs_(groups.runs), blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
+                               const Signal &signal, const SimulatorOptions &options, const Scope &scope)
+    : runs_(groups.runs), light_runs_(upload_runs(device, groups)), blocks_per_run_(groups.blocks_per_run),
+      bundles_per_run_(bundles_per_run(groups)),
+      diode_bytes_(scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
+                                                      : sizeof(shader::GroupDiode)),
       dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
-      tones_(upload_tones(device, signal)),
-      diodes_(vulkan::upload(device, std::as_bytes(std::span(groups.diodes)))),
+      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, scope.precision)),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      first_(make_pipeline(device, groups, model, signal, options, true)) {
+      first_(make_pipeline(device, groups, model, signal, options, scope, true)) {
   if (runs_.size() > 1)
-    later_ = make_pipeline(device, groups, model, signal, options, false);
+    later_ = make_pipeline(device, groups, model, signal, options, scope, false);
 }
 
 std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
@@ -113,12 +161,10 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                             const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
-                            std::uint32_t last) const {
+                            std::uint32_t last, const vulkan::Buffer *list) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
-    const DoublePair4 reference(runs_[run].reference_m, 0.0);
-    const DoublePair phase_turns(runs_[run].phase_turns);
     const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
@@ -127,16 +173,17 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           words(buffers.surface.address()),
           words(buffers.backscatter.address()),
           words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
-          words(diodes_.address() + runs_[run].first * sizeof(shader::GroupDiode)),
+          words(light_runs_.address() + run * sizeof(shader::LightRun)),
+          words(diodes_.address() + runs_[run].first * diode_bytes_),
           words(tones_.address() + d * sizeof(shader::Tone)),
+          words(diagrams_.address()),
+          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t)),
+          words(buffers.terms.address()),
+          address_of(list),
           blocks_per_run_,
           plane,
-          reference.hi,
-          reference.lo,
-          {phase_turns.hi, phase_turns.lo},
-          words(diagrams_.address()),
-          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t))};
-      (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
+          strip.padded_pixels};
+      dispatch_listed(run == 0 ? first_ : later_, commands, constants, plane, list, of_samples);
     }
   }
 }

@@ -2,7 +2,9 @@
 // The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
+#include "engine/accuracy.h"
 #include "engine/passes/lit_windows.h"
+#include "engine/passes/pixel_lists.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
@@ -17,36 +19,59 @@ struct SumModel {
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
 
-  bool asks_for_surfaces() const { return backscatter != shader::backscatter_flat; }
+  // Of normals and heights a sample: none, one, or, to double precision, two.
+  std::uint32_t surface_vectors(Precision precision) const {
+    return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
+  }
 };
 
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 
+// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
+Precision sum_precision(const Signal &signal, Precision wanted);
+
 class AccumulatePass {
 public:
+  // `shadowed`: not every diode reaches every sample; `listed`: only of lists of pixels; `precision` is the
+  // one of the groups and of the surfaces' vectors.
+  struct Scope {
+    bool shadowed = false, listed = false;
+    Precision precision = Precision::fp32;
+  };
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                 const Signal &signal, const SimulatorOptions &options);
+                 const Signal &signal, const SimulatorOptions &options, const Scope &scope);
 
   std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
   // Interactions (samples times diodes, padding included) of one run over `strip`.
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
   // Adds the runs first ... last - 1 of the window to the strip's sums.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
-              std::uint32_t last) const;
+              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first, std::uint32_t last,
+              const vulkan::Buffer *list = nullptr) const;
 
 private:
   std::vector<DiodeRun> runs_;
+  vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_;
   std::uint32_t bundles_per_run_;
-  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
-  std::uint32_t planes_;     // of the sum, of each frequency
+  vk::DeviceSize diode_bytes_; // of a diode's record
+  std::uint32_t dispatches_;   // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;       // of the sum, of each frequency
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
   vulkan::Buffer diagrams_;
   vulkan::ComputePipeline first_; // of a frame's runs
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
+
+// What the runs' diodes share, as the shaders read it.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups);
+
+// Of the moments' forms and what they share with other sums: specialization constants, and the tones that
+// they read.
+vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Scope &scope, bool first);
+vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal);
 
 } // namespace pmdsim

@@ -20,4 +20,15 @@ shader::ChipPlace chip_place(const Sensor &sensor) {
           half_row.lo, half_step_x.hi, half_step_x.lo, half_step_y.hi, half_step_y.lo};
 }
 
+shader::vec4 half_sample_slope(const Sensor &sensor) {
+  const glm::dvec2 slope = sensor.pixel_pitch_m / (2.0 * sensor.samples * sensor.image_distance_m());
+  const DoublePair x(slope.x), y(slope.y);
+  return {x.hi, x.lo, y.hi, y.lo};
+}
+
+vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
+  const shader::ChipPlace place = chip_place(sensor);
+  return vulkan::upload(device, std::as_bytes(std::span(&place, 1)));
+}
+
 } // namespace pmdsim

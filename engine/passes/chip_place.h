@@ -2,6 +2,7 @@
 // The chip as the points passes read it.
 
 #include "engine/sensor.h"
+#include "engine/vulkan/buffer.h"
 #include "shaders/interface.h"
 
 namespace pmdsim {
@@ -11,5 +12,10 @@ namespace pmdsim {
 bool is_plain(const Sensor &sensor);
 
 shader::ChipPlace chip_place(const Sensor &sensor);
+
+// Of a nominal chip, as PointsConstants carries it: half a sample's width over the image distance.
+shader::vec4 half_sample_slope(const Sensor &sensor);
+
+vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor);
 
 } // namespace pmdsim

@@ -2,10 +2,10 @@
 
 #include "engine/error.h"
 #include "engine/passes/diagram_tables.h"
+#include "engine/passes/excess.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 
@@ -14,10 +14,10 @@ namespace {
 
 constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
-constexpr std::uint32_t largest_run_blocks = 16;
+// A straight line in fp64 takes several times as long to compile as one in float.
+constexpr std::uint32_t largest_run_blocks = 16, largest_precise_run_blocks = 4;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
 constexpr std::uint64_t run_overhead_blocks = 4;
-constexpr double remainder = 0x1p-26;
 // Of the strongest diode's intensity: what is weaker would leave float's range on its way over distances.
 constexpr double weakest_intensity = 1e-25;
 
@@ -42,58 +42,17 @@ struct Group {
   std::span<NumberedDiode> diodes;
   double phase_turns; // the illuminator's
   glm::dvec3 reference_m;
-  double radius_m = 0.0; // of the sphere around the reference point that holds all its diodes
-  double range_m =
-      std::numeric_limits<double>::infinity(); // at least, from the reference point to what is visible
-  double excess_m = 0.0; // at most, |r_nm - rho| over its diodes and all that is visible
+  Excess reach; // of its diodes
 };
-
-// How far diodes reach from a reference point, along each axis and across it.
-struct Reach {
-  glm::dvec3 along_m{0.0};
-  glm::dvec3 across_m{0.0};
-
-  void add(const glm::dvec3 &p) {
-    along_m = glm::max(along_m, glm::abs(p));
-    across_m =
-        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
-  }
-};
-
-// A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
-// Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
-// exact.)
-double largest_product(const glm::dvec3 &p, const Reach &reach) {
-  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
-  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
-  return std::min({bounds.x, bounds.y, bounds.z});
-}
-
-// |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
-// across the view; it is never more than |I|.
-double excess_at_most_m(const Group &group, const Reach &reach, const VisibleBox &box, double rho_m) {
-  const glm::dvec3 farthest_m =
-      glm::max(glm::abs(box.low_m - group.reference_m), glm::abs(box.high_m - group.reference_m));
-  const double q_m2 = group.radius_m * group.radius_m + 2.0 * largest_product(farthest_m, reach);
-  const double sum_m = rho_m + std::max(0.0, rho_m - group.radius_m);
-  return sum_m > 0.0 ? std::min(group.radius_m, q_m2 / sum_m) : group.radius_m;
-}
 
 Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
   const Box box = box_of(diodes);
   // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
-  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m)};
-  Reach reach;
-  for (const Diode &diode : diodes) {
-    group.radius_m = std::max(group.radius_m, glm::distance(group.reference_m, diode.position_m));
-    reach.add(diode.position_m - group.reference_m);
-  }
-  for (const VisibleBox &seen : visible) {
-    const double rho_m =
-        glm::distance(group.reference_m, glm::clamp(group.reference_m, seen.low_m, seen.high_m));
-    group.range_m = std::min(group.range_m, rho_m);
-    group.excess_m = std::max(group.excess_m, excess_at_most_m(group, reach, seen, rho_m));
-  }
+  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
+  std::vector<glm::dvec3> places_m;
+  for (const Diode &diode : diodes)
+    places_m.push_back(diode.position_m);
+  group.reach = excess_of(group.reference_m, places_m, visible);
   return group;
 }
 
@@ -142,6 +101,29 @@ void check_intensities(std::span<const NumberedDiode> diodes, double largest_w_s
       }))
     throw Error(ExitCode::input, "the strongest diode is more than 1e25 times as strong as the weakest: "
                                  "expected intensities closer to each other, or 0");
+}
+
+float rest(double value, float rounded) { return static_cast<float>(value - static_cast<double>(rounded)); }
+
+glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
+  return glm::vec4(value - glm::dvec4(rounded));
+}
+
+// What rounding to `rounded` took; nothing of a dark one.
+shader::PreciseDiode precise_diode(const shader::GroupDiode &rounded, const Diode &diode,
+                                   const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
+  shader::PreciseDiode record{};
+  record.rounded = rounded;
+  if (rounded.intensity == 0.0f)
+    return record;
+  const glm::dvec3 position_m = diode.position_m - reference_m;
+  record.position_rest =
+      rest(glm::dvec4(-2.0 * position_m, glm::dot(position_m, position_m)), rounded.position);
+  record.axis_rest = rest(glm::dvec4(diode.axis, glm::dot(diode.axis, position_m)), rounded.axis);
+  record.intensity_rest = rest(diode.intensity_w_sr / largest_intensity_w_sr, rounded.intensity);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order_rest = rest(diode.pattern.order, rounded.order);
+  return record;
 }
 
 std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
@@ -196,8 +178,8 @@ public:
 
 private:
   bool is_small_enough(const Group &group) const {
-    return wavenumber_rad_m_ * group.excess_m <= largest_phase_rad &&
-           group.radius_m <= largest_radius_over_range * group.range_m;
+    return wavenumber_rad_m_ * group.reach.excess_m <= largest_phase_rad &&
+           group.reach.radius_m <= largest_radius_over_range * group.reach.range_m;
   }
 
   const std::vector<VisibleBox> &visible_;
@@ -210,7 +192,7 @@ std::uint32_t blocks_for(std::size_t diodes) {
 }
 
 // All runs have the same length, so short groups are padded and long ones cut: the length that costs least.
-std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
+std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_t most) {
   const auto cost = [&](std::uint32_t run_blocks) {
     std::uint64_t runs = 0;
     for (const Group &group : groups)
@@ -218,13 +200,13 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups) {
     return runs * (run_blocks + run_overhead_blocks);
   };
   std::uint32_t cheapest = 1;
-  for (std::uint32_t run_blocks = 2; run_blocks <= largest_run_blocks; ++run_blocks)
+  for (std::uint32_t run_blocks = 2; run_blocks <= most; ++run_blocks)
     if (cost(run_blocks) < cost(cheapest))
       cheapest = run_blocks;
   return cheapest;
 }
 
-void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) {
+void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back(
@@ -235,6 +217,9 @@ void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) 
       result.diodes.push_back(
           dark ? dark_diode()
                : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams));
+      if (precision == Precision::fp64)
+        result.precise_diodes.push_back(
+            precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
       result.places.push_back({diode.position_m, dark ? no_id : diode.number});
     }
   }
@@ -242,7 +227,9 @@ void add_runs(const Group &group, DiodeGroups &result, DiagramTables &diagrams) 
 
 } // namespace
 
-std::uint32_t moments_needed(double phase_rad) {
+double largest_remainder(Precision precision) { return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26; }
+
+std::uint32_t moments_needed(double phase_rad, double remainder) {
   std::uint32_t k = 1;
   double term = phase_rad; // (kappa e)^k / k!
   while (term > remainder)
@@ -251,7 +238,8 @@ std::uint32_t moments_needed(double phase_rad) {
 }
 
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                         Precision precision) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
@@ -267,14 +255,19 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
   }
   check_intensities(ordered, result.largest_intensity_w_sr);
 
-  double excess_m = 0.0;
-  for (const Group &group : grouping.groups())
-    excess_m = std::max(excess_m, group.excess_m);
-  result.moments = moments_needed(wavenumber_rad_m * excess_m);
-  result.blocks_per_run = cheapest_run_blocks(grouping.groups());
+  for (const Group &group : grouping.groups()) {
+    result.excess_m = std::max(result.excess_m, group.reach.excess_m);
+    result.radius_m = std::max(result.radius_m, group.reach.radius_m);
+    if (group.reach.radius_m > 0.0)
+      result.radius_over_range =
+          std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
+  }
+  result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
+  result.blocks_per_run = cheapest_run_blocks(
+      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : largest_run_blocks);
   DiagramTables diagrams;
   for (const Group &group : grouping.groups())
-    add_runs(group, result, diagrams);
+    add_runs(group, precision, result, diagrams);
   result.diagrams = diagrams.values();
   return result;
 }

@@ -2,6 +2,7 @@
 // The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
 // fast and nothing cancels, and laid out as the accumulate pass reads them.
 
+#include "engine/accuracy.h"
 #include "engine/passes/camera_scene.h"
 #include "engine/passes/projection.h"
 #include "shaders/interface.h"
@@ -31,17 +32,25 @@ struct DiodeGroups {
   bool phased = false;               // an illuminator has a modulation phase
   std::vector<DiodeRun> runs;
   std::vector<shader::GroupDiode> diodes;
-  std::vector<DiodePlace> places;  // beside `diodes`; those that stand together lie together
-  std::vector<glm::vec2> diagrams; // the values of all, each with the next theta's
-  std::uint32_t diode_count = 0;   // without the dark ones
+  std::vector<shader::PreciseDiode> precise_diodes; // the same; only for fp64
+  std::vector<DiodePlace> places;                   // beside `diodes`; those that stand together lie together
+  std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
+  std::uint32_t diode_count = 0;                    // without the dark ones
+  double excess_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
+  double radius_m = 0.0; // of the largest group
+  double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
 };
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
 // that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m);
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                         Precision precision = Precision::fp32);
 
-// The smallest K whose remainder (kappa * e)^K / K! is below float32's rounding (DESIGN section 4).
-std::uint32_t moments_needed(double phase_rad);
+// (kappa * e)^K / K! that the moments left out may come to, of the sum of the weights (DESIGN section 4).
+double largest_remainder(Precision precision);
+
+// The smallest K whose remainder (kappa * e)^K / K! is at most `remainder`.
+std::uint32_t moments_needed(double phase_rad, double remainder);
 
 } // namespace pmdsim

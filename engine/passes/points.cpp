@@ -1,40 +1,25 @@
 #include "engine/passes/points.h"
 
 #include "engine/passes/chip_place.h"
-#include "engine/passes/double_pair.h"
 #include "engine/passes/raster_blocks.h"
 #include "engine/passes/sample_precision.h"
 #include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
 
 namespace pmdsim {
-namespace {
 
-// Half a sample's width on the chip over the image distance.
-shader::vec4 slope_of(const Sensor &sensor) {
-  const glm::dvec2 slope = sensor.pixel_pitch_m / (2.0 * sensor.samples * sensor.image_distance_m());
-  const DoublePair x(slope.x), y(slope.y);
-  return {x.hi, x.lo, y.hi, y.lo};
-}
-
-vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
-  const shader::ChipPlace place = chip_place(sensor);
-  return vulkan::upload(device, std::as_bytes(std::span(&place, 1)));
-}
-
-} // namespace
-
-PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
-                       SamplePrecision precision)
-    : slope_(slope_of(sensor)), chip_(upload_chip(device, sensor)),
+PointsPass::PointsPass(const vulkan::Device &device, const Sensor &sensor, std::uint32_t surface_vectors,
+                       bool painted, SamplePrecision precision, bool listed)
+    : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
       pipeline_(device,
                 choose(device, precision, shader::points_fp64_spirv, shader::points_double_float_spirv),
                 sizeof(shader::PointsConstants),
-                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
-                 is_plain(sensor) ? 0u : 1u, is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u}) {}
+                {surface_vectors, sensor.vignetting == Vignetting::cos4 ? 1u : 0u, is_plain(sensor) ? 0u : 1u,
+                 is_tiled(sensor) ? 1u : 0u, painted ? 1u : 0u, listed ? 1u : 0u}) {}
 
 void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                        const StripBuffers &buffers, const SceneBuffers &scene) const {
+                        const StripBuffers &buffers, const SceneBuffers &scene,
+                        const vulkan::Buffer *list) const {
   const shader::PointsConstants constants{strip,
                                           slope_,
                                           words(chip_.address()),
@@ -45,8 +30,9 @@ void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::S
                                           words(buffers.surface.address()),
                                           words(buffers.backscatter.address()),
                                           words(scene.paint.shapes.address()),
-                                          words(scene.paint.surfaces.address())};
-  pipeline_.dispatch(commands, constants, sample_count(strip), shader::workgroup_size);
+                                          words(scene.paint.surfaces.address()),
+                                          address_of(list)};
+  dispatch_listed(pipeline_, commands, constants, sample_count(strip), list, of_samples);
 }
 
 } // namespace pmdsim

@@ -2,6 +2,7 @@
 // The points pass: for every sample the point of the scene that it sees, from its triangle's plane and its
 // exact ray. For sensors without distortion.
 
+#include "engine/passes/pixel_lists.h"
 #include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/sensor.h"
@@ -12,13 +13,15 @@ namespace pmdsim {
 
 class PointsPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights.
-  PointsPass(const vulkan::Device &device, const Sensor &sensor, bool surfaces, bool painted,
-             SamplePrecision precision);
+  // `surface_vectors`: of normals and heights, that the sum asks for a sample (SumModel); `listed`: only of
+  // lists of pixels.
+  PointsPass(const vulkan::Device &device, const Sensor &sensor, std::uint32_t surface_vectors, bool painted,
+             SamplePrecision precision, bool listed = false);
 
   // `scene.planes` holds the TrianglePlane of each of the scene's triangles.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const SceneBuffers &scene) const;
+              const StripBuffers &buffers, const SceneBuffers &scene,
+              const vulkan::Buffer *list = nullptr) const;
 
 private:
   shader::vec4 slope_;

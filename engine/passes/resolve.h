@@ -1,30 +1,45 @@
 #pragma once
 // The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
+#include "engine/accuracy.h"
 #include "engine/passes/diode_groups.h"
+#include "engine/passes/pixel_lists.h"
+#include "engine/passes/promise.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
 #include "engine/vulkan/compute_pipeline.h"
 
+#include <optional>
+
 namespace pmdsim {
 
 class ResolvePass {
 public:
-  // `tiled`: whether the tags lie in tiles (shaders/interface.h).
-  ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups, bool tiled,
-              SamplePrecision precision);
+  // Which pixels, and how they were summed.
+  struct Scope {
+    bool tiled = false;  // the tags lie in tiles (shaders/interface.h)
+    bool listed = false; // only those of lists
+    Precision precision = Precision::fp32;
+    std::optional<Promise> promise; // where Signal::promised
+  };
+  ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
+              const SimulatorOptions &options, const Scope &scope);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const vulkan::Buffer &planes) const;
+              const StripBuffers &buffers, const vulkan::Buffer &planes,
+              const vulkan::Buffer *list = nullptr) const;
 
 private:
   Signal signal_;
-  float amplitude_scale_;
   std::uint32_t diodes_;
+  vulkan::Buffer frequencies_;
   vulkan::Buffer harmonics_;
   vulkan::ComputePipeline first_; // of the frequencies: stores the ground truth, too
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
+
+// The specialization constants of the resolve pass, for what resolves likewise.
+vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first);
 
 } // namespace pmdsim

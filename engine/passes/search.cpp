@@ -86,14 +86,14 @@ vulkan::Buffer upload_corners(const vulkan::Device &device, const CameraScene &c
 } // namespace
 
 SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
-                       const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
-                       const PaintBuffers &paint, SamplePrecision precision)
+                       const Scene &scene, const std::vector<RasterBlock> &blocks,
+                       std::uint32_t surface_vectors, const PaintBuffers &paint, SamplePrecision precision)
     : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
       corners_(upload_corners(device, camera, scene)),
       pipeline_(device,
                 choose(device, precision, shader::search_fp64_spirv, shader::search_double_float_spirv),
                 sizeof(shader::SearchConstants),
-                {surfaces ? 1u : 0u, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
+                {surface_vectors, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
                  std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
                                                                     : shader::distortion_brown,
                  paint.masked ? 1u : 0u, paint.painted ? 1u : 0u}) {}

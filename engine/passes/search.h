@@ -14,9 +14,10 @@ namespace pmdsim {
 
 class SearchPass {
 public:
-  // `surfaces`: whether the sum asks for normals and heights; `paint` tells whether shapes have any.
+  // `surface_vectors`: of normals and heights, that the sum asks for a sample (SumModel); `paint` tells
+  // whether shapes have any.
   SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
-             const Scene &scene, const std::vector<RasterBlock> &blocks, bool surfaces,
+             const Scene &scene, const std::vector<RasterBlock> &blocks, std::uint32_t surface_vectors,
              const PaintBuffers &paint, SamplePrecision precision);
 
   // `scene.planes` holds the TrianglePlane of each of the scene's triangles, with ranges along the ray.

@@ -21,6 +21,7 @@ struct Signal {
   bool by_moments;             // one dispatch sums all tones of all frequencies by moments; else one each
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
+  bool promised = false;             // an error was promised: what the terms come to is kept
   bool lit = false;                  // how much of the light reaches a pixel is a channel, the last one
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }

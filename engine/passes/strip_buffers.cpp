@@ -8,7 +8,7 @@ namespace pmdsim {
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SimulatorOptions &options) {
+                                std::uint32_t surface_vectors, const SimulatorOptions &options) {
   using Usage = vk::BufferUsageFlagBits;
   vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
@@ -26,18 +26,22 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * sizeof(shader::uvec2);
   const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
+  const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
   return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
           storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * 3 * sizeof(float)),
           storage(samples * 3 * sizeof(float)),
-          storage(samples * sizeof(shader::vec4)),
+          storage(samples * surface_vectors * sizeof(shader::vec4)),
           storage(samples * sizeof(float)),
           storage(reached_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(lit_bytes),
+          storage(signal.promised ? samples * sizeof(float) : 0),
+          storage(broken_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * signal.sum_planes() * sizeof(shader::vec4)),
           storage(channel_bytes, Usage::eTransferSrc),
           read(channel_bytes),
+          read(broken_bytes),
           read(options.keep_sample_tags || options.keep_reached ? tag_bytes : 0),
           read(options.keep_reached ? reached_bytes : 0)};
 }

@@ -13,20 +13,23 @@ struct StripBuffers {
   vulkan::Buffer
       position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer position_lo;
-  vulkan::Buffer surface;     // vec4 a sample
+  vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;      // diodes that reach it, a word a sample; likewise
+  vulkan::Buffer terms;    // sum of |terms|, a float a sample; empty unless an error was promised
+  vulkan::Buffer broken;   // shader::BrokenPromise; likewise
   vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 a sample
   vulkan::Buffer channels; // channel by channel, padded_pixels words each
   vulkan::Buffer channels_read;
+  vulkan::Buffer broken_read;
   vulkan::Buffer tags_read;    // empty unless the samples' triangles are asked for
   vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
 };
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SimulatorOptions &options);
+                                std::uint32_t surface_vectors, const SimulatorOptions &options);
 
 // The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
 // MiB.

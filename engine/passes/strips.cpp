@@ -5,7 +5,7 @@
 namespace pmdsim {
 
 std::uint32_t padded(std::uint32_t pixels) {
-  return (pixels + shader::workgroup_size - 1) / shader::workgroup_size * shader::workgroup_size;
+  return ((pixels + shader::workgroup_size - 1) / shader::workgroup_size + 1) * shader::workgroup_size;
 }
 
 std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<RasterBlock> &blocks,

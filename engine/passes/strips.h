@@ -21,7 +21,8 @@ std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<Ra
 // Columns and rows of fragments that are rasterised for a strip of `block`, all tiles together.
 glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block);
 
-// Invocations for `pixels` pixels: whole workgroups.
+// Invocations for `pixels` pixels: whole workgroups, of which the last is spare: what fills up the last
+// workgroup of a list of pixels works on its places.
 std::uint32_t padded(std::uint32_t pixels);
 
 } // namespace pmdsim

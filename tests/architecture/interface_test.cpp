@@ -8,6 +8,9 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_precise_looped_double_float.h"
+#include "spirv/accumulate_precise_looped_fp64.h"
+#include "spirv/accumulate_precise_straight_fp64.h"
 #include "spirv/accumulate_straight_double_float.h"
 #include "spirv/accumulate_straight_fp64.h"
 #include "spirv/lit_clear_double_float.h"
@@ -100,6 +103,11 @@ const std::map<std::string, HostLayout> scene_and_light{
        MEMBER(GroupDiode, order), MEMBER(GroupDiode, diagram), MEMBER(GroupDiode, theta_steps),
        MEMBER(GroupDiode, first_theta), MEMBER(GroupDiode, theta_steps_per_rad),
        MEMBER(GroupDiode, row_length), MEMBER(GroupDiode, padding), MEMBER(GroupDiode, across)}}},
+    {"PreciseDiode",
+     {sizeof(PreciseDiode),
+      {MEMBER(PreciseDiode, rounded), MEMBER(PreciseDiode, position_rest), MEMBER(PreciseDiode, axis_rest),
+       MEMBER(PreciseDiode, intensity_rest), MEMBER(PreciseDiode, order_rest),
+       MEMBER(PreciseDiode, padding_1), MEMBER(PreciseDiode, padding_2)}}},
     {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, harmonic)}}},
 };
 
@@ -266,6 +274,9 @@ const std::vector<Shader> shaders{
     {"accumulate, straight, float pairs", accumulate_straight_double_float_spirv},
     {"accumulate, looped, fp64", accumulate_looped_fp64_spirv},
     {"accumulate, looped, float pairs", accumulate_looped_double_float_spirv},
+    {"accumulate precise, straight, fp64", accumulate_precise_straight_fp64_spirv},
+    {"accumulate precise, looped, fp64", accumulate_precise_looped_fp64_spirv},
+    {"accumulate precise, looped, float pairs", accumulate_precise_looped_double_float_spirv},
     {"accumulate direct, straight, fp64", accumulate_direct_straight_fp64_spirv},
     {"accumulate direct, straight, float pairs", accumulate_direct_straight_double_float_spirv},
     {"accumulate direct, looped, fp64", accumulate_direct_looped_fp64_spirv},

@@ -60,12 +60,14 @@ std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
 } // namespace
 
 TEST_CASE("moments are as many as the remainder asks for") {
-  CHECK(moments_needed(0.0) == 1);
-  for (const double phase_rad : {1e-9, 1e-3, 0.07, 0.5}) {
-    const std::uint32_t k = moments_needed(phase_rad);
-    CHECK(std::pow(phase_rad, k) / std::tgamma(k + 1.0) <= 0x1p-26);
-    if (k > 1)
-      CHECK(std::pow(phase_rad, k - 1.0) / std::tgamma(double(k)) > 0x1p-26);
+  for (const double remainder : {0x1p-26, 0x1p-45}) {
+    CHECK(moments_needed(0.0, remainder) == 1);
+    for (const double phase_rad : {1e-9, 1e-3, 0.07, 0.5}) {
+      const std::uint32_t k = moments_needed(phase_rad, remainder);
+      CHECK(std::pow(phase_rad, k) / std::tgamma(k + 1.0) <= remainder);
+      if (k > 1)
+        CHECK(std::pow(phase_rad, k - 1.0) / std::tgamma(double(k)) > remainder);
+    }
   }
 }
 
@@ -137,7 +139,7 @@ TEST_CASE("groups shrink with the wavelength and with what is near") {
   const auto near = group_diodes(one(diodes), {{{-0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}}}, wavenumber_20mhz_rad_m);
   CHECK(fast.runs.size() > far.runs.size());
   CHECK(near.runs.size() > far.runs.size());
-  CHECK(fast.moments <= moments_needed(0.5));
+  CHECK(fast.moments <= moments_needed(0.5, largest_remainder(Precision::fp32)));
 }
 
 TEST_CASE("many lonely diodes beside a cluster are not padded to the cluster's size") {

@@ -1,0 +1,60 @@
+#include "engine/passes/excess.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pmdsim {
+namespace {
+
+// How far diodes reach from a reference point, along each axis and across it.
+struct Reach {
+  glm::dvec3 along_m{0.0};
+  glm::dvec3 across_m{0.0};
+
+  void add(const glm::dvec3 &p) {
+    along_m = glm::max(along_m, glm::abs(p));
+    across_m =
+        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
+  }
+};
+
+// A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
+// Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
+// exact.)
+double largest_product(const glm::dvec3 &p, const Reach &reach) {
+  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
+  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
+  return std::min({bounds.x, bounds.y, bounds.z});
+}
+
+// |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
+// across the view; it is never more than |I|.
+double excess_at_most_m(const glm::dvec3 &reference_m, double radius_m, const Reach &reach,
+                        const VisibleBox &box, double rho_m) {
+  const glm::dvec3 farthest_m =
+      glm::max(glm::abs(box.low_m - reference_m), glm::abs(box.high_m - reference_m));
+  const double q_m2 = radius_m * radius_m + 2.0 * largest_product(farthest_m, reach);
+  const double sum_m = rho_m + std::max(0.0, rho_m - radius_m);
+  return sum_m > 0.0 ? std::min(radius_m, q_m2 / sum_m) : radius_m;
+}
+
+} // namespace
+
+Excess excess_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
+                 const std::vector<VisibleBox> &visible) {
+  Excess result;
+  Reach reach;
+  for (const glm::dvec3 &diode_m : diodes_m) {
+    result.radius_m = std::max(result.radius_m, glm::distance(reference_m, diode_m));
+    reach.add(diode_m - reference_m);
+  }
+  for (const VisibleBox &seen : visible) {
+    const double rho_m = glm::distance(reference_m, glm::clamp(reference_m, seen.low_m, seen.high_m));
+    result.range_m = std::min(result.range_m, rho_m);
+    result.excess_m =
+        std::max(result.excess_m, excess_at_most_m(reference_m, result.radius_m, reach, seen, rho_m));
+  }
+  return result;
+}
+
+} // namespace pmdsim

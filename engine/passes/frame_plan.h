@@ -1,0 +1,45 @@
+#pragma once
+// How a frame is summed within the error asked for: which diodes stand in for all, in which precision, and
+// what can be promised of it.
+
+#include "engine/accuracy.h"
+#include "engine/passes/accumulate.h"
+#include "engine/passes/diode_groups.h"
+#include "engine/passes/promise.h"
+#include "engine/passes/short_way.h"
+
+#include <optional>
+
+namespace pmdsim {
+
+// A frame's light and what it falls on.
+struct LitView {
+  const CameraScene &camera;
+  const std::vector<CameraIlluminator> &lights;
+  const std::vector<VisibleBox> &visible;
+  const Sensor &sensor;
+  const Signal &signal;
+  SumModel model; // of all diodes
+  Backscatter backscatter;
+};
+
+struct FramePlan {
+  Precision precision = Precision::fp32;
+  DiodeGroups all;       // every diode
+  DiodeGroups stand_ins; // of those, with other intensities, that do where all light and face a point
+  LightExtent extent;    // of the light, as the stand-ins' bound has it
+  // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
+  std::optional<Promise> promise, promise_of_all;
+  // Before the frame; nothing where theory knows no bound.
+  std::optional<double> claimed_m, claimed_amplitude;
+
+  bool is_reduced() const { return stand_ins.diodes.size() < all.diodes.size(); }
+};
+
+// Plans for the same frame, each more exact and dearer than the one before.
+inline constexpr std::uint32_t frame_plans = 3;
+
+// The `attempt`-th of them. Throws Error (accuracy) where none can promise what is asked for.
+FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
+
+} // namespace pmdsim

@@ -1,0 +1,12 @@
+#pragma once
+// What is promised of every pixel: an error within the limit. It is off by fixed + per_condition * condition
+// at most, the condition being sum of |terms| / |sum| over its samples and diodes.
+
+namespace pmdsim {
+
+struct Promise {
+  double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
+  double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
+};
+
+} // namespace pmdsim

@@ -1,0 +1,51 @@
+#pragma once
+// What rounding may do to a frame, from theory: known before the frame, from the light and from boxes around
+// what is visible.
+
+#include "engine/accuracy.h"
+#include "engine/passes/accumulate.h"
+#include "engine/passes/camera_scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// Of any pixel, against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms| over
+// |sum|, >= 1; for harmonics the terms are those of all harmonics, each times its amplitude.
+struct RoundingBound {
+  double fixed_m, per_condition_m;
+  double amplitude_fixed, amplitude_per_condition;
+
+  double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
+  double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
+};
+
+inline constexpr double grazing_cosine = 0.01;
+
+// The pixels that the bound is for, and how they are summed.
+struct RoundingScope {
+  Precision precision = Precision::fp32; // the groups', too
+  std::uint32_t samples = 1;             // S
+  // How much the ranges of a pixel's samples may differ; nothing: as much as the boxes allow. Not asked for
+  // with one sample.
+  std::optional<double> sample_spread_m = std::nullopt;
+  // Every diode that lights the pixel does so at these cosines at least: to the surface's normal, which
+  // matters to Lambert's law, and to its own axis.
+  double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
+  // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
+  double backscatter_error = 0x1p-24;
+};
+
+// Nothing where diodes have measured diagrams, whose error depends on their slope.
+std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+                                            const SumModel &model, const Signal &signal,
+                                            const RoundingScope &scope);
+
+// For RoundingScope: bounds from below over all that is visible, at least grazing_cosine; where that is more
+// than is true, pixels in grazing light have no bound.
+double least_emission_cosine(const DiodeGroups &groups, const std::vector<VisibleBox> &visible);
+double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
+                              const std::vector<VisibleBox> &visible);
+
+} // namespace pmdsim

@@ -1,0 +1,47 @@
+#pragma once
+// The short way: pixels of one surface that every diode lights, from their tags to their channels in one
+// pass. The others are listed (pixel_lists.h).
+
+#include "engine/passes/accumulate.h"
+#include "engine/passes/pixel_lists.h"
+#include "engine/passes/projection.h"
+#include "engine/passes/promise.h"
+#include "engine/passes/scene_buffers.h"
+#include "engine/simulator_options.h"
+
+namespace pmdsim {
+
+// What the short way has to know of the light.
+struct LightExtent {
+  VisibleBox box;             // holds all diodes, camera frame
+  double pattern_slope = 0.0; // pattern_slope.h
+};
+
+struct ShortWayOptions {
+  bool painted;      // shapes have paint
+  bool may_thin_out; // a pixel of several samples may be evaluated at one place, within the promise
+  bool sums;         // false: the pass only lists pixels
+};
+
+class ShortWay {
+public:
+  // Whether the pass can sum such groups itself.
+  static bool can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor);
+
+  // `groups` stand in for all diodes. `buffers` and `lists` are those that it will be used with.
+  ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
+           const LightExtent &extent, const SumModel &model, const Signal &signal, const Promise &promise,
+           const SimulatorOptions &options, const ShortWayOptions &ways, const StripBuffers &buffers,
+           const PixelLists &lists);
+
+  // Needs the strip's tags and, where Signal::lit, how many diodes reach each sample.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, const SceneBuffers &scene) const;
+
+private:
+  shader::vec4 slope_;
+  vulkan::Buffer chip_, diodes_, diagrams_, tones_, frequencies_, light_, work_;
+  vulkan::ComputePipeline pipeline_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,180 @@
+#version 460
+// The short way: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
+// face, so that few diodes may stand in for all and one place for all samples. Other pixels are listed for the passes
+// that go sample by sample.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#define RESOLVE_BASE short_way_resolve
+#define POINTS_BASE short_way_points
+#include "chip.glsl"
+#include "pixel_list.glsl"
+#include "points.glsl"
+#include "resolve.glsl"
+
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Lights {
+  ShortWayLight at;
+  LightRun runs[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Works { ShortWayWork at; };
+layout(push_constant, std430) uniform Constants { ShortWayConstants constants; };
+#define DIAGRAM_VALUES Lights(constants.light).at.diagrams
+#include "moments.glsl"
+layout(constant_id = short_way_points + constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_runs) const uint runs = 1;
+layout(constant_id = constant_samples) const uint side = 1; // S
+layout(constant_id = constant_one_place) const uint one_place = 0;
+
+// What the samples of a pixel have in common.
+struct Seen {
+  uvec2 tag;  // of the first
+  bool alike; // all have it
+  bool lit;   // every diode lights whatever they see
+};
+
+// Whether all of the box around the light is in front of a surface.
+bool faces(TrianglePlane plane, ShortWayLight light) {
+  float height = dot(plane.plane_hi.xyz, light.middle_m.xyz) - plane.plane_hi.w;
+  return height > dot(abs(plane.plane_hi.xyz), light.extent_m.xyz);
+}
+
+Seen see(uint pixel, ShortWayLight light) {
+  Strip strip = constants.strip;
+  uvec2 in_strip = uvec2(pixel % strip.columns, pixel / strip.columns), extent = uvec2(strip.columns, strip.rows);
+  uint diodes = Works(constants.work).at.diodes;
+  Seen seen = Seen(uvec2(0), true, true);
+  for (uint s = 0; s < side * side; ++s) {
+    uvec2 tag = Tags(constants.tags).at[tag_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0)];
+    if (s == 0)
+      seen.tag = tag;
+    seen.alike = seen.alike && tag == seen.tag;
+    if (backscatter_model != backscatter_flat)
+      seen.lit = seen.lit && (tag.x == 0u || faces(Planes(constants.planes).at[tag.x != 0u ? tag.y : 0u], light));
+    if (lit_is_kept != 0)
+      seen.lit = seen.lit && (tag.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
+  }
+  return seen;
+}
+
+// What one place for all samples of a plane pixel may be off by, times the condition (ARCHITECTURE.md: "One place for many
+// samples"). `ray` leads to the pixel's centre on the chip, `range` from there to the point.
+Errors one_place_errors(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
+  float variance = float(side * side - 1u) / 3.0; // of the samples' places, in half steps
+  float along = dot(plane.plane_hi.xyz, ray);
+  float depth = length(point) / length(ray);
+  vec2 tilt = vec2(dot(plane.plane_hi.xyz, step_x), dot(plane.plane_hi.xyz, step_y)) / along;
+  vec3 to_x = depth * (step_x - tilt.x * ray), to_y = depth * (step_y - tilt.y * ray); // of the point
+  float tilt2 = variance * dot(tilt, tilt), way2 = variance * (dot(to_x, to_x) + dot(to_y, to_y));
+  float range = length(point);
+  float nearest = max(0.0, distance(point, light.middle_m.xyz) - light.extent_m.w);
+  // ln w falls by slope / r a metre at most: r^-2, the cosine's r^-1 and the diagram.
+  float slope = (3.0 + light.pattern_slope) / nearest;
+  float bent = 2.0 * sqrt(tilt2 * way2) + 0.5 * way2 * (1.0 / range + 1.0 / nearest); // of the path
+  float amplitude = sqrt(tilt2 * way2) * slope + way2 * (slope * (slope + 1.0 / nearest) + 2.0 * light.wavenumber * light.wavenumber);
+  // Beyond the second order: all is analytic within `nearest`, and the series of what is left begins with the fourth.
+  float farthest2 = 3.0 * max(way2 / (nearest * nearest), max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
+  float beyond = farthest2 < 0.03 ? 1.0 + 10.0 * farthest2 : 1.0 / 0.0;
+  float path = bent + 2.0 * way2 * slope + amplitude * light.spread_m;
+  return Errors(beyond * 0.5 * path, beyond * amplitude);
+}
+
+// Adds up the terms of all diodes at a point.
+void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out float terms) {
+  [[unroll]] for (uint t = 0; t < tones; ++t)
+    z[t] = vec4(0.0);
+  terms = 0.0;
+  [[unroll]] for (uint r = 0; r < runs; ++r) {
+    LightRun run = Lights(constants.light).runs[r];
+    Point point;
+    ReferencePath path = see_point(position, surface, run, point);
+    float total[moments];
+    [[unroll]] for (uint k = 0; k < moments; ++k)
+      total[k] = 0.0;
+    Diodes diodes = Diodes(light.diodes);
+#ifdef STRAIGHT_LINE
+    [[unroll]]
+#endif
+    for (uint block = 0; block < unrolled_blocks; ++block)
+      add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
+    terms += backscatter * total[0];
+    [[unroll]] for (uint t = 0; t < tones; ++t)
+      z[t] = compensated_add(z[t], backscatter * tone_return(total, path, run, Tones(light.tones).at[t]));
+  }
+}
+
+// Stores a pixel's channels and returns whether what was promised of them holds; `worst` is what they may be off by.
+bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Real3 position, vec4 z[tones], float terms,
+                 Errors added, out Errors worst) {
+  worst = Errors(0.0, 0.0);
+  bool kept = true;
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
+    Frequency frequency = Frequencies(light.frequencies).at[t];
+    PixelSum sum;
+    see_nothing(sum);
+    sum.z[0] = hits ? z[t] : vec4(0.0);
+    sum.reference_m = sum.range = hits ? length3(position) : real(0.0);
+    sum.depth = position.z;
+    sum.hits = hits ? 1u : 0u;
+    sum.lit = hits ? 1u : 0u;
+    float size = store_return(to, frequency, uvec2(0), 1u, pixel, sum);
+    Errors errors = errors_of(frequency, hits ? terms : 0.0, size, added);
+    kept = kept && is_kept(frequency, errors);
+    worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));
+    if (t == 0) {
+      store_ground_truth(to, 1u, pixel, sum);
+      if (lit_is_kept != 0)
+        store_lit(to, Works(constants.work).at.lit_channel, 1u, pixel, sum);
+    }
+  }
+  return kept;
+}
+
+void enlist(uint list, uint pixel) {
+  PixelLists to = PixelLists(Works(constants.work).at.lists[list]);
+  uint at = atomicAdd(to.head.count, 1u);
+  to.pixels[at] = pixel;
+}
+
+// From the pixel's centre to the next sample's place, in a ray (x, y, 1).
+vec3 half_step(uint axis, uvec2 pixel) {
+  if (general_chip == 0)
+    return axis == 0 ? vec3(constants.slope.x, 0.0, 0.0) : vec3(0.0, constants.slope.z, 0.0);
+  ChipPlace chip = Chips(constants.chip).at;
+  float depth = high(place_on_chip(chip, constants.strip, pixel, vec2(0.0)).z);
+  return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
+}
+
+void main() {
+  Strip strip = constants.strip;
+  uint to = gl_GlobalInvocationID.x; // beyond the last pixel is room for what only pads
+  bool pads = to >= strip.columns * strip.rows;
+  uint pixel = pads ? 0u : to;
+  ShortWayLight light = Lights(constants.light).at;
+  Seen seen = see(pixel, light);
+  bool done = false;
+  if (runs > 0) {
+    uvec2 in_frame = uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
+    Real3 ray = general_chip != 0 ? chip_ray(Chips(constants.chip).at, strip, in_frame, vec2(0.0))
+                                  : plain_ray(constants.slope, strip, in_frame, vec2(0.0));
+    bool hits = seen.tag.x != 0u;
+    uint triangle = hits ? seen.tag.y : 0u;
+    TrianglePlane plane = Planes(constants.planes).at[triangle];
+    Real3 position = point_on_plane(ray, plane);
+    float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
+    vec4 z[tones];
+    float terms;
+    sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, z, terms);
+    Errors added = Errors(0.0, 0.0), worst;
+    if (side > 1)
+      added = one_place_errors(plane, high3(ray), half_step(0, in_frame), half_step(1, in_frame), high3(position), light);
+    Channels channels = Channels(constants.channels, strip.padded_pixels);
+    bool kept = store_pixel(channels, light, to, hits, position, z, terms, added, worst);
+    store_ids(channels, seen.tag, plane.object, to);
+    done = seen.alike && seen.lit && (side == 1 || (one_place != 0 && kept) || !hits);
+    if (done && !kept && !pads)
+      say_broken(Works(constants.work).at.broken, worst);
+  }
+  if (!done && !pads)
+    enlist(seen.lit ? list_lit : list_rest, pixel);
+}

@@ -1,0 +1,82 @@
+// The sum over the diodes: the point of a sample as a group of diodes sees it, and a diode's weight there and how much longer
+// its path is than the reference point's.
+#ifndef PMDSIM_SUM_GLSL
+#define PMDSIM_SUM_GLSL
+
+#include "buffers.glsl"
+#include "elementary.glsl"
+#include "real.glsl"
+
+layout(local_size_x = workgroup_size) in;
+layout(constant_id = constant_backscatter) const uint backscatter_model = backscatter_flat;
+layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotropic;
+layout(constant_id = constant_order) const uint power = 1;
+layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
+layout(constant_id = constant_phased) const uint phased = 0;
+layout(constant_id = constant_shadowed) const uint shadowed = 0;
+
+// A sample's point as the group sees it.
+struct Point {
+  vec3 position; // P - G, m
+  float rho;     // |P - G|, m
+  vec3 normal;   // turned to the lens
+  float height;  // of G over the surface's plane, m
+};
+
+#include "radiation.glsl"
+
+// w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
+vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
+  float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
+  float r2 = point.rho * point.rho + q;
+  float r = sqrt(r2);
+  float sum = r + point.rho;
+  float inverse = 1.0 / (r2 * sum);
+  float inverse_r2 = sum * inverse;
+  float weight = diode.intensity * inverse_r2;
+  float inverse_r = r * inverse_r2;
+  if (backscatter_model != backscatter_flat) {
+    float height = point.height - 0.5 * dot(point.normal, diode.position.xyz); // of the diode over the surface
+    weight *= backscatter_model == backscatter_lambert ? max(0.0, height * inverse_r) : (height > 0.0 ? 1.0 : 0.0);
+  }
+  if (pattern_model != pattern_isotropic)
+    weight *= radiation(point, diode, r, inverse_r, inverse_r2);
+  if (shadowed != 0)
+    weight = reached ? weight : 0.0;
+  return vec2(weight, q * r2 * inverse);
+}
+
+// The paths from a sample over the reference point, in double.
+struct ReferencePath {
+  Real range; // sample - lens, m
+  Real rho;   // sample - reference point, m
+};
+
+// `from_reference`: P - G.
+ReferencePath see_path(Real3 position, LightRun run, out Real3 from_reference) {
+  from_reference = subtract3(position, real3(run.reference_hi.xyz, run.reference_lo.xyz));
+  return ReferencePath(length3(position), length3(from_reference));
+}
+
+// `surface` as in PointsConstants.
+ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point point) {
+  Real3 from_reference;
+  ReferencePath path = see_path(position, run, from_reference);
+  point.position = high3(from_reference);
+  point.rho = high(path.rho);
+  point.normal = surface.xyz;
+  // By the way that is shorter, which cancels less: over the lens's height, or from the sample.
+  point.height = point.rho < length(run.reference_hi.xyz) ? -dot(surface.xyz, point.position)
+                                                          : surface.w + dot(surface.xyz, run.reference_hi.xyz);
+  return path;
+}
+
+// The phase of a path at a tone, the illuminator's with it, in turns.
+Real phase_turns(Real path_m, LightRun run, Tone tone) {
+  Real turns = multiply(path_m, real(tone.turns_per_m.x, tone.turns_per_m.y));
+  if (phased != 0)
+    turns = add(turns, multiply(real(run.phase_turns.x, run.phase_turns.y), real(tone.harmonic)));
+  return turns;
+}
+
+#endif
