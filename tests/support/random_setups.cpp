@@ -17,17 +17,50 @@ namespace pmdsim::test {
 namespace {
 
 constexpr double full_turn_rad = 2.0 * std::numbers::pi;
+constexpr std::uint32_t seeds_of_a_form = 8;
 constexpr glm::uvec2 coarsest(10);
 constexpr double most_paths = 1.5e6; // in a frame: samples times diodes times frequencies
-
-// As likely between 1 and 10 as between 10 and 100.
-double log_uniform(Random &random, double lower, double upper) {
-  return lower * std::pow(upper / lower, random.uniform(0, 1));
-}
 
 template <typename T, std::size_t n>
 const T &one_of(Random &random, const std::array<T, n> &choices) {
   return choices[static_cast<std::size_t>(random.uniform(0, n))];
+}
+
+// What shaders are compiled for.
+struct Form {
+  Waveform waveform;
+  std::size_t frequencies;
+  std::vector<std::string> patterns; // of each illuminator
+  double order;                      // of diagrams that have a whole one
+  bool phased;
+  Backscatter backscatter;
+  Shadows shadows;
+};
+
+Waveform random_waveform(Random &random) {
+  const double kind = random.uniform(0, 1);
+  if (kind < 0.7)
+    return {};
+  if (kind < 0.85)
+    return {Waveform::Kind::square, {}};
+  return {Waveform::Kind::harmonics, {1.0, random.uniform(-0.3, 0.3), random.uniform(-0.2, 0.2)}};
+}
+
+Form random_form(Random random) {
+  Form form{random_waveform(random), 1, {}, std::floor(random.uniform(1, 9)), random.flip(), {}, {}};
+  form.frequencies = static_cast<std::size_t>(random.uniform(1, 4));
+  const std::size_t illuminators = random.uniform(0, 1) < 0.3 ? 2 : 1;
+  while (form.patterns.size() < illuminators)
+    form.patterns.push_back(one_of<std::string, 6>(
+        random, {"isotropic", "whole order", "broken order", "narrow beams", "measured", "mixed"}));
+  form.backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
+  form.shadows = random.uniform(0, 1) < 0.4 ? Shadows::automatic : Shadows::off;
+  return form;
+}
+
+// As likely between 1 and 10 as between 10 and 100.
+double log_uniform(Random &random, double lower, double upper) {
+  return lower * std::pow(upper / lower, random.uniform(0, 1));
 }
 
 // Places in the illuminator's frame, `reach_m` from its origin at most.
@@ -66,13 +99,13 @@ glm::dvec3 tilted_axis(Random &random, double most_rad) {
 using NextPattern = std::function<Pattern()>;
 
 // The pattern of one diode after the other.
-NextPattern patterns_of(Random &random, const std::string &kind) {
+NextPattern patterns_of(Random &random, const std::string &kind, double whole_order) {
   const auto cosine = [](double order) { return Pattern{Pattern::Kind::cosine, order}; };
   const auto always = [](const Pattern &pattern) { return [pattern] { return pattern; }; };
   if (kind == "isotropic")
     return always({});
   if (kind == "whole order")
-    return always(cosine(std::floor(random.uniform(1, 9))));
+    return always(cosine(whole_order));
   if (kind == "broken order")
     return always(cosine(random.uniform(0.3, 20)));
   if (kind == "narrow beams")
@@ -87,15 +120,13 @@ NextPattern patterns_of(Random &random, const std::string &kind) {
   };
 }
 
-Illuminator random_light(Random &random, const Pose &world_from_camera, std::uint32_t most_diodes,
-                         std::vector<std::string> &kinds) {
+Illuminator random_light(Random &random, const Pose &world_from_camera, const Form &form,
+                         const std::string &pattern, std::vector<std::string> &kinds) {
   const std::string layout = one_of<std::string, 5>(random, {"ring", "disc", "bar", "grid", "cluster"});
-  const std::string pattern = one_of<std::string, 6>(
-      random, {"isotropic", "whole order", "broken order", "narrow beams", "measured", "mixed"});
   const double reach_m = log_uniform(random, 0.01, 0.5);
-  const auto count = static_cast<std::uint32_t>(log_uniform(random, 1, most_diodes + 1));
+  const auto count = static_cast<std::uint32_t>(log_uniform(random, 1, 2001));
   const bool tilted = random.flip(), unequal = random.flip();
-  const NextPattern next_pattern = patterns_of(random, pattern);
+  const NextPattern next_pattern = patterns_of(random, pattern, form.order);
   const Pose place{glm::dmat3(1.0), random.in_box(glm::dvec3(-0.2), glm::dvec3(0.2, 0.2, 0.1))};
   Illuminator light{layout, compose(world_from_camera, place), {}};
   for (const glm::dvec3 &place_m : places_m(random, layout, count, reach_m)) {
@@ -152,16 +183,6 @@ Scene random_scene(Random &random, const Pose &world_from_camera, std::vector<st
   return builder.scene();
 }
 
-Waveform random_waveform(Random &random, std::vector<std::string> &kinds) {
-  const double kind = random.uniform(0, 1);
-  kinds.push_back(kind < 0.75 ? "sine" : kind < 0.9 ? "harmonics" : "square");
-  if (kind < 0.75)
-    return {};
-  if (kind < 0.9)
-    return {Waveform::Kind::harmonics, {1.0, random.uniform(-0.3, 0.3), random.uniform(-0.2, 0.2)}};
-  return {Waveform::Kind::square, {}};
-}
-
 Sensor random_lens(Random &random, std::vector<std::string> &kinds) {
   Sensor sensor;
   if (random.uniform(0, 1) < 0.2) {
@@ -181,13 +202,13 @@ Sensor random_lens(Random &random, std::vector<std::string> &kinds) {
   return sensor;
 }
 
-Sensor random_sensor(Random &random, std::vector<std::string> &kinds) {
+Sensor random_sensor(Random &random, const Form &form, std::vector<std::string> &kinds) {
   Sensor sensor = random_lens(random, kinds);
   sensor.world_from_camera = random.pose(30.0);
   sensor.samples = static_cast<std::uint32_t>(random.uniform(1, 5));
   sensor.adaptive_samples = sensor.samples > 1 && random.flip();
-  sensor.waveform = random_waveform(random, kinds);
-  sensor.modulation_hz.resize(static_cast<std::size_t>(random.uniform(1, 4)));
+  sensor.waveform = form.waveform;
+  sensor.modulation_hz.resize(form.frequencies);
   for (double &modulation_hz : sensor.modulation_hz)
     modulation_hz = log_uniform(random, 1e6, 200e6);
   kinds.push_back(sensor.samples == 1 ? "S = 1" : sensor.adaptive_samples ? "S > 1, adaptive" : "S > 1");
@@ -203,26 +224,33 @@ void refine(Sensor &sensor, std::size_t diodes) {
   sensor.resolution = resolution;
 }
 
+void add_kinds(const Form &form, std::vector<std::string> &kinds) {
+  constexpr std::array waveforms{"sine", "square", "harmonics"};
+  kinds.insert(kinds.end(), {waveforms[static_cast<std::size_t>(form.waveform.kind)],
+                             form.patterns.size() == 2 ? "two illuminators" : "one illuminator",
+                             form.phased ? "phased" : "not phased",
+                             form.backscatter == Backscatter::lambert ? "lambert" : "constant",
+                             form.shadows == Shadows::off ? "no shadows" : "shadows"});
+}
+
 } // namespace
 
 RandomSetup random_setup(std::uint32_t seed) {
+  const Form form = random_form(Random(1000 + seed / seeds_of_a_form));
   Random random(seed);
   RandomSetup setup;
-  setup.sensor = random_sensor(random, setup.kinds);
+  setup.backscatter = form.backscatter;
+  setup.shadows = form.shadows;
+  setup.sensor = random_sensor(random, form, setup.kinds);
   setup.scene = random_scene(random, setup.sensor.world_from_camera, setup.kinds);
-  const bool two = random.uniform(0, 1) < 0.3;
-  for (int i = 0; i < (two ? 2 : 1); ++i)
+  for (const std::string &pattern : form.patterns)
     setup.illuminators.push_back(
-        random_light(random, setup.sensor.world_from_camera, two ? 500 : 2000, setup.kinds));
-  if (random.flip())
+        random_light(random, setup.sensor.world_from_camera, form, pattern, setup.kinds));
+  if (form.phased)
     setup.illuminators.back().modulation_phase_rad = random.uniform(-2.0, 2.0);
   refine(setup.sensor, diode_count(setup.illuminators));
-  setup.backscatter = random.flip() ? Backscatter::lambert : Backscatter::constant;
-  setup.shadows = random.uniform(0, 1) < 0.4 ? Shadows::automatic : Shadows::off;
   setup.max_error_m = log_uniform(random, 1e-6, 1e-2);
-  setup.kinds.insert(setup.kinds.end(), {two ? "two illuminators" : "one illuminator",
-                                         setup.backscatter == Backscatter::lambert ? "lambert" : "constant",
-                                         setup.shadows == Shadows::off ? "no shadows" : "shadows"});
+  add_kinds(form, setup.kinds);
   return setup;
 }
 
