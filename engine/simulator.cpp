@@ -1,25 +1,17 @@
 #include "engine/simulator.h"
 
 #include "engine/error.h"
-#include "engine/passes/accumulate.h"
-#include "engine/passes/camera_scene.h"
-#include "engine/passes/diode_groups.h"
-#include "engine/passes/lit.h"
-#include "engine/passes/occluders.h"
-#include "engine/passes/points.h"
-#include "engine/passes/projection.h"
+#include "engine/passes/frame_passes.h"
 #include "engine/passes/reached.h"
 #include "engine/passes/read_back.h"
-#include "engine/passes/resolve.h"
-#include "engine/passes/search.h"
-#include "engine/passes/strip_buffers.h"
-#include "engine/passes/strips.h"
-#include "engine/passes/visibility.h"
 #include "engine/vulkan/device_choice.h"
 #include "engine/vulkan/pass_recorder.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
+#include <fmt/format.h>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -39,95 +31,8 @@ DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
   return devices[vulkan::choose_device(devices, wanted)];
 }
 
-// What one sensor, its light and scene need on the device.
-struct Prepared {
-  Sensor sensor;
-  Signal signal;
-  std::vector<PlannedStrip> strips;
-  SceneBuffers scene;
-  StripBuffers buffers;
-  VisibilityPass visibility;
-  std::variant<PointsPass, SearchPass> points; // without and with distortion
-  Shadows shadows;
-  DiodeGroups groups;
-  std::vector<LitWindow> windows;
-  std::optional<LitPass> lit; // nothing where every diode reaches whatever is seen
-  AccumulatePass accumulate;
-  ResolvePass resolve;
-};
-
-std::variant<PointsPass, SearchPass> points_pass(const vulkan::Device &device, const Sensor &sensor,
-                                                 const CameraScene &camera, const Scene &scene,
-                                                 const std::vector<RasterBlock> &blocks,
-                                                 std::uint32_t surface_vectors, const PaintBuffers &paint,
-                                                 SamplePrecision precision) {
-  if (sensor.has_distortion())
-    return SearchPass(device, sensor, camera, scene, blocks, surface_vectors, paint, precision);
-  return PointsPass(device, sensor, surface_vectors, paint.painted, precision);
-}
-
-// A strip is a row of a block's pixels at least, so a block is no wider than the largest strip.
-Projection project_blocks(const vulkan::Device &device, const CameraScene &camera, const Sensor &sensor,
-                          std::uint32_t largest_strip) {
-  const std::uint32_t fragments = std::min(raster_block_fragments(device), largest_strip / sensor.samples);
-  return project(camera, sensor.has_distortion() ? distorted_blocks(sensor, fragments)
-                                                 : chip_blocks(sensor, fragments));
-}
-
-SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
-                          const Sensor &sensor, Backscatter backscatter, TextureCache &textures) {
-  const auto planes = triangle_planes(camera, scene, backscatter,
-                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
-  return {vulkan::upload(device, std::as_bytes(std::span(planes))),
-          upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
-}
-
-Prepared prepare_passes(const vulkan::Device &device, const SimulatorOptions &options, const Scene &scene,
-                        const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                        Backscatter backscatter, Shadows shadows, Precision wanted, TextureCache &textures) {
-  const CameraScene camera = to_camera(scene, sensor);
-  const std::vector<CameraIlluminator> lights = to_camera(illuminators, sensor);
-  const bool facing = all_face_the_light(camera, lights);
-  const Occluders occluders =
-      shadows == Shadows::automatic ? find_occluders(camera, scene, lights) : Occluders();
-  Signal signal = signal_of(sensor, options);
-  signal.lit = shadows == Shadows::automatic && (!occluders.shapes.empty() || !facing);
-  const std::uint32_t largest_strip = samples_of_a_strip(signal, sensor.samples * sensor.samples);
-  const std::uint32_t strip_samples =
-      options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip;
-  const Projection projection = project_blocks(device, camera, sensor, largest_strip);
-  const Precision precision = sum_precision(signal, wanted);
-  DiodeGroups groups = group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m(), precision);
-  const SumModel model = sum_model(lights, backscatter, facing);
-  const auto strips = plan_strips(sensor, projection.blocks, strip_samples);
-  SceneBuffers buffers = upload_scene(device, camera, scene, sensor, backscatter, textures);
-  VisibilityPass visibility(device, projection, sensor, strips, buffers.paint.masked, options.precision);
-  auto points = points_pass(device, sensor, camera, scene, projection.blocks,
-                            model.surface_vectors(precision), buffers.paint, options.precision);
-  std::vector<LitWindow> windows = signal.lit ? plan_windows(groups) : std::vector{all_runs(groups)};
-  std::optional<LitPass> lit;
-  if (signal.lit)
-    lit.emplace(device, occluders, groups, windows, buffers, strips, is_tiled(sensor), options.precision);
-  AccumulatePass accumulate(device, groups, model, signal, options, {signal.lit, false, precision});
-  ResolvePass resolve(device, signal, groups, options, {is_tiled(sensor), false, precision, {}});
-  return {sensor,
-          signal,
-          strips,
-          std::move(buffers),
-          make_strip_buffers(device, strips, projection.blocks, signal, model.surface_vectors(precision),
-                             options),
-          std::move(visibility),
-          std::move(points),
-          shadows,
-          std::move(groups),
-          std::move(windows),
-          std::move(lit),
-          std::move(accumulate),
-          std::move(resolve)};
-}
-
 // What is left to the host: frames in which nothing stands in any light, and samples that see nothing.
-void finish_lit(const Prepared &prepared, Measurement &measurement) {
+void finish_lit(const FramePasses &prepared, Measurement &measurement) {
   if (!prepared.lit) {
     const auto lit = std::views::transform(measurement.coverage,
                                            [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
@@ -143,6 +48,31 @@ std::set<std::size_t> windows_to_warm(std::size_t count) {
   return {0, std::min<std::size_t>(1, count - 1), count - 1};
 }
 
+std::string broken_text(const shader::BrokenPromise &broken, const Accuracy &accuracy) {
+  return fmt::format(
+      "{} pixels may be off by up to {:.6g} mm and {:.3g} of their amplitude, as their returns "
+      "cancel; expected at most {:.6g} mm and {:.3g}",
+      broken.pixels, 1e3 * std::bit_cast<float>(broken.worst_m), std::bit_cast<float>(broken.amplitude),
+      1e3 * accuracy.max_error_m, accuracy.max_amplitude_error);
+}
+
+std::string found_text(const Measurement &measurement, const Accuracy &accuracy) {
+  return fmt::format("pixels evaluated exactly are off by up to {:.6g} mm and {:.3g} of their amplitude; "
+                     "expected at most {:.6g} mm and {:.3g}",
+                     1e3 * *measurement.accuracy.found_m, *measurement.accuracy.found_amplitude,
+                     1e3 * accuracy.max_error_m, accuracy.max_amplitude_error);
+}
+
+// What a frame is to be made of; made again where the first plan does not keep what was promised.
+struct Requested {
+  const Scene *scene;
+  Sensor sensor;
+  std::vector<Illuminator> illuminators;
+  Backscatter backscatter;
+  Shadows shadows;
+  Accuracy accuracy;
+};
+
 } // namespace
 
 struct Simulator::State {
@@ -150,13 +80,23 @@ struct Simulator::State {
       : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
+  void prepare();
   void warm_up();
+  bool keeps_promise(const Measurement &measurement) const;
+  void refine(const Measurement &measurement);
+  void forget_broken();
+  Measurement measure(const Progress &progress);
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
   void see(const PlannedStrip &planned);
   void light(const PlannedStrip &planned, std::size_t window);
   void keep_reached(const PlannedStrip &planned, std::size_t window, std::vector<std::uint32_t> &reached);
-  void sum(const PlannedStrip &planned, const LitWindow &window, const Progress &progress);
-  void resolve(const PlannedStrip &planned);
+  void sum(const PlannedStrip &planned, const LitWindow &window, const AccumulatePass &pass,
+           const vulkan::Buffer *list, const Progress &progress);
+  void sum_listed(const PlannedStrip &planned, const Progress &progress);
+  void sum_list(const PlannedStrip &planned, const LitWindow &window, std::uint32_t list,
+                const AccumulatePass &accumulate, const ResolvePass &resolve, const Progress &progress);
+  void read_back(const PlannedStrip &planned);
+  void check_strip(std::size_t strip, Measurement &measurement);
 
   SimulatorOptions options;
   vulkan::Instance instance;
@@ -164,20 +104,23 @@ struct Simulator::State {
   vulkan::Device device;
   vulkan::PassRecorder recorder;
   TextureCache textures;
-  std::optional<Prepared> prepared;
+  std::optional<Requested> requested;
+  std::uint32_t attempt = 0; // of frame_plans
+  std::optional<FramePasses> prepared;
 };
 
 void Simulator::State::see(const PlannedStrip &planned) {
   const StripBuffers &buffers = prepared->buffers;
-  const auto *points = std::get_if<PointsPass>(&prepared->points);
+  const auto *search = std::get_if<SearchPass>(&prepared->points);
   prepared->visibility.record(recorder.commands(), planned, prepared->scene,
-                              points ? buffers.tags : buffers.fragments);
+                              search ? buffers.fragments : buffers.tags);
   recorder.end_pass("visibility");
-  if (points)
+  if (search)
+    search->record(recorder.commands(), planned, buffers, prepared->scene);
+  if (const auto *points = std::get_if<PointsPass>(&prepared->points))
     points->record(recorder.commands(), planned.strip, buffers, prepared->scene);
-  else
-    std::get<SearchPass>(prepared->points).record(recorder.commands(), planned, buffers, prepared->scene);
-  recorder.end_pass("points");
+  if (!std::holds_alternative<std::monostate>(prepared->points))
+    recorder.end_pass("points");
 }
 
 // Which diodes of the window reach the strip's samples.
@@ -197,13 +140,14 @@ void Simulator::State::keep_reached(const PlannedStrip &planned, std::size_t win
   recorder.begin();
 }
 
-void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window, const Progress &progress) {
-  const std::uint32_t runs = prepared->accumulate.runs();
+void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window, const AccumulatePass &pass,
+                           const vulkan::Buffer *list, const Progress &progress) {
+  const std::uint32_t runs = pass.runs();
   const auto per_submission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-      interactions_per_submission / prepared->accumulate.interactions_per_run(planned.strip), 1, runs));
+      interactions_per_submission / pass.interactions_per_run(planned.strip), 1, runs));
   for (std::uint32_t first = window.first_run; first < window.last_run; first += per_submission) {
     const std::uint32_t last = std::min(window.last_run, first + per_submission);
-    prepared->accumulate.record(recorder.commands(), planned.strip, prepared->buffers, window, first, last);
+    pass.record(recorder.commands(), planned.strip, prepared->buffers, window, first, last, list);
     recorder.end_pass("accumulate");
     if (last < runs) {
       recorder.finish();
@@ -213,9 +157,37 @@ void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window,
   }
 }
 
-void Simulator::State::resolve(const PlannedStrip &planned) {
-  prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes);
+void Simulator::State::sum_list(const PlannedStrip &planned, const LitWindow &window, std::uint32_t list,
+                                const AccumulatePass &accumulate, const ResolvePass &resolve,
+                                const Progress &progress) {
+  const ListedPasses &listed = *prepared->listed;
+  const vulkan::Buffer &pixels = listed.lists.of(list);
+  if (listed.points) {
+    listed.points->record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene, &pixels);
+    recorder.end_pass("points");
+  }
+  sum(planned, window, accumulate, &pixels, progress);
+  resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes, &pixels);
   recorder.end_pass("resolve");
+}
+
+// Pixels that go the short way, then those that cannot.
+void Simulator::State::sum_listed(const PlannedStrip &planned, const Progress &progress) {
+  const ListedPasses &listed = *prepared->listed;
+  const std::uint32_t side = planned.strip.samples;
+  listed.lists.record_clear(recorder.commands());
+  listed.short_way.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene);
+  listed.lists.record_count(recorder.commands(), side * side);
+  recorder.end_pass("short_way");
+  if (listed.has_lit)
+    sum_list(planned, {0, listed.accumulate.runs(), 0}, shader::list_lit, listed.accumulate, listed.resolve,
+             progress);
+  if (prepared->has_rest)
+    sum_list(planned, prepared->windows.front(), shader::list_rest, prepared->accumulate, prepared->resolve,
+             progress);
+}
+
+void Simulator::State::read_back(const PlannedStrip &planned) {
   record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
   recorder.end_pass("read_back");
 }
@@ -226,16 +198,37 @@ void Simulator::State::warm_up() {
   PlannedStrip pixel = prepared->strips.front();
   pixel.strip.columns = pixel.strip.rows = 1;
   pixel.strip.padded_pixels = padded(1);
+  const auto nobody = [](double) {};
+  const auto few_runs = [](LitWindow window) {
+    window.last_run = std::min(window.last_run, window.first_run + 2);
+    return window;
+  };
+  const std::array<std::uint32_t, 1> first{0};
+  const std::uint32_t samples = pixel.strip.samples * pixel.strip.samples;
   recorder.begin();
   see(pixel);
   for (const std::size_t i : windows_to_warm(prepared->windows.size())) {
-    LitWindow window = prepared->windows[i];
-    window.last_run = std::min(window.last_run, window.first_run + 2);
     if (prepared->lit)
       light(pixel, i);
-    sum(pixel, window, [](double) {});
+    if (!prepared->listed)
+      sum(pixel, few_runs(prepared->windows[i]), prepared->accumulate, nullptr, nobody);
   }
-  resolve(pixel);
+  if (prepared->listed) {
+    const ListedPasses &listed = *prepared->listed;
+    listed.short_way.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
+    listed.lists.record_count(recorder.commands(), samples);
+    for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
+      record_fill(recorder.commands(), listed.lists.of(list), first, samples);
+    if (listed.has_lit)
+      sum_list(pixel, few_runs({0, listed.accumulate.runs(), 0}), shader::list_lit, listed.accumulate,
+               listed.resolve, nobody);
+    if (prepared->has_rest)
+      sum_list(pixel, few_runs(prepared->windows.front()), shader::list_rest, prepared->accumulate,
+               prepared->resolve, nobody);
+  } else {
+    prepared->resolve.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene.planes);
+  }
+  read_back(pixel);
   recorder.finish();
 }
 
@@ -248,12 +241,109 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
       light(planned, i);
     if (prepared->lit && options.keep_reached)
       keep_reached(planned, i, measurement.sample_reached);
-    sum(planned, prepared->windows[i], progress);
+    if (!prepared->listed)
+      sum(planned, prepared->windows[i], prepared->accumulate, nullptr, progress);
   }
-  resolve(planned);
+  if (prepared->listed) {
+    sum_listed(planned, progress);
+  } else {
+    prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes);
+    recorder.end_pass("resolve");
+  }
+  read_back(planned);
   recorder.finish();
   store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
   progress(1.0);
+}
+
+void Simulator::State::forget_broken() {
+  recorder.begin();
+  recorder.commands().fillBuffer(prepared->buffers.broken.get(), 0, sizeof(shader::BrokenPromise), 0);
+  recorder.finish();
+}
+
+// Evaluates the strip's chosen pixels exactly; the bits of the last window are there still.
+void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<PassTime> times = recorder.times();
+  const ExactCheck &check = *prepared->check;
+  const PlannedStrip &planned = prepared->strips[strip];
+  recorder.begin();
+  check.record_points(recorder.commands(), strip, planned, prepared->buffers, prepared->scene);
+  const bool many = prepared->windows.size() > 1;
+  const auto windows = prepared->lit ? prepared->windows : std::vector{all_runs(check.groups())};
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    if (many)
+      light(planned, i);
+    sum(planned, windows[i], check.sum(), &check.list(), [](double) {});
+  }
+  check.record_channels(recorder.commands(), planned, prepared->buffers, prepared->scene);
+  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
+  recorder.finish();
+  recorder.reset(times);
+  check.compare(strip, planned, prepared->buffers, measurement, measurement.accuracy);
+  measurement.accuracy.check_ms +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Simulator::State::prepare() {
+  const auto &[scene, sensor, illuminators, backscatter, shadows, accuracy] = *requested;
+  prepared.reset(); // its memory first
+  prepared.emplace(prepare_passes(
+      device, options, {*scene, sensor, illuminators, backscatter, shadows, accuracy}, attempt, textures));
+  textures.drop_unused();
+  warm_up();
+}
+
+// No pixel's bound is beyond what was asked for, and none that was checked is.
+bool Simulator::State::keeps_promise(const Measurement &measurement) const {
+  if (prepared->accuracy.mode == Mode::exact)
+    return true;
+  const auto [pixels, worst_m, amplitude, padding] = broken_promise(prepared->buffers);
+  const AccuracyReport &report = measurement.accuracy;
+  // What is compared is rounded to float itself.
+  const double rounding_m = 0x1p-24 * prepared->sensor.ambiguity_m();
+  return pixels == 0 && report.found_m.value_or(0.0) <= prepared->accuracy.max_error_m + rounding_m &&
+         report.found_amplitude.value_or(0.0) <= prepared->accuracy.max_amplitude_error + 0x1p-23;
+}
+
+// The next plan. Throws Error (accuracy) where there is none.
+void Simulator::State::refine(const Measurement &measurement) {
+  const shader::BrokenPromise broken = broken_promise(prepared->buffers);
+  if (prepared->accuracy.mode == Mode::automatic && attempt + 1 < frame_plans) {
+    ++attempt;
+    prepare();
+    return;
+  }
+  throw Error(ExitCode::accuracy, broken.pixels > 0 ? broken_text(broken, prepared->accuracy)
+                                                    : found_text(measurement, prepared->accuracy));
+}
+
+Measurement Simulator::State::measure(const Progress &progress) {
+  const auto start = std::chrono::steady_clock::now();
+  recorder.reset();
+  Measurement measurement = make_measurement(prepared->sensor, prepared->signal, options);
+  measurement.accuracy = prepared->report;
+  if (prepared->shadows == Shadows::automatic && options.keep_reached)
+    measurement.sample_reached = none_reached(prepared->sensor, prepared->groups);
+  if (prepared->signal.promised)
+    forget_broken();
+  for (std::size_t i = 0; i < prepared->strips.size(); ++i) {
+    const auto of_strip = [&](double fraction) {
+      if (progress)
+        progress((static_cast<double>(i) + fraction) / static_cast<double>(prepared->strips.size()));
+    };
+    measure_strip(prepared->strips[i], of_strip, measurement);
+    if (prepared->check)
+      check_strip(i, measurement);
+  }
+  if (prepared->shadows == Shadows::automatic)
+    finish_lit(*prepared, measurement);
+  measurement.passes = recorder.times();
+  measurement.frame_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() -
+      measurement.accuracy.check_ms;
+  return measurement;
 }
 
 Simulator::Simulator(const SimulatorOptions &options) : state_(std::make_unique<State>(options)) {}
@@ -269,36 +359,19 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
-  state_->prepared.reset(); // its memory first
-  state_->prepared.emplace(prepare_passes(state_->device, state_->options, scene, sensor, illuminators,
-                                          backscatter, shadows, accuracy.precision.value_or(Precision::fp32),
-                                          state_->textures));
-  state_->textures.drop_unused();
-  state_->warm_up();
+  state_->requested.emplace(&scene, sensor, illuminators, backscatter, shadows, accuracy);
+  state_->attempt = 0;
+  state_->prepare();
 }
 
 Measurement Simulator::measure(const Progress &progress) {
   if (!state_->prepared)
     throw std::logic_error("measure() before prepare()");
-  const auto start = std::chrono::steady_clock::now();
-  state_->recorder.reset();
-  Measurement measurement =
-      make_measurement(state_->prepared->sensor, state_->prepared->signal, state_->options);
-  if (state_->prepared->shadows == Shadows::automatic && state_->options.keep_reached)
-    measurement.sample_reached = none_reached(state_->prepared->sensor, state_->prepared->groups);
-  const auto &strips = state_->prepared->strips;
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    const auto of_strip = [&](double fraction) {
-      if (progress)
-        progress((static_cast<double>(i) + fraction) / static_cast<double>(strips.size()));
-    };
-    state_->measure_strip(strips[i], of_strip, measurement);
+  Measurement measurement = state_->measure(progress);
+  while (!state_->keeps_promise(measurement)) {
+    state_->refine(measurement);
+    measurement = state_->measure(progress);
   }
-  if (state_->prepared->shadows == Shadows::automatic)
-    finish_lit(*state_->prepared, measurement);
-  measurement.passes = state_->recorder.times();
-  measurement.frame_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return measurement;
 }
 

@@ -28,6 +28,7 @@ public:
 
   const DeviceInfo &device() const;
 
+  // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
   // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart).
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,

@@ -1,6 +1,8 @@
 #include "host/options.h"
 
 #include "engine/error.h"
+#include "host/accuracy_options.h"
+#include "host/commands/camera.h"
 #include "host/input/calibration_sensor.h"
 #include "host/input/limits.h"
 
@@ -15,21 +17,19 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Command> command_names{{"render", Command::render},
-                                                   {"deform", Command::deform},
-                                                   {"check", Command::check},
-                                                   {"bench", Command::bench},
-                                                   {"import-calibration", Command::import_calibration},
-                                                   {"devices", Command::devices}};
+const std::map<std::string, Command> command_names{
+    {"render", Command::render},     {"deform", Command::deform},
+    {"check", Command::check},       {"bench", Command::bench},
+    {"tradeoff", Command::tradeoff}, {"import-calibration", Command::import_calibration},
+    {"devices", Command::devices}};
 const std::map<std::string, Format> format_names{
     {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
 
 // The command line before it is checked; what comes later is kept to be refused.
 struct Written {
   std::string setup, output_directory, device, calibration, sensor_name;
-  std::string mode = "exact", precision = "fp32", max_error, max_amplitude_error;
-  std::optional<std::string> frames;
-  std::uint32_t samples = 0; // 0: as in the setup
+  WrittenAccuracy accuracy;
+  std::optional<std::string> samples, frames;
   std::optional<double> pixel_pitch_m;
   std::vector<std::string> formats;
   bool no_wide_vectors = false, json = false;
@@ -43,27 +43,27 @@ void add_json(CLI::App &command, Written &written) {
   command.add_flag("--json", written.json, "print one JSON object on stdout and nothing else there");
 }
 
+void add_samples(CLI::App &command, Written &written) {
+  command.add_option("--samples", written.samples,
+                     "S: S x S samples a pixel, 1 to 16, or `auto`, instead of the setup's");
+}
+
 void add_measuring(CLI::App &command, Written &written) {
-  command
-      .add_option("--samples", written.samples, "S: S x S samples a pixel, 1 to 16, instead of the setup's")
-      ->check(CLI::Range(1, 16));
+  add_samples(command, written);
   command.add_option("--device", written.device,
                      "part of a device's name, its index (see `pmdsim devices`), or `reference`");
-  command.add_option("--mode", written.mode, "exact; reduced and auto are not supported yet")
-      ->check(CLI::IsMember({"exact", "reduced", "auto"}));
-  command.add_option("--max-error", written.max_error,
-                     "largest distance error, e.g. 0.1mm; not supported yet");
-  command.add_option("--max-amplitude-error", written.max_amplitude_error,
-                     "largest relative amplitude error; not supported yet");
-  command.add_option("--precision", written.precision, "fp32; fp64 is not supported yet")
-      ->check(CLI::IsMember({"fp32", "fp64"}));
+  add_accuracy(command, written.accuracy);
   command.add_flag("--no-wide-vectors", written.no_wide_vectors, "not supported yet");
 }
 
-void add_writing(CLI::App &command, Written &written, const std::string &default_formats) {
+void add_output(CLI::App &command, Written &written) {
   command.add_option(
       "-o,--output", written.output_directory,
       fmt::format("output directory [out/SETUP/{}, SETUP without its ending]", command.get_name()));
+}
+
+void add_writing(CLI::App &command, Written &written, const std::string &default_formats) {
+  add_output(command, written);
   command
       .add_option("--format", written.formats,
                   fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]", default_formats))
@@ -104,28 +104,28 @@ void add_commands(CLI::App &app, Written &written) {
   bench->add_option("SETUP", written.setup, "setup file (JSON); running without one is not supported yet");
   add_measuring(*bench, written);
 
+  CLI::App *tradeoff = app.add_subcommand(
+      "tradeoff",
+      "speed against accuracy, of modes, precisions and samples: the first sensor's first frame at "
+      "its first frequency, all taps at once");
+  add_setup(*tradeoff, written);
+  add_output(*tradeoff, written);
+  add_samples(*tradeoff, written);
+  tradeoff->add_option("--device", written.device,
+                       "part of a device's name, or its index (see `pmdsim devices`)");
+
   CLI::App *import_calibration = app.add_subcommand(
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");
   add_importing(*import_calibration, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {render, deform, check, bench, import_calibration, devices})
+  for (CLI::App *command : {render, deform, check, bench, tradeoff, import_calibration, devices})
     add_json(*command, written);
-
-  app.add_subcommand("tradeoff", "speed against accuracy; not supported yet")->allow_extras();
 }
 
 void refuse(bool asked_for, const std::string &feature) {
   if (asked_for)
     throw Error(ExitCode::usage, feature + " is not supported yet");
-}
-
-void refuse_what_comes_later(const Written &written) {
-  refuse(written.mode != "exact", "--mode " + written.mode);
-  refuse(!written.max_error.empty(), "--max-error");
-  refuse(!written.max_amplitude_error.empty(), "--max-amplitude-error");
-  refuse(written.precision != "fp32", "--precision " + written.precision);
-  refuse(written.no_wide_vectors, "--no-wide-vectors");
 }
 
 std::filesystem::path output_directory(const Written &written, const std::string &command) {
@@ -163,11 +163,22 @@ FrameRange frame_range_of(const std::string &text) {
   return {*first, *end};
 }
 
+SampleChoice sample_choice_of(const std::string &text) {
+  if (text == "auto")
+    return automatic_samples;
+  const auto samples = whole_number(text);
+  if (!samples || *samples < 1 || *samples > 16)
+    throw Error(ExitCode::usage,
+                "--samples: expected a whole number from 1 to 16, or auto, found " + in_quotes(text));
+  return {.samples = *samples};
+}
+
 Options checked(const Written &written, const std::string &command) {
-  refuse(!command_names.contains(command), command);
   refuse(command == "bench" && written.setup.empty(), "bench without a setup");
-  refuse_what_comes_later(written);
+  refuse(written.no_wide_vectors, "--no-wide-vectors");
   check_importing(written);
+  if (command == "tradeoff" && names_the_reference(written.device))
+    throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
   Options options;
   options.command = command_names.at(command);
   options.setup = written.setup;
@@ -176,8 +187,10 @@ Options checked(const Written &written, const std::string &command) {
   options.sensor_name = written.sensor_name;
   options.device = written.device;
   options.json = written.json;
-  if (written.samples != 0)
-    options.samples = written.samples;
+  options.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
+  options.mode_written = written.accuracy.mode.has_value();
+  if (written.samples)
+    options.samples = sample_choice_of(*written.samples);
   if (written.frames)
     options.frames = frame_range_of(*written.frames);
   options.output_directory = output_directory(written, command);

@@ -1,6 +1,9 @@
 #pragma once
 // The command line, parsed and checked.
 
+#include "engine/accuracy.h"
+#include "host/input/sample_choice.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,7 +12,7 @@
 
 namespace pmdsim {
 
-enum class Command { render, deform, check, bench, import_calibration, devices };
+enum class Command { render, deform, check, bench, tradeoff, import_calibration, devices };
 enum class Format { exr, npy, png, csv };
 
 // Frames `first` to `end` - 1.
@@ -22,11 +25,13 @@ struct FrameRange {
 struct Options {
   Command command = Command::devices;
   std::filesystem::path setup;            // all but import-calibration and devices
-  std::filesystem::path output_directory; // render and deform; filled in where -o is absent
+  std::filesystem::path output_directory; // render, deform and tradeoff; filled in where -o is absent
   std::set<Format> formats;               // render and deform
   std::optional<FrameRange> frames;       // render and deform, instead of all
   std::string device;                     // as SimulatorOptions::device, or "reference" in any case
-  std::optional<std::uint32_t> samples;   // S, instead of the setup's
+  std::optional<SampleChoice> samples;    // instead of the setup's
+  Accuracy accuracy;                      // render, deform and bench
+  bool mode_written = false;              // bench: one mode instead of all
   std::filesystem::path calibration;      // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;    // along the columns, instead of the default
   std::string sensor_name;                // instead of the file's; empty where it is not given

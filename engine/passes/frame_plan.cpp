@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace pmdsim {
@@ -44,23 +45,33 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
                                               1e3 * accuracy.max_error_m, why));
 }
 
-// The cheapest precision from the `attempt`-th on that leaves something of the error asked for, with its
-// bound.
-std::pair<Precision, RoundingBound> choose_precision(const LitView &view, const DiodeGroups &groups,
-                                                     const Accuracy &accuracy, std::uint32_t attempt) {
-  std::optional<RoundingBound> bound;
-  for (const Precision precision : {Precision::fp32, Precision::fp64}) {
-    const Precision available = sum_precision(view.signal, precision);
-    if (available != accuracy.precision.value_or(available))
-      continue;
-    if (precision == Precision::fp32 && attempt > 0 && !accuracy.precision)
-      continue;
-    bound = bound_of(view, groups, available);
+DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
+                      Precision precision) {
+  return group_diodes(lights, view.visible, view.signal.largest_wavenumber_rad_m(), precision);
+}
+
+// All diodes as they are summed in a precision, and what rounding may do to that.
+struct RoundedSum {
+  Precision precision;
+  DiodeGroups groups;
+  RoundingBound bound;
+};
+
+// In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
+RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+  std::string why = "theory has no bound for diodes with measured diagrams";
+  const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
+  for (const Precision wanted :
+       {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
+    const Precision precision = sum_precision(view.signal, wanted);
+    DiodeGroups groups = groups_of(view, view.lights, precision);
+    const auto bound = bound_of(view, groups, precision);
     if (bound && is_within(*bound, accuracy))
-      return {available, *bound};
+      return {precision, std::move(groups), *bound};
+    if (bound)
+      why = fmt::format("rounding alone may come to {:.6g} mm", 1e3 * bound->distance_m(1.0));
   }
-  refuse(accuracy, bound ? fmt::format("rounding alone may come to {:.6g} mm", 1e3 * bound->distance_m(1.0))
-                         : "theory has no bound for diodes with measured diagrams");
+  refuse(accuracy, why);
 }
 
 Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
@@ -74,6 +85,81 @@ Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, cons
           rounding.amplitude_per_condition + light.amplitude_error_per_condition};
 }
 
+// At most, where all paths of a pixel differ so little that none cancels another; nothing where they may.
+std::optional<double> largest_condition(const LitView &view, const FramePlan &plan) {
+  const double wavenumber = view.signal.largest_wavenumber_rad_m();
+  const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
+  if (view.sensor.samples > 1 || plan.all.phased || half_rad > 1.0 ||
+      view.signal.waveform != shader::waveform_sine)
+    return std::nullopt;
+  return 1.0 / std::cos(half_rad);
+}
+
+void claim(const LitView &view, const Promise &bound, FramePlan &plan) {
+  if (const auto condition = largest_condition(view, plan)) {
+    plan.claimed_m = std::min(bound.limit_m, bound.fixed_m + bound.per_condition_m * *condition);
+    plan.claimed_amplitude =
+        std::min(bound.amplitude_limit, bound.amplitude_fixed + bound.amplitude_per_condition * *condition);
+  } else if (plan.promise) { // of which every pixel makes sure
+    plan.claimed_m = bound.limit_m;
+    if (std::isfinite(bound.amplitude_limit))
+      plan.claimed_amplitude = bound.amplitude_limit;
+  }
+}
+
+// All diodes for themselves.
+ReducedLight whole_light(const LitView &view) {
+  ReducedLight light{view.lights, {glm::dvec3(std::numeric_limits<double>::infinity()), {}}};
+  light.lights.high_m = -light.lights.low_m;
+  for (const CameraIlluminator &illuminator : view.lights)
+    for (const Diode &diode : illuminator.diodes)
+      light.lights = {glm::min(light.lights.low_m, diode.position_m),
+                      glm::max(light.lights.high_m, diode.position_m)};
+  return light;
+}
+
+ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const RoundingBound &rounding,
+                          double share) {
+  if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
+    return whole_light(view);
+  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_of(view.signal),
+                       share * (accuracy.max_error_m - rounding.distance_m(1.0)),
+                       share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
+}
+
+FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
+  FramePlan plan;
+  plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
+  plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
+  const ReducedLight light = whole_light(view);
+  plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
+  if (const auto rounding = bound_of(view, plan.all, plan.precision)) {
+    const Promise bound = promise_of(accuracy, *rounding, light);
+    if (view.sensor.adaptive_samples)
+      plan.promise = plan.promise_of_all = bound;
+    claim(view, bound, plan);
+  }
+  return plan;
+}
+
 } // namespace
+
+FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+  if (accuracy.mode == Mode::exact)
+    return exact_plan(view, accuracy);
+  FramePlan plan;
+  RoundedSum sum = choose_precision(view, accuracy, attempt);
+  const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_stand_ins[attempt]);
+  plan.precision = sum.precision;
+  plan.all = std::move(sum.groups);
+  plan.stand_ins = groups_of(view, light.illuminators, plan.precision);
+  plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
+  plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
+  plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view));
+  const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision);
+  plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
+  claim(view, *plan.promise, plan);
+  return plan;
+}
 
 } // namespace pmdsim

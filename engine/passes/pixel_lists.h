@@ -7,8 +7,15 @@
 #include "shaders/interface.h"
 
 #include <array>
+#include <span>
 
 namespace pmdsim {
+
+// Room for the list of `pixels` pixels.
+vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixels);
+// Some thousand pixels, whatever was done with the list before; `samples` of each.
+void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
+                 std::span<const std::uint32_t> pixels, std::uint32_t samples);
 
 class PixelLists {
 public:

@@ -89,12 +89,21 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
       vk::DeviceSize{strip.padded_pixels} * signal.channels() * sizeof(float);
   commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                       vk::BufferCopy(0, 0, channel_bytes));
+  if (signal.promised)
+    commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
+                        vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
   if (buffers.tags_read.bytes() > 0) {
     const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
     commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
                         vk::BufferCopy(0, 0, samples * sizeof(shader::uvec2)));
   }
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
+  shader::BrokenPromise broken{};
+  std::memcpy(&broken, buffers.broken_read.mapped().data(), sizeof(broken));
+  return broken;
 }
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,

@@ -18,4 +18,7 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, Measurement &measurement);
 
+// Of all strips since it was cleared, as read back last; only where Signal::promised.
+shader::BrokenPromise broken_promise(const StripBuffers &buffers);
+
 } // namespace pmdsim

@@ -38,43 +38,63 @@ DiodeSet all_of(std::size_t diodes) {
   return all;
 }
 
+// The shape of what is asked for.
+Sensor with_pixels(Sensor sensor, const std::vector<std::uint32_t> &pixels) {
+  if (!pixels.empty())
+    sensor.resolution = {1, static_cast<std::uint32_t>(pixels.size())};
+  return sensor;
+}
+
 // One frame being computed: everything that the threads read, and the frame that each fills a row at a time.
 class FrameJob {
 public:
   FrameJob(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
            Backscatter backscatter, const Options &options)
-      : scene_(scene), sensor_(sensor), backscatter_(backscatter), lens_(sensor),
+      : scene_(scene), sensor_(sensor), pixels_(options.pixels), backscatter_(backscatter), lens_(sensor),
         lights_(lights_in_camera(illuminators, sensor)),
         caster_(
             triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
             [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); }),
-        every_diode_(all_of(diode_count(illuminators))), frame_(dark_frame(sensor)) {
+        every_diode_(all_of(diode_count(illuminators))),
+        frame_(dark_frame(with_pixels(sensor, options.pixels))) {
     if (options.shadows == Shadows::off)
       return;
     shadows_.emplace(
         caster_.triangles(), caster_.discs(), lights_, glm::length(sensor.world_from_camera.translation_m),
         [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); });
-    frame_.lit.assign(sensor.pixel_count(), 0.0);
+    frame_.lit = frame_.coverage; // 0
     if (options.keep_reached)
       frame_.sample_reached.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);
   }
 
-  std::uint32_t rows() const { return sensor_.resolution.y; }
+  std::uint32_t rows() const { return frame_.resolution.y; }
 
   void compute_row(std::uint32_t row) {
-    for (std::uint32_t column = 0; column < sensor_.resolution.x; ++column)
+    for (std::uint32_t column = 0; column < frame_.resolution.x; ++column)
       compute_pixel({column, row});
   }
 
   Frame take() { return std::move(frame_); }
 
 private:
-  void compute_pixel(const glm::uvec2 &pixel) {
+  // The sensor's pixel at a place of the frame.
+  glm::uvec2 sensor_pixel(const glm::uvec2 &place) const {
+    if (pixels_.empty())
+      return place;
+    const std::uint32_t pixel = pixels_[place.y];
+    return {pixel % sensor_.resolution.x, pixel / sensor_.resolution.x};
+  }
+
+  // `place` is the pixel's in the frame.
+  void compute_pixel(const glm::uvec2 &place) {
+    const glm::uvec2 pixel = sensor_pixel(place);
     PixelSums sums(sensor_);
     for (std::uint32_t k_row = 0; k_row < sensor_.samples; ++k_row)
-      for (std::uint32_t k_column = 0; k_column < sensor_.samples; ++k_column)
-        add_sample(sums, pixel * sensor_.samples + glm::uvec2(k_column, k_row));
-    const std::size_t index = std::size_t{pixel.y} * sensor_.resolution.x + pixel.x;
+      for (std::uint32_t k_column = 0; k_column < sensor_.samples; ++k_column) {
+        const glm::uvec2 k(k_column, k_row);
+        add_sample(sums, pixel * sensor_.samples + k, sample_index(place * sensor_.samples + k));
+      }
+    const std::size_t index = std::size_t{place.y} * frame_.resolution.x + place.x;
     set_channels(frame_, index, sums, sensor_.samples * sensor_.samples);
     if (shadows_ && sums.hits > 0)
       frame_.lit[index] =
@@ -82,36 +102,37 @@ private:
 
     const std::uint32_t nearest_to_centre = (sensor_.samples - 1) / 2;
     const std::uint32_t id =
-        frame_.sample_triangle_id[sample_index(pixel * sensor_.samples + nearest_to_centre)];
+        frame_.sample_triangle_id[sample_index(place * sensor_.samples + nearest_to_centre)];
     frame_.triangle_id[index] = id;
     frame_.object_id[index] = id == no_id ? no_id : scene_.object_of(id);
   }
 
-  void add_sample(PixelSums &sums, const glm::uvec2 &sample) {
+  // `sample` is one of the sensor's, `index` its own in the frame.
+  void add_sample(PixelSums &sums, const glm::uvec2 &sample, std::size_t index) {
     const auto direction = lens_.sample_ray(sample);
     if (!direction)
       return;
     const auto hit = caster_.nearest(*direction);
     if (!hit)
       return;
-    frame_.sample_triangle_id[sample_index(sample)] = hit->id;
+    frame_.sample_triangle_id[index] = hit->id;
     const SurfacePoint point = surface_point(*direction, *hit);
     ++sums.hits;
     sums.range_m.add(hit->range_m);
     sums.z_m.add(point.position_m.z);
     const DiodeSet reached = shadows_ ? shadows_->reached(point, hit->id) : every_diode_;
     sums.reached += reached.count();
-    keep_reached(sample, reached);
+    keep_reached(index, reached);
     const auto paths = light_paths(point, lights_, reached, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);
   }
 
-  void keep_reached(const glm::uvec2 &sample, const DiodeSet &reached) {
+  void keep_reached(std::size_t sample, const DiodeSet &reached) {
     if (frame_.sample_reached.empty())
       return;
     const auto &words = reached.words();
-    const auto first = static_cast<std::ptrdiff_t>(sample_index(sample) * words.size());
+    const auto first = static_cast<std::ptrdiff_t>(sample * words.size());
     std::copy(words.begin(), words.end(), frame_.sample_reached.begin() + first);
   }
 
@@ -126,12 +147,14 @@ private:
                          : surface.reflectivity;
   }
 
+  // `sample` counts the frame's rows and columns of samples.
   std::size_t sample_index(const glm::uvec2 &sample) const {
-    return std::size_t{sample.y} * sensor_.samples * sensor_.resolution.x + sample.x;
+    return std::size_t{sample.y} * sensor_.samples * frame_.resolution.x + sample.x;
   }
 
   const Scene &scene_;
   const Sensor &sensor_;
+  const std::vector<std::uint32_t> &pixels_; // none: all
   Backscatter backscatter_;
   LensModel lens_;
   std::vector<Light> lights_;

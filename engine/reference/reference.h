@@ -40,6 +40,8 @@ struct Frame {
 struct Options {
   Shadows shadows = Shadows::off;
   bool keep_reached = false; // fill Frame::sample_reached
+  // Only these, row * columns + column, in this order, as a frame of one column; all where there are none.
+  std::vector<std::uint32_t> pixels{};
 };
 
 // Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,

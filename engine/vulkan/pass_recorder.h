@@ -19,8 +19,8 @@ class PassRecorder {
 public:
   explicit PassRecorder(const Device &device);
 
-  // Forgets all times: a new frame begins.
-  void reset() { times_.clear(); }
+  // Forgets all times but those given: a new frame begins, or goes on.
+  void reset(std::vector<PassTime> times = {}) { times_ = std::move(times); }
   // Opens the command buffer that the passes are recorded to.
   void begin();
   const vk::raii::CommandBuffer &commands() const { return commands_.get(); }

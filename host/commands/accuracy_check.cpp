@@ -86,8 +86,11 @@ double darkest_comparable(const reference::FrameReturn &truth) {
   return 1e-3 * brightest;
 }
 
-// Beyond it the device computes something else: float32 holds a distance to 6e-8 of the ambiguity range.
-double largest_plausible_error_m(double ambiguity_m) { return std::max(10e-6, 1e-6 * ambiguity_m); }
+// Beyond it, and what is claimed, the device computes something else: float32 holds a distance to 6e-8 of the
+// ambiguity range.
+double largest_plausible_error_m(const AccuracyCheck &check) {
+  return std::max(10e-6, 1e-6 * check.ambiguity_m) + check.claimed_m;
+}
 
 // Rounding decides otherwise only where a ray all but touches an edge, in 1e-4 of the pairs at most. Ten
 // times as many are let pass, as other devices and coarser frames have other edges, and a line of pixels, as
@@ -110,7 +113,7 @@ void add_difference(AccuracyCheck &check, double difference_m) {
 AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
                       std::size_t frequency, std::size_t diodes) {
   AccuracyCheck check{sensor.name, sensor.modulation_hz[frequency], sensor.ambiguity_m(frequency),
-                      sensor.resolution};
+                      sensor.resolution, found.accuracy.claimed_m.value_or(0.0)};
   const SampleDifferences samples = differences(found, truth, sensor, diodes);
   check.pairs = samples.pairs;
   check.pairs_apart = samples.pairs_apart;
@@ -146,7 +149,7 @@ void require_plausible(const AccuracyCheck &check, const std::string &device) {
   if (check.not_finite > 0)
     fail(fmt::format("distances are not finite in {} of {} pixels where the reference's are",
                      check.not_finite, check.pixels));
-  const double limit_m = largest_plausible_error_m(check.ambiguity_m);
+  const double limit_m = largest_plausible_error_m(check);
   if (check.distance_max_m > limit_m)
     fail(fmt::format("distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
                      1e3 * check.distance_max_m, 1e3 * limit_m));
@@ -162,25 +165,33 @@ Sensor affordable(Sensor sensor, std::size_t diode_count, Shadows shadows, std::
   return coarse();
 }
 
-std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device) {
+std::vector<ReferenceFrame> reference_frames(const Setup &setup) {
   const auto &[scene, sensors, illuminators] = setup.start;
-  const std::size_t diodes = diode_count(illuminators);
-  const bool reached = setup.shadows == Shadows::automatic;
-  Camera camera(device, {.sample_triangles = true, .reached = reached});
-  std::vector<AccuracyCheck> checks;
-  ProgressBar bar(2.0 * static_cast<double>(sensors.size()));
-  const auto progress = interruptible_progress(bar);
+  std::vector<ReferenceFrame> frames;
+  ProgressBar bar(static_cast<double>(sensors.size()));
   for (const Sensor &fine : sensors) {
-    const Sensor sensor = affordable(fine, diodes, setup.shadows, sensors.size());
-    camera.prepare(scene, sensor, illuminators, setup.backscatter, setup.shadows);
+    const Sensor sensor = affordable(fine, diode_count(illuminators), setup.shadows, sensors.size());
+    bar.begin("measuring the reference", 1.0);
+    frames.push_back({sensor, reference::simulate(scene, sensor, illuminators, setup.backscatter,
+                                                  {.shadows = setup.shadows,
+                                                   .keep_reached = setup.shadows == Shadows::automatic},
+                                                  interruptible_progress(bar))});
+  }
+  return frames;
+}
+
+std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::vector<ReferenceFrame> &truth,
+                                          const std::string &device, const Accuracy &accuracy) {
+  const auto &[scene, sensors, illuminators] = setup.start;
+  Camera camera(device, {.sample_triangles = true, .reached = setup.shadows == Shadows::automatic});
+  std::vector<AccuracyCheck> checks;
+  ProgressBar bar(static_cast<double>(truth.size()));
+  for (const auto &[sensor, frame] : truth) {
+    camera.prepare(scene, sensor, illuminators, setup.backscatter, setup.shadows, accuracy);
     bar.begin("measuring what is checked", 1.0);
-    const Measurement found = camera.measure(progress);
-    bar.begin("checking against the reference", 1.0);
-    const reference::Frame truth =
-        reference::simulate(scene, sensor, illuminators, setup.backscatter,
-                            {.shadows = setup.shadows, .keep_reached = reached}, progress);
+    const Measurement found = camera.measure(interruptible_progress(bar));
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
-      checks.push_back(compare(found, truth, sensor, i, diodes));
+      checks.push_back(compare(found, frame, sensor, i, diode_count(illuminators)));
   }
   return checks;
 }

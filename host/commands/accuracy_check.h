@@ -17,6 +17,7 @@ struct AccuracyCheck {
   std::string sensor;
   double modulation_hz = 0.0, ambiguity_m = 0.0;
   glm::uvec2 resolution{0, 0}; // of the frame that was compared
+  double claimed_m = 0.0;      // what the device's frame may be off by, by its own account
   // Of samples that hit the same triangle on both, each with every diode, dark or bright: whether the diode
   // reaches it. None where shadows are off.
   std::size_t pairs = 0;
@@ -47,8 +48,17 @@ void require_plausible(const AccuracyCheck &check, const std::string &device);
 // a pixel.
 Sensor affordable(Sensor sensor, std::size_t diode_count, Shadows shadows, std::size_t sensors);
 
-// Measures every sensor's frame on both, or a coarser frame with the same view where the reference would take
-// too long; a check each frequency. Throws Error.
-std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::string &device);
+// What the reference measures of a sensor.
+struct ReferenceFrame {
+  Sensor sensor; // a coarser one with the same view where the setup's would take too long
+  reference::Frame frame;
+};
+
+// Of every sensor of the setup. Throws Error (interrupted).
+std::vector<ReferenceFrame> reference_frames(const Setup &setup);
+
+// Measures the same frames on the device; a check each sensor and frequency. Throws Error.
+std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::vector<ReferenceFrame> &truth,
+                                          const std::string &device, const Accuracy &accuracy);
 
 } // namespace pmdsim

@@ -1,9 +1,11 @@
+#include "engine/error.h"
 #include "host/commands/accuracy_check.h"
 #include "host/commands/commands.h"
 #include "host/commands/exposure.h"
 #include "host/commands/loaded_setup.h"
 #include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
+#include "host/commands/timing.h"
 #include "host/output/manifest.h"
 
 #include <algorithm>
@@ -11,19 +13,18 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
-#include <map>
+#include <optional>
 
 namespace pmdsim {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int measured_frames = 7;
-
-// Of one sensor's frame or, summed, of all sensors' frames.
-struct Timing {
-  Spread frame_ms{0.0, 0.0, 0.0};
-  std::vector<PassTime> passes; // medians, in the order of the frame
+// Of one mode.
+struct Row {
+  Mode mode = Mode::exact;
+  Timing timing;                     // of all sensors
+  std::vector<AccuracyCheck> checks; // none of the reference itself
 };
 
 std::string processor_name() {
@@ -34,67 +35,27 @@ std::string processor_name() {
   return "unknown";
 }
 
-// Nothing where the camera is the reference itself.
-std::vector<AccuracyCheck> check_before_timing(const Setup &setup, const Camera &camera,
-                                               const std::string &device) {
-  if (camera.is_reference())
-    return {};
-  std::vector<AccuracyCheck> checks = check_accuracy(setup, device);
-  for (const AccuracyCheck &check : checks)
-    require_plausible(check, camera.device());
-  return checks;
-}
-
 // Of all sensors and exposures.
 double interaction_count(const Setup &setup) {
   return samples_of_frame(setup) * static_cast<double>(diode_count(setup.start.illuminators));
 }
 
-// Only times are kept: frames of the largest sensors would not fit side by side.
-Timing time_frames(const Setup &setup, std::size_t sensor, Exposures &exposures, ProgressBar &bar) {
-  const auto measure = [&](const std::string &label) {
-    bar.begin(label, samples_of_frame(setup, setup.start.sensors[sensor]));
-    return exposures.take(sensor, setup.frames.start_s, Light::beside_lens, interruptible_progress(bar))
-        .measurement;
-  };
-  std::vector<double> frames_ms;
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<double>> passes_ms;
-  measure("warming up");
-  for (int i = 0; i < measured_frames; ++i) {
-    const Measurement measurement = measure(fmt::format("timing {}/{}", i + 1, measured_frames));
-    frames_ms.push_back(measurement.frame_ms);
-    for (const PassTime &pass : measurement.passes) {
-      if (!passes_ms.contains(pass.name))
-        order.push_back(pass.name);
-      passes_ms[pass.name].push_back(pass.ms);
-    }
-  }
-  Timing timing{spread_of(frames_ms), {}};
-  for (const std::string &name : order)
-    timing.passes.push_back({name, spread_of(passes_ms[name]).median});
-  return timing;
-}
-
-void add(Timing &sum, const Timing &timing) {
-  sum.frame_ms.min += timing.frame_ms.min;
-  sum.frame_ms.median += timing.frame_ms.median;
-  sum.frame_ms.max += timing.frame_ms.max;
-  for (const PassTime &pass : timing.passes) {
-    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
-    if (known == sum.passes.end())
-      sum.passes.push_back(pass);
-    else
-      known->ms += pass.ms;
-  }
-}
-
-Timing time_all_sensors(const Setup &setup, Exposures &exposures) {
+Timing time_all_sensors(const Setup &setup, Exposures &exposures, const std::string &mode) {
   ProgressBar bar((1 + measured_frames) * samples_of_frame(setup));
-  Timing sum;
-  for (std::size_t i = 0; i < setup.start.sensors.size(); ++i)
-    add(sum, time_frames(setup, i, exposures, bar));
-  return sum;
+  std::optional<Timing> sum;
+  for (std::size_t sensor = 0; sensor < setup.start.sensors.size(); ++sensor) {
+    const Timing timing = time_frames([&](const std::string &label) {
+      bar.begin(fmt::format("mode {}, {}", mode, label),
+                samples_of_frame(setup, setup.start.sensors[sensor]));
+      return exposures.take(sensor, setup.frames.start_s, Light::beside_lens, interruptible_progress(bar))
+          .measurement;
+    });
+    if (sum)
+      add(*sum, timing);
+    else
+      sum = timing;
+  }
+  return *sum;
 }
 
 // NaN where there is no pass named "accumulate".
@@ -114,22 +75,42 @@ double largest_error_m(const std::vector<AccuracyCheck> &checks) {
   return largest_m;
 }
 
-ordered_json report_json(const Setup &setup, const Camera &camera, const Timing &timing,
-                         const std::vector<AccuracyCheck> &checks) {
-  const ordered_json result{{"name", "setup"},
-                            {"mode", "exact"},
-                            {"frame_ms", timing.frame_ms.median},
-                            {"frame_ms_min", timing.frame_ms.min},
-                            {"frame_ms_max", timing.frame_ms.max},
-                            {"frames_per_s", frames_per_s(timing)},
-                            {"interactions_per_s", interactions_per_s(setup, timing)},
-                            {"passes_ms", passes_json(timing.passes)},
-                            {"error_found_m", largest_error_m(checks)}};
+ordered_json row_json(const Setup &setup, const Row &row) {
+  const auto &[mode, timing, checks] = row;
+  const ordered_json accuracy = accuracy_json(timing.accuracy);
+  return {{"name", "setup"},
+          {"mode", mode_name(mode)},
+          {"precision", accuracy["precision"]},
+          {"frame_ms", timing.frame_ms.median},
+          {"frame_ms_min", timing.frame_ms.min},
+          {"frame_ms_max", timing.frame_ms.max},
+          {"frames_per_s", frames_per_s(timing)},
+          {"interactions_per_s", interactions_per_s(setup, timing)},
+          {"passes_ms", passes_json(timing.passes)},
+          {"error_claimed_m", accuracy["error_claimed_m"]},
+          {"error_found_m", largest_error_m(checks)},
+          {"accuracy", accuracy}};
+}
+
+// How many times as fast as mode exact each other mode's frame is.
+ordered_json ratios_json(const std::vector<Row> &rows) {
+  ordered_json ratios = ordered_json::object();
+  for (const Row &row : rows)
+    if (row.mode != Mode::exact && rows.front().mode == Mode::exact)
+      ratios[fmt::format("exact_frame_over_{}_frame", mode_name(row.mode))] =
+          rows.front().timing.frame_ms.median / row.timing.frame_ms.median;
+  return ratios;
+}
+
+ordered_json report_json(const Setup &setup, const Camera &camera, const std::vector<Row> &rows) {
+  ordered_json results = ordered_json::array();
+  for (const Row &row : rows)
+    results.push_back(row_json(setup, row));
   return {{"device", camera.device()},
           {"driver", camera.driver()},
           {"processor", processor_name()},
-          {"results", ordered_json::array({result})},
-          {"ratios", ordered_json::object()}};
+          {"results", results},
+          {"ratios", ratios_json(rows)}};
 }
 
 std::string error_text(const AccuracyCheck &check) {
@@ -142,14 +123,15 @@ std::string error_text(const AccuracyCheck &check) {
                             1e6 * check.distance_max_m, check.pixels, check.resolution.x, check.resolution.y);
 }
 
-std::string report_text(const Setup &setup, const Camera &camera, const Timing &timing,
-                        const std::vector<AccuracyCheck> &checks) {
-  std::string text =
-      fmt::format("device     {} ({})\nprocessor  {}\n", camera.device(), camera.driver(), processor_name());
-  for (const AccuracyCheck &check : checks)
-    text += fmt::format("error      {}\n", error_text(check));
+std::string row_text(const Setup &setup, const Row &row) {
+  const auto &[mode, timing, checks] = row;
   const std::string sensors =
       setup.start.sensors.size() > 1 ? fmt::format(" of each of {} sensors", setup.start.sensors.size()) : "";
+  std::string text = fmt::format("\nmode       {}\n", sum_text(mode, timing.accuracy));
+  if (const std::string errors = errors_text(timing.accuracy); !errors.empty())
+    text += fmt::format("error      {}\n", errors);
+  for (const AccuracyCheck &check : checks)
+    text += fmt::format("error      {}\n", error_text(check));
   text += fmt::format("frame      {:.3f} ms ({:.3f} to {:.3f} in {} warm frames{}), {:.4g} frames/s\n",
                       timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max, measured_frames,
                       sensors, frames_per_s(timing));
@@ -160,18 +142,61 @@ std::string report_text(const Setup &setup, const Camera &camera, const Timing &
   return text;
 }
 
+std::string report_text(const Setup &setup, const Camera &camera, const std::vector<Row> &rows) {
+  std::string text =
+      fmt::format("device     {} ({})\nprocessor  {}\n", camera.device(), camera.driver(), processor_name());
+  for (const Row &row : rows)
+    text += row_text(setup, row);
+  return text;
+}
+
+// The one that is asked for, else all that there are.
+std::vector<Mode> modes_of(const Options &options, const Setup &setup) {
+  if (options.mode_written)
+    return {options.accuracy.mode};
+  const bool only_exact = names_the_reference(options.device) || exposes_any_tap_by_tap(setup);
+  return only_exact ? std::vector{Mode::exact} : std::vector{Mode::exact, Mode::reduced, Mode::automatic};
+}
+
+Row bench_mode(const Setup &setup, const Camera &camera, const std::vector<ReferenceFrame> &truth,
+               const std::string &device, const Accuracy &accuracy) {
+  Row row{.mode = accuracy.mode, .timing = {}, .checks = check_accuracy(setup, truth, device, accuracy)};
+  for (const AccuracyCheck &check : row.checks)
+    require_plausible(check, fmt::format("{}, mode {}", camera.device(), mode_name(accuracy.mode)));
+  Exposures exposures(setup, device, false, accuracy);
+  row.timing = time_all_sensors(setup, exposures, mode_name(accuracy.mode));
+  return row;
+}
+
+// A mode that cannot keep its error is an error only where it was asked for.
+std::vector<Row> bench_modes(const Setup &setup, const Camera &camera, const Options &options) {
+  const std::vector<ReferenceFrame> truth =
+      camera.is_reference() ? std::vector<ReferenceFrame>() : reference_frames(setup);
+  std::vector<Row> rows;
+  for (const Mode mode : modes_of(options, setup)) {
+    Accuracy accuracy = options.accuracy;
+    accuracy.mode = mode;
+    try {
+      rows.push_back(bench_mode(setup, camera, truth, options.device, accuracy));
+    } catch (const Error &error) {
+      if (options.mode_written || error.code() != ExitCode::accuracy)
+        throw;
+      fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
+    }
+  }
+  return rows;
+}
+
 } // namespace
 
 void run_bench(const Options &options) {
   const Setup setup = load_for_command(options);
-  Exposures exposures(setup, options.device, false);
-  const Camera &camera = exposures.camera();
-  const std::vector<AccuracyCheck> checks = check_before_timing(setup, camera, options.device);
-  const Timing timing = time_all_sensors(setup, exposures);
+  const Camera camera(options.device);
+  const std::vector<Row> rows = bench_modes(setup, camera, options);
   if (options.json)
-    print(report_json(setup, camera, timing, checks));
+    print(report_json(setup, camera, rows));
   else
-    print(report_text(setup, camera, timing, checks));
+    print(report_text(setup, camera, rows));
 }
 
 } // namespace pmdsim

@@ -11,12 +11,6 @@
 namespace pmdsim {
 namespace {
 
-// In any case, as the names of devices.
-bool names_the_reference(const std::string &device) {
-  return std::ranges::equal(device, std::string_view("reference"), {},
-                            [](unsigned char c) { return std::tolower(c); });
-}
-
 bool validation_is_asked_for() {
   // The program never changes its environment.
   const char *value = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
@@ -24,6 +18,11 @@ bool validation_is_asked_for() {
 }
 
 } // namespace
+
+bool names_the_reference(const std::string &device) {
+  return std::ranges::equal(device, std::string_view("reference"), {},
+                            [](unsigned char c) { return std::tolower(c); });
+}
 
 Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
   if (names_the_reference(device)) {
@@ -57,6 +56,8 @@ Measurement Camera::measure(const Progress &progress) {
   const auto &[scene, sensor, illuminators, backscatter, shadows] = prepared_;
   Measurement measurement = reference::to_measurement(
       reference::simulate(*scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
+  measurement.accuracy.precision = Precision::fp64;
+  measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
   if (!extras_.taps)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();

@@ -21,7 +21,7 @@ ordered_json sensor_json(const SensorFindings &findings) {
   return {
       {"name", sensor.name},
       {"resolution", {sensor.resolution.x, sensor.resolution.y}},
-      {"samples", sensor.samples},
+      {"samples", sample_choice_json({sensor.samples, sensor.adaptive_samples})},
       {"image_distance_m", sensor.image_distance_m()},
       {"field_of_view_deg", {view.horizontal_deg, view.vertical_deg}},
       {"field_of_view_diagonal_deg", view.diagonal_deg},
@@ -114,8 +114,9 @@ std::string sensor_text(const SensorFindings &findings) {
   const glm::dvec2 footprint_mm = 1e3 * view.footprint_at_1m_m;
   std::string text =
       "\n" + line("sensor", sensor.name) + line("visible", visible_text(visible)) +
-      line("resolution", fmt::format("{} x {}, {} x {} samples a pixel", sensor.resolution.x,
-                                     sensor.resolution.y, sensor.samples, sensor.samples)) +
+      line("resolution",
+           fmt::format("{} x {}, {}{} x {} samples a pixel", sensor.resolution.x, sensor.resolution.y,
+                       sensor.adaptive_samples ? "up to " : "", sensor.samples, sensor.samples)) +
       line("field of view", fmt::format("{:.3f}° x {:.3f}°, {:.3f}° along the diagonal", view.horizontal_deg,
                                         view.vertical_deg, view.diagonal_deg)) +
       line("pixel footprint at 1 m", fmt::format("{:.4g} mm x {:.4g} mm", footprint_mm.x, footprint_mm.y)) +

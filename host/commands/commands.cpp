@@ -12,6 +12,8 @@ void run_command(const Options &options) {
     return run_check(options);
   case Command::bench:
     return run_bench(options);
+  case Command::tradeoff:
+    return run_tradeoff(options);
   case Command::import_calibration:
     return run_import_calibration(options);
   case Command::devices:

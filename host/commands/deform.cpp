@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace pmdsim {
@@ -28,15 +29,36 @@ struct DeformedFrame {
   std::string sensor;
   std::vector<double> modulation_hz;
   std::vector<DeformationStatistics> statistics; // of each frequency
+  Mode mode;
+  AccuracyReport accuracy; // of the deformation
 };
 
-// Only the distances are kept while the frame with the light beside the lens is measured.
-Maps monostatic_distances_m(Exposures &exposures, const SensorFrame &at, const Progress &progress) {
-  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress);
+// What is kept of the frame with the light in the lens while the other is measured.
+struct Monostatic {
   Maps distances_m;
+  AccuracyReport accuracy;
+};
+
+Monostatic take_monostatic(Exposures &exposures, const SensorFrame &at, const Progress &progress) {
+  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress);
+  Monostatic monostatic{{}, frame.measurement.accuracy};
   for (Return &of_frequency : frame.measurement.returns)
-    distances_m.push_back(std::move(of_frequency.distance_m));
-  return distances_m;
+    monostatic.distances_m.push_back(std::move(of_frequency.distance_m));
+  return monostatic;
+}
+
+// The errors of two distances add up in their difference, at worst. It has no amplitude.
+AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyReport &monostatic) {
+  const auto sum = [](const std::optional<double> &a, const std::optional<double> &b) {
+    return a && b ? std::optional(*a + *b) : std::nullopt;
+  };
+  AccuracyReport difference = bistatic;
+  difference.claimed_m = sum(bistatic.claimed_m, monostatic.claimed_m);
+  difference.found_m = sum(bistatic.found_m, monostatic.found_m);
+  difference.claimed_amplitude = difference.found_amplitude = std::nullopt;
+  difference.checked_pixels = std::min(bistatic.checked_pixels, monostatic.checked_pixels);
+  difference.check_ms += monostatic.check_ms;
+  return difference;
 }
 
 void write_profile_plot(OutputSet &outputs, const FrameToWrite &frame, const Channel &deformation) {
@@ -84,16 +106,23 @@ std::vector<DeformedFrame> deform(const Setup &setup, const FrameRange &frames,
   sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
     const double work = samples_of_frame(setup, setup.start.sensors[at.sensor]);
     bar.begin(at.label + ", monostatic", work);
-    const Maps monostatic_m = monostatic_distances_m(exposures, at, progress);
+    const Monostatic monostatic = take_monostatic(exposures, at, progress);
     bar.begin(at.label + ", bistatic", work);
     const TakenFrame bistatic = exposures.take(at.sensor, at.time_s, Light::beside_lens, progress);
-    const auto &[sensor, measurement] = bistatic;
-    const Maps deformations = deformations_mm(bistatic, monostatic_m);
+    const auto &[sensor, measurement, mode] = bistatic;
+    const Maps deformations = deformations_mm(bistatic, monostatic.distances_m);
     write_files(files, sensor, at.frame, measurement, deformations, formats);
-    deformed.push_back({at.frame, at.time_s, sensor.name, sensor.modulation_hz, {}});
+    deformed.push_back({at.frame,
+                        at.time_s,
+                        sensor.name,
+                        sensor.modulation_hz,
+                        {},
+                        mode,
+                        of_difference(measurement.accuracy, monostatic.accuracy)});
     for (const std::vector<float> &deformation : deformations)
       deformed.back().statistics.push_back(statistics_of(deformation, measurement.resolution));
-    return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, {}};
+    return {
+        sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
   });
   return deformed;
 }
@@ -116,7 +145,9 @@ ordered_json report_json(const std::vector<DeformedFrame> &frames, const FrameSe
                     {"frame", frame.frame},
                     {"time_s", frame.time_s},
                     {"modulation_hz", frame.modulation_hz},
-                    {"deformation_mm", deformations}});
+                    {"deformation_mm", deformations},
+                    {"mode", mode_name(frame.mode)}});
+    list.back().update(accuracy_json(frame.accuracy));
   }
   return {{"deformation_mm", statistics_json(frames.front().statistics.front())},
           {"frames", list},
@@ -145,12 +176,22 @@ std::string table_text(const std::vector<DeformedFrame> &frames) {
   return text;
 }
 
+// Of the first frame's deformations, sensor by sensor.
+std::string accuracies_text(const std::vector<DeformedFrame> &frames) {
+  std::string text;
+  for (const DeformedFrame &frame : frames)
+    if (const std::string said = accuracy_text(frame.mode, frame.accuracy);
+        frame.frame == frames.front().frame && !said.empty())
+      text += fmt::format("\n{}\n{}", frame.sensor, said);
+  return text;
+}
+
 std::string report_text(const std::vector<DeformedFrame> &frames, const FrameSequence &sequence) {
   std::string text = fmt::format("device    {} ({})\n\n", sequence.run().device, sequence.run().driver);
   text += "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
   if (frames.back().frame != frames.front().frame)
     text += fmt::format("of frame {}; --json tells of all\n", frames.front().frame);
-  return text + "\n" + sequence.written_text();
+  return text + accuracies_text(frames) + "\n" + sequence.written_text();
 }
 
 } // namespace
@@ -159,10 +200,10 @@ void run_deform(const Options &options) {
   const Setup setup = load_for_command(options);
   const FrameRange frames = frames_of(options, setup);
   require_names_for_files(setup.start.sensors);
-  Exposures exposures(setup, options.device, false);
+  Exposures exposures(setup, options.device, false, options.accuracy);
   const Camera &camera = exposures.camera();
   FrameSequence sequence(setup, frames, options.output_directory,
-                         {"deform", camera.device(), camera.driver(), "exact", setup.as_used, {}});
+                         {"deform", camera.device(), camera.driver(), options.accuracy, setup.as_used, {}});
   const std::vector<DeformedFrame> deformed = deform(setup, frames, options.formats, exposures, sequence);
   if (options.json)
     print(report_json(deformed, sequence));

@@ -12,11 +12,6 @@ std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
   return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
 }
 
-bool exposes_any_tap_by_tap(const Setup &setup) {
-  return std::ranges::any_of(setup.start.sensors,
-                             [&](const Sensor &sensor) { return exposes_tap_by_tap(setup, sensor); });
-}
-
 void add_times(Measurement &sum, const Measurement &exposure) {
   sum.frame_ms += exposure.frame_ms;
   for (const PassTime &pass : exposure.passes) {
@@ -32,6 +27,11 @@ void add_times(Measurement &sum, const Measurement &exposure) {
 
 bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor) {
   return setup.motion && sensor.tap_interval_s > 0.0;
+}
+
+bool exposes_any_tap_by_tap(const Setup &setup) {
+  return std::ranges::any_of(setup.start.sensors,
+                             [&](const Sensor &sensor) { return exposes_tap_by_tap(setup, sensor); });
 }
 
 double samples_of_frame(const Setup &setup, const Sensor &sensor) {
@@ -79,7 +79,7 @@ const Instant &Exposures::instant_at(double time_s) {
   return moved_->instant;
 }
 
-void Exposures::prepare(View view) {
+void Exposures::prepare(View view, const Accuracy &accuracy) {
   if (!setup_.motion)
     view.time_s = setup_.frames.start_s; // one time is like another
   if (prepared_ == view)
@@ -91,27 +91,29 @@ void Exposures::prepare(View view) {
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
   if (view.light == Light::in_lens) // it reaches whatever the lens sees
     camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                    setup_.backscatter, Shadows::off, accuracy_);
+                    setup_.backscatter, Shadows::off, accuracy);
   else
     camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows,
-                    accuracy_);
+                    accuracy);
   prepared_ = view;
 }
 
 TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress) {
-  TakenFrame frame{instant_at(time_s).sensors[sensor], {}};
+  TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
   if (exposes_tap_by_tap(setup_, frame.sensor)) {
     const auto count = static_cast<double>(exposures_of_frame(setup_, frame.sensor));
     double done = 0.0;
+    frame.mode = Mode::exact;
     const auto expose = [&](std::size_t frequency, double exposure_s) {
-      prepare({sensor, frequency, exposure_s, light});
+      prepare({sensor, frequency, exposure_s, light},
+              {.mode = Mode::exact, .precision = accuracy_.precision});
       Measurement exposure = camera_.measure([&](double fraction) { progress((done + fraction) / count); });
       done += 1.0;
       return exposure;
     };
     frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
   } else {
-    prepare({sensor, std::nullopt, time_s, light});
+    prepare({sensor, std::nullopt, time_s, light}, accuracy_);
     frame.measurement = camera_.measure(progress);
   }
   if (!keep_taps_)

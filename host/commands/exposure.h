@@ -18,6 +18,8 @@ enum class Light { beside_lens, in_lens };
 // Whether every tap of the sensor's frames is an exposure of its own.
 bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor);
 
+bool exposes_any_tap_by_tap(const Setup &setup);
+
 // Samples that are measured for one frame, in all its exposures; of one sensor, and of all.
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);
@@ -33,12 +35,15 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 struct TakenFrame {
   Sensor sensor; // where it was when the frame began
   Measurement measurement;
+  Mode mode = Mode::exact; // that it was taken in
 };
 
 // Takes frames of a setup, which must outlive it, on one device.
 class Exposures {
 public:
-  // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken.
+  // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken. Frames whose taps
+  // are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each exposure's
+  // error is none of what phase and distance make of a tap from each.
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
 
   const Camera &camera() const { return camera_; }
@@ -64,7 +69,7 @@ private:
   };
 
   const Instant &instant_at(double time_s);
-  void prepare(View view);
+  void prepare(View view, const Accuracy &accuracy);
 
   const Setup &setup_;
   bool keep_taps_;

@@ -30,7 +30,8 @@ std::string spread_line(const std::string &quantity, const std::vector<float> &v
                      table_number(max), unit);
 }
 
-std::string frame_text(const Sensor &sensor, std::uint32_t frame, const Measurement &measurement) {
+std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
+  const auto &[sensor, measurement, mode] = taken;
   std::string text = fmt::format("{}, frame {}, {:.3f} ms\n", sensor.name, frame, measurement.frame_ms);
   text += fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
   for (std::size_t i = 0; i < measurement.returns.size(); ++i) {
@@ -40,8 +41,8 @@ std::string frame_text(const Sensor &sensor, std::uint32_t frame, const Measurem
     text += spread_line("distance" + at, measurement.returns[i].distance_m, "m");
     text += spread_line("amplitude" + at, measurement.returns[i].amplitude, "W/(m² sr)");
   }
-  return text + fmt::format("{:.2f} % of the samples hit the scene\n\n",
-                            100.0 * mean_coverage(measurement.coverage));
+  text += fmt::format("{:.2f} % of the samples hit the scene\n", 100.0 * mean_coverage(measurement.coverage));
+  return text + accuracy_text(mode, measurement.accuracy) + "\n";
 }
 
 // Beside its own files a frame names the manifest, which says how to read them.
@@ -50,21 +51,23 @@ ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence)
   for (const std::string &name : frame.outputs)
     paths.push_back(sequence.path_of(name));
   paths.push_back(sequence.path_of(manifest_name));
-  return {{"sensor", frame.sensor.name},
-          {"frame", frame.frame},
-          {"time_s", frame.time_s},
-          {"frame_ms", frame.frame_ms},
-          {"passes_ms", passes_json(frame.passes)},
-          {"error_claimed_m", nullptr},
-          {"error_found_m", nullptr},
-          {"outputs", paths}};
+  ordered_json json{{"sensor", frame.sensor.name},
+                    {"frame", frame.frame},
+                    {"time_s", frame.time_s},
+                    {"frame_ms", frame.frame_ms},
+                    {"passes_ms", passes_json(frame.passes)}};
+  json.update(accuracy_json(frame));
+  json["outputs"] = paths;
+  return json;
 }
 
 ordered_json report_json(const FrameSequence &sequence) {
   ordered_json frames = ordered_json::array();
   for (const FrameRecord &frame : sequence.run().frames)
     frames.push_back(frame_json(frame, sequence));
-  return {{"device", sequence.run().device}, {"mode", sequence.run().mode}, {"frames", frames}};
+  return {{"device", sequence.run().device},
+          {"mode", mode_name(sequence.run().accuracy.mode)},
+          {"frames", frames}};
 }
 
 // Writes all frames and returns what is to be said of the first.
@@ -76,13 +79,15 @@ std::string render(const Setup &setup, const FrameRange &frames, const std::set<
   // side by side.
   sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
     bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
-    const auto [sensor, measurement] =
+    const TakenFrame taken =
         exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar));
+    const auto &[sensor, measurement, mode] = taken;
     const std::vector<std::string> previewed{"amplitude", "phase_rad", "distance_m", "lit"};
     write_frame(files, {sensor, at.frame, channels_of(measurement), previewed}, formats);
     if (at.frame == frames.first)
-      text += frame_text(sensor, at.frame, measurement);
-    return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, {}};
+      text += frame_text(taken, at.frame);
+    return {
+        sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
   });
   return text;
 }
@@ -93,10 +98,10 @@ void run_render(const Options &options) {
   const Setup setup = load_for_command(options);
   const FrameRange frames = frames_of(options, setup);
   require_names_for_files(setup.start.sensors);
-  Exposures exposures(setup, options.device, true);
+  Exposures exposures(setup, options.device, true, options.accuracy);
   const Camera &camera = exposures.camera();
   FrameSequence sequence(setup, frames, options.output_directory,
-                         {"render", camera.device(), camera.driver(), "exact", setup.as_used, {}});
+                         {"render", camera.device(), camera.driver(), options.accuracy, setup.as_used, {}});
   const std::string text = render(setup, frames, options.formats, exposures, sequence);
   if (options.json)
     print(report_json(sequence));

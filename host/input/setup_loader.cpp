@@ -9,7 +9,6 @@
 #include "host/input/schemas.h"
 #include "host/input/setup_illuminator.h"
 #include "host/input/setup_sensor.h"
-#include "host/input/setup_support.h"
 
 #include <fmt/format.h>
 #include <set>
@@ -52,9 +51,7 @@ ordered_json read_setup(const Place &root) {
   const json document = parse_json(text, root.file, Comments::allowed);
   check_schema(document, schema, root.file);
   refuse_second_pattern(document, root);
-  ordered_json setup = with_all_defaults(document, ordered_schema);
-  refuse_unsupported(setup, root);
-  return setup;
+  return with_all_defaults(document, ordered_schema);
 }
 
 FrameTimes frame_times_of(const ordered_json &frames, const Place &place) {

@@ -2,6 +2,7 @@
 
 #include "host/input/lens_check.h"
 #include "host/input/limits.h"
+#include "host/input/sample_choice.h"
 #include "host/input/setup_pose.h"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   result.waveform = waveform_of(sensor.at("waveform"), place / "waveform");
   result.taps = sensor.at("taps");
   result.tap_interval_s = sensor.at("tap_interval_s");
-  result.samples = sensor.at("samples");
+  set_samples(result, sample_choice_of(sensor.at("samples")));
   check_highest_harmonic(result, place);
   check_lens(result, place);
   return result;

@@ -65,6 +65,21 @@ Axis make_axis(const Range &range, int max_ticks) {
   return axis;
 }
 
+Axis make_log_axis(const Range &range) {
+  constexpr double tolerance = 1e-9;
+  Axis axis{{std::log10(range.min), std::log10(range.max)}, 0, {}};
+  const int first = static_cast<int>(std::floor(axis.range.min)), last = static_cast<int>(axis.range.max) + 1;
+  const bool few = axis.range.span() < 2.0;
+  for (int exponent = first; exponent <= last; ++exponent)
+    for (const double mantissa : {1.0, 2.0, 5.0}) {
+      const double value = exponent + std::log10(mantissa);
+      const bool is_inside = value >= axis.range.min - tolerance && value <= axis.range.max + tolerance;
+      if (is_inside && (few || mantissa == 1.0))
+        axis.ticks.push_back({value, fmt::format("{:g}", mantissa * std::pow(10.0, exponent))});
+    }
+  return axis;
+}
+
 std::string axis_title(const std::string &quantity, const std::string &unit, int exponent) {
   std::string scaled_unit = exponent == 0 ? "" : "10" + superscript(exponent);
   if (!unit.empty())

@@ -27,6 +27,10 @@ struct Axis {
 // At most `max_ticks` ticks (at least 1) within `range`, whose span is positive and finite.
 Axis make_axis(const Range &range, int max_ticks);
 
+// A logarithmic axis over positive values: `range` and the ticks' values are their decimal logarithms, the
+// labels the values themselves, at powers of ten, and at 2 and 5 times these where there are few.
+Axis make_log_axis(const Range &range);
+
 // "deformation (mm)", "amplitude (10⁻³ W/(m² sr))", "coverage".
 std::string axis_title(const std::string &quantity, const std::string &unit, int exponent);
 

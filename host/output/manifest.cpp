@@ -2,6 +2,7 @@
 
 #include "host/output/intrinsics.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -19,24 +20,32 @@ ordered_json matrix_json(const Pose &a_from_b) {
   return rows;
 }
 
-// The exact sum claims no error of its own and is not compared with anything here: both errors are unknown,
-// null.
+// The error that is bounded, null where none is.
+ordered_json asked_json(const Accuracy &accuracy) {
+  const auto bound = [&](double error) {
+    return accuracy.mode == Mode::exact || std::isinf(error) ? ordered_json(nullptr) : ordered_json(error);
+  };
+  return {{"mode", mode_name(accuracy.mode)},
+          {"max_error_m", bound(accuracy.max_error_m)},
+          {"max_amplitude_error", bound(accuracy.max_amplitude_error)}};
+}
+
 ordered_json frame_json(const FrameRecord &record) {
-  return {{"sensor", record.sensor.name},
-          {"frame", record.frame},
-          {"time_s", record.time_s},
-          {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
-          {"modulation_hz", record.sensor.modulation_hz},
-          {"ambiguity_m", ambiguities_m(record.sensor)},
-          {"waveform", waveform_json(record.sensor.waveform)},
-          {"taps", record.sensor.taps},
-          {"tap_interval_s", record.sensor.tap_interval_s},
-          {"camera", camera_json(record.sensor)},
-          {"frame_ms", record.frame_ms},
-          {"passes_ms", passes_json(record.passes)},
-          {"error_claimed_m", nullptr},
-          {"error_found_m", nullptr},
-          {"outputs", record.outputs}};
+  ordered_json frame{{"sensor", record.sensor.name},
+                     {"frame", record.frame},
+                     {"time_s", record.time_s},
+                     {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
+                     {"modulation_hz", record.sensor.modulation_hz},
+                     {"ambiguity_m", ambiguities_m(record.sensor)},
+                     {"waveform", waveform_json(record.sensor.waveform)},
+                     {"taps", record.sensor.taps},
+                     {"tap_interval_s", record.sensor.tap_interval_s},
+                     {"camera", camera_json(record.sensor)},
+                     {"frame_ms", record.frame_ms},
+                     {"passes_ms", passes_json(record.passes)}};
+  frame.update(accuracy_json(record));
+  frame["outputs"] = record.outputs;
+  return frame;
 }
 
 // All lines but the first begin with `spaces` more.
@@ -102,6 +111,12 @@ std::vector<double> ambiguities_m(const Sensor &sensor) {
   return ambiguities;
 }
 
+ordered_json accuracy_json(const FrameRecord &record) {
+  ordered_json json{{"mode", mode_name(record.mode)}};
+  json.update(accuracy_json(record.accuracy));
+  return json;
+}
+
 ordered_json passes_json(const std::vector<PassTime> &passes) {
   ordered_json json = ordered_json::object();
   for (const PassTime &pass : passes)
@@ -110,9 +125,14 @@ ordered_json passes_json(const std::vector<PassTime> &passes) {
 }
 
 void write_manifest(OutputFile &file, const RunRecord &run) {
-  const ordered_json head{{"program", "pmdsim"},  {"version", PMDSIM_VERSION},     {"command", run.command},
-                          {"device", run.device}, {"driver", run.driver},          {"mode", run.mode},
-                          {"setup", run.setup},   {"points", how_to_make_points()}};
+  ordered_json head{{"program", "pmdsim"},
+                    {"version", PMDSIM_VERSION},
+                    {"command", run.command},
+                    {"device", run.device},
+                    {"driver", run.driver}};
+  head.update(asked_json(run.accuracy));
+  head["setup"] = run.setup;
+  head["points"] = how_to_make_points();
   std::string text = json_text(head);
   text.erase(text.find_last_of('}') - 1); // the end of the object and its line
   file.write(text + ",\n  \"frames\": [");

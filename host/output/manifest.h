@@ -12,6 +12,7 @@
 
 #include "engine/measurement.h"
 #include "engine/sensor.h"
+#include "host/output/accuracy_record.h"
 #include "host/output/output_file.h"
 
 #include <nlohmann/json.hpp>
@@ -27,13 +28,15 @@ struct FrameRecord {
   double time_s = 0.0; // when it began
   double frame_ms = 0.0;
   std::vector<PassTime> passes;
-  std::vector<std::string> outputs; // file names without directory
+  Mode mode = Mode::exact; // that it was taken in
+  AccuracyReport accuracy;
+  std::vector<std::string> outputs{}; // file names without directory
 };
 
 struct RunRecord {
   std::string command; // "render" or "deform"
   std::string device, driver;
-  std::string mode = "exact";
+  Accuracy accuracy;            // asked for
   nlohmann::ordered_json setup; // as used
   std::vector<FrameRecord> frames;
 };
@@ -48,6 +51,9 @@ nlohmann::ordered_json waveform_json(const Waveform &waveform);
 
 // The ambiguity range of every frequency.
 std::vector<double> ambiguities_m(const Sensor &sensor);
+
+// What a frame came to: mode and what accuracy_json() has of it.
+nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);

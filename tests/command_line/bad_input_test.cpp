@@ -103,11 +103,6 @@ TEST_CASE("cameras that cannot be") {
   check_setup_refused("0.0018,", "0.0018, \"taps\": 17,", {"/sensors/0/taps", "3 to 16"});
 }
 
-TEST_CASE("what is not there yet is refused by name") {
-  check_setup_refused("0.0018,", "0.0018, \"samples\": \"auto\",",
-                      {"/sensors/0/samples", "not supported yet"});
-}
-
 TEST_CASE("frames and taps at no time") {
   const auto refuse_frames = [](const std::string &frames, const std::vector<std::string> &fragments) {
     check_setup_refused("\"sensors\":", "\"frames\": " + frames + ", \"sensors\":", fragments);
@@ -230,8 +225,13 @@ TEST_CASE("wrong command lines") {
                                                     {"render", "a.json", "--speed"},
                                                     {"render", "a.json", "--samples", "17"},
                                                     {"render", "a.json", "--format", "gif"},
-                                                    {"render", "a.json", "--mode", "auto"},
-                                                    {"tradeoff", "a.json"}}) {
+                                                    {"render", "a.json", "--samples", "all"},
+                                                    {"render", "a.json", "--mode", "fast"},
+                                                    {"render", "a.json", "--no-wide-vectors"},
+                                                    {"check", "a.json", "--mode", "exact"},
+                                                    {"bench"},
+                                                    {"tradeoff"},
+                                                    {"tradeoff", "a.json", "--device", "Reference"}}) {
     const Run run = run_pmdsim(arguments);
     INFO(run.errors);
     CHECK(run.exit_code == 2);

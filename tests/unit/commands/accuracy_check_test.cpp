@@ -108,6 +108,16 @@ TEST_CASE("a distance that is too far off fails") {
       "device: sensor pmd at 20 MHz: distances differ from the reference by up to "));
 }
 
+TEST_CASE("an error that is claimed is plausible, a larger one is not") {
+  Frames frames;
+  frames.found.accuracy.claimed_m = 0.002;
+  frames.found.returns[0].distance_m[5] += 0.001F;
+  CHECK(frames.check().claimed_m == 0.002);
+  CHECK(frames.failure() == "none");
+  frames.found.returns[0].distance_m[5] += 0.002F;
+  CHECK(frames.failure().find("expected at most 2.01 mm") != std::string::npos);
+}
+
 TEST_CASE("a distance that is not finite fails, be it one or all") {
   const float value = GENERATE(as<float>{}, not_a_number, std::numeric_limits<float>::infinity());
   Frames frames;

@@ -135,6 +135,18 @@ TEST_CASE("tap by tap, a scene at rest measures what one exposure does") {
     }
 }
 
+TEST_CASE("tap by tap frames are taken in mode exact whatever is asked for") {
+  const LoadedWall at_once(1e-3, false), in_sequence(1e-3, true);
+  const auto mode_of = [](const Setup &setup, Mode mode) {
+    Accuracy accuracy;
+    accuracy.mode = mode;
+    return Exposures(setup, "", false, accuracy).take(0, 0.0, Light::beside_lens, no_progress).mode;
+  };
+  CHECK(mode_of(at_once.setup, Mode::automatic) == Mode::automatic);
+  CHECK(mode_of(at_once.setup, Mode::exact) == Mode::exact);
+  CHECK(mode_of(in_sequence.setup, Mode::automatic) == Mode::exact);
+}
+
 TEST_CASE("the setup's light casts its shadows, light in the lens none") {
   const std::string device = GENERATE(as<std::string>{}, "", "reference");
   LoadedWall wall(1e-3, GENERATE(false, true));

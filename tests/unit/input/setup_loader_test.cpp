@@ -57,6 +57,18 @@ TEST_CASE("Values that are given are used") {
   CHECK(diodes_of(setup)[0].intensity_w_sr == 3.0);
 }
 
+TEST_CASE("Samples are a number or automatic") {
+  SetupFixture fixture;
+  CHECK_FALSE(fixture.load().start.sensors[0].adaptive_samples);
+  fixture.sensor()["samples"] = "auto";
+  const Setup setup = fixture.load();
+  CHECK(setup.start.sensors[0].adaptive_samples);
+  CHECK(setup.start.sensors[0].samples == 4);
+  CHECK(setup.as_used["sensors"][0]["samples"] == "auto");
+  fixture.sensor()["samples"] = "many";
+  CHECK_THAT(fixture.error(), Catch::Contains("/sensors/0/samples: expected ") && Catch::Contains("\"many\""));
+}
+
 TEST_CASE("Without a pose the camera looks along -Z, +Y up, and the light is with it") {
   const Setup setup = SetupFixture().load();
   const Pose &pose = setup.start.sensors[0].world_from_camera;

@@ -10,12 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-std::string setup_error(const std::string &pointer, const json &value) {
-  SetupFixture fixture;
-  fixture.setup[json::json_pointer(pointer)] = value;
-  return fixture.error();
-}
-
 std::string scene_error(const std::string &pointer, const json &value) {
   SetupFixture fixture;
   fixture.scene[json::json_pointer(pointer)] = value;
@@ -23,19 +17,6 @@ std::string scene_error(const std::string &pointer, const json &value) {
 }
 
 } // namespace
-
-TEST_CASE("Setup keys of later features are refused by name") {
-  CHECK_THAT(setup_error("/sensors/0/samples", "auto"), Contains("/samples: not supported yet"));
-}
-
-TEST_CASE("Setup keys of later features are refused in every sensor") {
-  SetupFixture fixture;
-  json second = fixture.sensor();
-  second["name"] = "second";
-  second["samples"] = "auto";
-  fixture.setup["sensors"].push_back(second);
-  CHECK_THAT(fixture.error(), Contains("/sensors/1/samples: not supported yet"));
-}
 
 TEST_CASE("Required extensions are those that are there, or change nothing that is simulated") {
   const auto load_requiring = [](const json &names) {

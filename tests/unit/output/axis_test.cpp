@@ -42,6 +42,22 @@ TEST_CASE("there are never too many ticks and always some, whatever the range") 
     }
 }
 
+TEST_CASE("a logarithmic axis has powers of ten, and what is between where these are few") {
+  const auto log_labels = [](const Range &range) {
+    Labels texts;
+    for (const Tick &tick : make_log_axis(range).ticks)
+      texts.push_back(tick.label);
+    return texts;
+  };
+  CHECK(log_labels({0.01, 100.0}) == Labels{"0.01", "0.1", "1", "10", "100"});
+  CHECK(log_labels({0.3, 12.0}) == Labels{"0.5", "1", "2", "5", "10"});
+  CHECK(log_labels({1.1, 4.5}) == Labels{"2"});
+  const Axis axis = make_log_axis({0.1, 1000.0});
+  CHECK(axis.range.min == Approx(-1.0));
+  CHECK(axis.range.span() == Approx(4.0));
+  CHECK(axis.ticks[1].value == 0.0);
+}
+
 TEST_CASE("small and large numbers leave their power of ten to the title") {
   const Axis small = make_axis({0.0, 5e-6}, 6);
   CHECK(small.exponent == -6);

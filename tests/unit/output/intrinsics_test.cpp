@@ -183,13 +183,14 @@ TEST_CASE("a chip turned about the axis has no focal lengths but a whole matrix"
 }
 
 TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact mode") {
-  const RunRecord run{"render",
-                      "some device",
-                      "some driver",
-                      "exact",
-                      {{"scene", "wall.gltf"}},
-                      {{small_sensor(), 7, 0.35, 1.5, {{"accumulate", 1.25}}, {"pmd_0007.exr"}},
-                       {small_sensor(), 8, 0.40, 1.5, {}, {"pmd_0008.exr"}}}};
+  const RunRecord run{
+      "render",
+      "some device",
+      "some driver",
+      {},
+      {{"scene", "wall.gltf"}},
+      {{small_sensor(), 7, 0.35, 1.5, {{"accumulate", 1.25}}, Mode::exact, {}, {"pmd_0007.exr"}},
+       {small_sensor(), 8, 0.40, 1.5, {}, Mode::exact, {}, {"pmd_0008.exr"}}}};
   const auto manifest = manifest_of(run);
   CHECK(manifest["setup"]["scene"] == "wall.gltf");
   CHECK(manifest["device"] == "some device");
@@ -210,13 +211,34 @@ TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact 
   CHECK(frame["camera"]["distortion"] == nlohmann::json{0.0, 0.0, 0.0, 0.0, 0.0});
 }
 
+TEST_CASE("a manifest tells what error was asked for, and what each frame came to") {
+  RunRecord run{"render", "device", "driver", {}, {}, {}};
+  run.accuracy.mode = Mode::automatic;
+  run.accuracy.max_error_m = 1e-4;
+  AccuracyReport accuracy;
+  accuracy.diodes = 15;
+  accuracy.claimed_m = 3e-5;
+  accuracy.found_m = 2e-5;
+  run.frames = {{small_sensor(), 0, 0.0, 1.5, {}, Mode::exact, {}, {}},
+                {small_sensor(), 1, 0.0, 1.5, {}, Mode::automatic, accuracy, {}}};
+  const auto manifest = manifest_of(run);
+  CHECK(manifest["mode"] == "auto");
+  CHECK(manifest["max_error_m"] == 1e-4);
+  CHECK(manifest["max_amplitude_error"].is_null());
+  CHECK(manifest["frames"][0]["mode"] == "exact");
+  CHECK(manifest["frames"][1]["mode"] == "auto");
+  CHECK(manifest["frames"][1]["diodes"] == 15);
+  CHECK(manifest["frames"][1]["error_claimed_m"] == 3e-5);
+  CHECK(manifest["frames"][1]["error_found_m"] == 2e-5);
+}
+
 TEST_CASE(
     "a frame of several frequencies has an ambiguity range each, and its waveform as a setup writes it") {
   Sensor sensor = small_sensor();
   sensor.modulation_hz = {20e6, 30e6};
   sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.1}};
-  const auto frame =
-      manifest_of({"render", "device", "driver", "exact", {}, {{sensor, 0, 0.0, 1.0, {}, {}}}})["frames"][0];
+  const auto frame = manifest_of(
+      {"render", "device", "driver", {}, {}, {{sensor, 0, 0.0, 1.0, {}, Mode::exact, {}, {}}}})["frames"][0];
   CHECK(frame["modulation_hz"] == nlohmann::json{20e6, 30e6});
   CHECK(frame["ambiguity_m"].at(1).get<double>() == Approx(299792458.0 / 60e6));
   CHECK(frame["waveform"]["harmonics"] == nlohmann::json{1.0, 0.1});

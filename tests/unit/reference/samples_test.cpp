@@ -119,6 +119,38 @@ TEST_CASE("a pixel whose centre sees nothing has no id, whatever else it sees") 
   CHECK(frame.object_id[0] == no_id);
 }
 
+TEST_CASE("chosen pixels measure what they measure in the whole frame") {
+  Sensor sensor = one_wide_pixel(3);
+  sensor.resolution = {5, 4};
+  sensor.pixel_pitch_m /= 5.0;
+  SceneBuilder builder;
+  builder.add_wall({1.2, {}, {-0.3, -0.3}, {0.25, 0.1}});
+  builder.add_wall({2.0, {}, {-0.9, -0.9}, {0.7, 0.7}});
+  const auto measured = [&](const std::vector<std::uint32_t> &pixels) {
+    return reference::simulate(
+        builder.scene(), sensor,
+        {diode_beside_lens(sensor, diode_at({0.1, 0, 0})), monostatic_illuminator(sensor.world_from_camera)},
+        Backscatter::lambert, {.shadows = Shadows::automatic, .keep_reached = true, .pixels = pixels});
+  };
+  const std::vector<std::uint32_t> pixels{17, 3, 4, 11, 12};
+  const auto whole = measured({}), chosen = measured(pixels);
+  CHECK(chosen.resolution == glm::uvec2(1, 5));
+  REQUIRE(chosen.sample_triangle_id.size() == 5 * 9);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    INFO("pixel " << pixels[i]);
+    CHECK(chosen.returns[0].z[i] == whole.returns[0].z[pixels[i]]);
+    CHECK(chosen.returns[0].taps[1][i] == whole.returns[0].taps[1][pixels[i]]);
+    CHECK(chosen.coverage[i] == whole.coverage[pixels[i]]);
+    CHECK(chosen.lit[i] == whole.lit[pixels[i]]);
+    CHECK(chosen.triangle_id[i] == whole.triangle_id[pixels[i]]);
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::size_t row = pixels[i] / 5 * 3 + k / 3, column = pixels[i] % 5 * 3 + k % 3;
+      CHECK(chosen.sample_triangle_id[9 * i + k] == whole.sample_triangle_id[15 * row + column]);
+      CHECK(chosen.sample_reached[9 * i + k] == whole.sample_reached[15 * row + column]);
+    }
+  }
+}
+
 TEST_CASE("an empty scene is dark and without distance") {
   const auto frame = monostatic_frame({}, axial_sensor({3, 2}));
   for (std::size_t pixel = 0; pixel < 6; ++pixel) {

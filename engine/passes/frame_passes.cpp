@@ -1,0 +1,220 @@
+#include "engine/passes/frame_passes.h"
+
+#include "engine/passes/occluders.h"
+#include "engine/passes/projection.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+namespace {
+
+// A strip is a row of a block's pixels at least, so a block is no wider than the largest strip.
+Projection project_blocks(const vulkan::Device &device, const CameraScene &camera, const Sensor &sensor,
+                          std::uint32_t largest_strip) {
+  const std::uint32_t fragments = std::min(raster_block_fragments(device), largest_strip / sensor.samples);
+  return project(camera, sensor.has_distortion() ? distorted_blocks(sensor, fragments)
+                                                 : chip_blocks(sensor, fragments));
+}
+
+SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
+                          const Sensor &sensor, Backscatter backscatter, TextureCache &textures) {
+  const auto planes = triangle_planes(camera, scene, backscatter,
+                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
+  return {vulkan::upload(device, std::as_bytes(std::span(planes))),
+          upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
+}
+
+// The frame as the host sees it.
+struct HostView {
+  CameraScene camera;
+  std::vector<CameraIlluminator> lights;
+  Occluders occluders;
+  Signal signal;
+  SumModel model;
+  Projection projection;
+  std::uint32_t largest_strip;
+};
+
+HostView look(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request) {
+  HostView view;
+  const bool shaded = request.shadows == Shadows::automatic;
+  view.camera = to_camera(request.scene, request.sensor);
+  view.lights = to_camera(request.illuminators, request.sensor);
+  const bool facing = all_face_the_light(view.camera, view.lights);
+  if (shaded)
+    view.occluders = find_occluders(view.camera, request.scene, view.lights);
+  view.signal = signal_of(request.sensor, options);
+  view.signal.lit = shaded && (!view.occluders.shapes.empty() || !facing);
+  view.signal.promised = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
+  view.model = sum_model(view.lights, request.backscatter, facing);
+  view.largest_strip = samples_of_a_strip(view.signal, request.sensor.samples * request.sensor.samples);
+  view.projection = project_blocks(device, view.camera, request.sensor, view.largest_strip);
+  return view;
+}
+
+// Which ways a frame's pixels go.
+struct Ways {
+  bool rest;       // some may not face or be lit by all diodes
+  bool short_way;  // in one pass, where that can be
+  bool thin_out;   // one place may stand in for a pixel's samples
+  bool listed;     // pixels differ in how they are summed
+  bool all_points; // the point of every sample is made
+};
+
+Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest &request,
+                 std::size_t windows) {
+  const Sensor &sensor = request.sensor;
+  // The bits of several windows are never there together, so that nothing is known of a sample before it is
+  // summed.
+  const bool one_window = !view.signal.lit || windows == 1;
+  Ways ways{};
+  ways.rest = view.signal.lit || view.model.backscatter != shader::backscatter_flat;
+  const bool can = plan.promise && one_window && plan.precision == Precision::fp32 &&
+                   ShortWay::can_sum(plan.stand_ins, view.signal, sensor);
+  ways.thin_out =
+      can && sensor.samples > 1 && (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
+  ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
+  ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
+  ways.all_points = !ways.listed || view.signal.lit || sensor.has_distortion();
+  return ways;
+}
+
+std::variant<std::monostate, PointsPass, SearchPass>
+all_points(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request,
+           const HostView &view, const FramePlan &plan, const Ways &ways, const PaintBuffers &paint) {
+  const std::uint32_t vectors = view.model.surface_vectors(plan.precision);
+  if (request.sensor.has_distortion())
+    return SearchPass(device, request.sensor, view.camera, request.scene, view.projection.blocks, vectors,
+                      paint, options.precision);
+  if (!ways.all_points)
+    return std::monostate();
+  return PointsPass(device, request.sensor, vectors, paint.painted, options.precision);
+}
+
+// In which precision the check sums: what is there already, points of distorted samples or bits in the order
+// of the plan's diodes, is in the plan's.
+Precision check_precision(const HostView &view, const FramePlan &plan, const Sensor &sensor) {
+  return view.signal.lit || sensor.has_distortion() ? plan.precision
+                                                    : sum_precision(view.signal, Precision::fp64);
+}
+
+ExactCheck make_check(const vulkan::Device &device, const SimulatorOptions &options,
+                      const FrameRequest &request, const HostView &view, const FramePlan &plan,
+                      Precision precision, const std::vector<PlannedStrip> &strips,
+                      const SceneBuffers &scene) {
+  Signal signal = view.signal;
+  signal.promised = false;
+  DiodeGroups groups =
+      precision == plan.precision
+          ? plan.all
+          : group_diodes(view.lights, view.projection.visible, signal.largest_wavenumber_rad_m(), precision);
+  return {device,     request.sensor,
+          strips,     signal,
+          view.model, std::move(groups),
+          options,    {precision, !request.sensor.has_distortion(), scene.paint.painted}};
+}
+
+ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &options,
+                         const FrameRequest &request, const HostView &view, const FramePlan &plan,
+                         const Ways &ways, const std::vector<PlannedStrip> &strips, const SceneBuffers &scene,
+                         const StripBuffers &buffers) {
+  PixelLists lists(device, strips);
+  ShortWay short_way(device, request.sensor, plan.stand_ins, plan.extent, view.model, view.signal,
+                     *plan.promise, options, {scene.paint.painted, ways.thin_out, ways.short_way}, buffers,
+                     lists);
+  std::optional<PointsPass> points;
+  if (!ways.all_points)
+    points.emplace(device, request.sensor, view.model.surface_vectors(plan.precision), scene.paint.painted,
+                   options.precision, true);
+  // Of one sample a pixel, the short way takes all that every diode lights.
+  const bool has_lit = !ways.short_way || request.sensor.samples > 1;
+  return {
+      std::move(lists),
+      std::move(short_way),
+      std::move(points),
+      has_lit,
+      AccumulatePass(device, plan.stand_ins, view.model, view.signal, options, {false, true, plan.precision}),
+      ResolvePass(device, view.signal, plan.stand_ins, options,
+                  {is_tiled(request.sensor), true, plan.precision, plan.promise})};
+}
+
+std::uint32_t shining(const DiodeGroups &groups) {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(groups.places, [](const DiodePlace &place) { return place.number != no_id; }));
+}
+
+// What is known before the frame.
+AccuracyReport report_of(const FramePlan &plan, const Ways &ways, bool stand_in) {
+  AccuracyReport report;
+  report.precision = plan.precision;
+  report.diodes = shining(ways.listed || stand_in ? plan.stand_ins : plan.all);
+  report.claimed_m = plan.claimed_m;
+  report.claimed_amplitude = plan.claimed_amplitude;
+  return report;
+}
+
+} // namespace
+
+FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions &options,
+                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures) {
+  const Sensor &sensor = request.sensor;
+  HostView view = look(device, options, request);
+  FramePlan plan = plan_frame({view.camera, view.lights, view.projection.visible, sensor, view.signal,
+                               view.model, request.backscatter},
+                              request.accuracy, attempt);
+  view.signal.promised = plan.promise.has_value();
+  std::vector<LitWindow> windows = view.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
+  const Ways ways = choose_ways(plan, view, request, windows.size());
+  const bool checks = request.accuracy.mode != Mode::exact;
+  const std::uint32_t samples =
+      options.max_strip_samples > 0 ? options.max_strip_samples : view.largest_strip;
+  const auto strips = plan_strips(sensor, view.projection.blocks, samples);
+  SceneBuffers scene =
+      upload_scene(device, view.camera, request.scene, sensor, request.backscatter, textures);
+  const Precision of_check = checks ? check_precision(view, plan, sensor) : plan.precision;
+  StripBuffers buffers = make_strip_buffers(
+      device, strips, view.projection.blocks, view.signal,
+      std::max(view.model.surface_vectors(plan.precision), view.model.surface_vectors(of_check)), options);
+  VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision);
+  auto points = all_points(device, options, request, view, plan, ways, scene.paint);
+  std::optional<LitPass> lit;
+  if (view.signal.lit)
+    lit.emplace(device, view.occluders, plan.all, windows, scene, strips, is_tiled(sensor),
+                options.precision);
+  std::optional<ListedPasses> listed;
+  if (ways.listed)
+    listed.emplace(make_listed(device, options, request, view, plan, ways, strips, scene, buffers));
+  std::optional<ExactCheck> check;
+  if (checks)
+    check.emplace(make_check(device, options, request, view, plan, of_check, strips, scene));
+  // Where all samples are alike, what stands in for the diodes does so for all of them.
+  const bool stand_in = !ways.listed && !ways.rest && plan.is_reduced();
+  const DiodeGroups &summed = stand_in ? plan.stand_ins : plan.all;
+  AccumulatePass accumulate(device, summed, view.model, view.signal, options,
+                            {view.signal.lit, ways.listed, plan.precision});
+  ResolvePass resolve(
+      device, view.signal, summed, options,
+      {is_tiled(sensor), ways.listed, plan.precision, stand_in ? plan.promise : plan.promise_of_all});
+  if (stand_in)
+    windows = {all_runs(summed)};
+  return {sensor,
+          view.signal,
+          strips,
+          std::move(scene),
+          std::move(buffers),
+          std::move(visibility),
+          std::move(points),
+          request.shadows,
+          request.accuracy,
+          std::move(plan.all),
+          std::move(windows),
+          std::move(lit),
+          std::move(listed),
+          ways.rest || !ways.listed,
+          std::move(accumulate),
+          std::move(resolve),
+          std::move(check),
+          report_of(plan, ways, stand_in)};
+}
+
+} // namespace pmdsim

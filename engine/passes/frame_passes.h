@@ -1,0 +1,67 @@
+#pragma once
+// All that the frames of one sensor, its light and scene need on the device.
+
+#include "engine/accuracy.h"
+#include "engine/passes/accumulate.h"
+#include "engine/passes/exact_check.h"
+#include "engine/passes/frame_plan.h"
+#include "engine/passes/lit.h"
+#include "engine/passes/points.h"
+#include "engine/passes/resolve.h"
+#include "engine/passes/search.h"
+#include "engine/passes/short_way.h"
+#include "engine/passes/strip_buffers.h"
+#include "engine/passes/visibility.h"
+#include "engine/shadows.h"
+
+#include <optional>
+#include <variant>
+
+namespace pmdsim {
+
+// What is measured, and how well. The references outlive the preparation only.
+struct FrameRequest {
+  const Scene &scene;
+  const Sensor &sensor;
+  const std::vector<Illuminator> &illuminators;
+  Backscatter backscatter;
+  Shadows shadows;
+  Accuracy accuracy;
+};
+
+// The passes of a frame in which few diodes or one place may stand in for many.
+struct ListedPasses {
+  PixelLists lists;
+  ShortWay short_way;
+  std::optional<PointsPass> points; // where not every sample's point is made
+  bool has_lit;                     // pixels in list_lit, which the two below sum
+  AccumulatePass accumulate;        // stand-ins
+  ResolvePass resolve;
+};
+
+struct FramePasses {
+  Sensor sensor;
+  Signal signal;
+  std::vector<PlannedStrip> strips;
+  SceneBuffers scene;
+  StripBuffers buffers;
+  VisibilityPass visibility;
+  std::variant<std::monostate, PointsPass, SearchPass> points; // of every sample, without and with distortion
+  Shadows shadows;
+  Accuracy accuracy;
+  DiodeGroups groups; // of all diodes
+  std::vector<LitWindow> windows;
+  std::optional<LitPass> lit;         // nothing where every diode reaches whatever is seen
+  std::optional<ListedPasses> listed; // nothing where every sample is summed in the same way
+  bool has_rest;                      // samples that the two below sum: list_rest, or all
+  AccumulatePass accumulate;
+  ResolvePass resolve;
+  std::optional<ExactCheck> check;
+  AccuracyReport report; // what is known before the frame
+};
+
+// As the `attempt`-th of frame_plans has it. Throws Error: out_of_memory, accuracy.
+FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions &options,
+                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures);
+
+} // namespace pmdsim

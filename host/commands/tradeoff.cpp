@@ -1,0 +1,198 @@
+#include "host/output/tradeoff.h"
+
+#include "engine/error.h"
+#include "host/commands/camera.h"
+#include "host/commands/commands.h"
+#include "host/commands/distance_errors.h"
+#include "host/commands/interruption.h"
+#include "host/commands/loaded_setup.h"
+#include "host/commands/progress_bar.h"
+#include "host/commands/report.h"
+#include "host/commands/timing.h"
+#include "host/output/manifest.h"
+#include "host/output/output_set.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <optional>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::size_t compared_pixels = 4096;
+constexpr std::uint32_t finest_samples = 16; // of the reference that sample counts are compared with
+constexpr double reference_slowness = 50.0;  // roughly, of a sample there and on a device
+
+constexpr std::array<SampleChoice, 5> swept_samples{{{1}, {2}, {4}, {8}, automatic_samples}};
+constexpr std::array swept_errors_m{1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
+
+TradeoffPoint point(Sweep sweep, const Accuracy &accuracy, const SampleChoice &choice,
+                    std::uint32_t reference_samples) {
+  TradeoffPoint point;
+  point.sweep = sweep;
+  point.accuracy = accuracy;
+  point.samples = choice.samples;
+  point.adaptive_samples = choice.adaptive;
+  point.reference_samples = reference_samples;
+  return point;
+}
+
+// Nothing of them is measured yet.
+std::vector<TradeoffPoint> planned_points(const Sensor &sensor) {
+  const SampleChoice own{sensor.samples, sensor.adaptive_samples};
+  std::vector<TradeoffPoint> points;
+  for (const Precision precision : {Precision::fp32, Precision::fp64})
+    points.push_back(point(Sweep::modes, {.mode = Mode::exact, .precision = precision}, own, own.samples));
+  for (const Mode mode : {Mode::reduced, Mode::automatic})
+    for (const double error_m : swept_errors_m) {
+      Accuracy accuracy;
+      accuracy.mode = mode;
+      accuracy.max_error_m = error_m;
+      points.push_back(point(Sweep::modes, accuracy, own, own.samples));
+    }
+  for (const SampleChoice &choice : swept_samples)
+    points.push_back(point(Sweep::samples, {}, choice, finest_samples));
+  return points;
+}
+
+// In a device's samples.
+double work_of(const std::vector<TradeoffPoint> &points, const Sensor &sensor) {
+  const auto samples = [](std::uint64_t pixels, std::uint32_t each) {
+    return static_cast<double>(pixels) * each * each;
+  };
+  double work = 0.0;
+  for (const TradeoffPoint &point : points)
+    work += (2 + measured_frames) * samples(sensor.pixel_count(), point.samples);
+  for (const std::uint32_t each : {sensor.samples, finest_samples})
+    work +=
+        reference_slowness * samples(std::min<std::uint64_t>(sensor.pixel_count(), compared_pixels), each);
+  return work;
+}
+
+// Measures the points of one sensor, at its only frequency.
+class TradeoffSweep {
+public:
+  TradeoffSweep(const Setup &setup, const Sensor &sensor, const std::string &device)
+      : setup_(setup), sensor_(sensor), points_(planned_points(sensor)), camera_(device),
+        tagging_camera_(device, {.sample_triangles = true}), bar_(work_of(points_, sensor)) {}
+
+  Tradeoff measure() {
+    for (TradeoffPoint &point : points_) {
+      judge(point);
+      try {
+        measure(point);
+      } catch (const Error &error) {
+        if (error.code() != ExitCode::accuracy)
+          throw;
+        point.refusal = error.what();
+      }
+    }
+    mark_pareto(points_);
+    return {setup_.file.string(), sensor_.name, camera_.device(), camera_.driver(), points_};
+  }
+
+private:
+  Sensor with_samples(const SampleChoice &choice) const {
+    Sensor sensor = sensor_;
+    set_samples(sensor, choice);
+    return sensor;
+  }
+
+  double samples_of(const Sensor &sensor) const {
+    return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
+  }
+
+  void prepare(Camera &camera, const Sensor &sensor, const Accuracy &accuracy) {
+    camera.prepare(setup_.start.scene, sensor, setup_.start.illuminators, setup_.backscatter, setup_.shadows,
+                   accuracy);
+  }
+
+  // What the point is compared with; as it is where the one before has the same.
+  void judge(const TradeoffPoint &point) {
+    if (!truth_ || truth_->sensor.samples != point.reference_samples) {
+      truth_ = true_pixels(point.reference_samples);
+      edges_of_samples_ = 0;
+    }
+    if (edges_of_samples_ == point.samples)
+      return;
+    const Sensor sensor = with_samples({point.samples});
+    prepare(tagging_camera_, sensor, {});
+    bar_.begin(fmt::format("looking for edges, S = {}", point.samples), samples_of(sensor));
+    edges_ = on_edges(*truth_, tagging_camera_.measure(interruptible_progress(bar_)), point.samples,
+                      diode_count(setup_.start.illuminators));
+    edges_of_samples_ = point.samples;
+  }
+
+  TruePixels true_pixels(std::uint32_t samples) {
+    TruePixels truth{with_samples({samples}), random_pixels(sensor_.pixel_count(), compared_pixels), {}};
+    bar_.begin(fmt::format("measuring the reference, S = {}", samples),
+               reference_slowness * static_cast<double>(truth.pixels.size()) * samples * samples);
+    truth.frame = reference::simulate(setup_.start.scene, truth.sensor, setup_.start.illuminators,
+                                      setup_.backscatter, {.shadows = setup_.shadows, .pixels = truth.pixels},
+                                      interruptible_progress(bar_));
+    return truth;
+  }
+
+  void measure(TradeoffPoint &point) {
+    const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
+    prepare(camera_, sensor, point.accuracy);
+    const Timing timing = time_frames([&](const std::string &what) {
+      bar_.begin(fmt::format("{}, {}, {}", series_name(point), point_label(point), what), samples_of(sensor));
+      Measurement found = camera_.measure(interruptible_progress(bar_));
+      const ErrorsByPlace errors = distance_errors(*truth_, edges_, found);
+      point.smooth = errors.smooth;
+      point.edges = errors.edges;
+      return found;
+    });
+    point.time = {timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max};
+    point.report = timing.accuracy;
+  }
+
+  const Setup &setup_;
+  Sensor sensor_;
+  std::vector<TradeoffPoint> points_;
+  Camera camera_, tagging_camera_;
+  ProgressBar bar_;
+  std::optional<TruePixels> truth_;
+  std::vector<bool> edges_;
+  std::uint32_t edges_of_samples_ = 0; // S of the frame that they were found in
+};
+
+std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff) {
+  const auto add = [&](const std::string &name, const auto &write) {
+    throw_if_interrupted();
+    files.add(name, write);
+  };
+  add("tradeoff.csv", [&](OutputFile &file) { file.write(tradeoff_csv(tradeoff)); });
+  add("tradeoff.json", [&](OutputFile &file) { file.write(json_text(tradeoff_json(tradeoff))); });
+  add("tradeoff.md", [&](OutputFile &file) { file.write(tradeoff_markdown(tradeoff)); });
+  add("tradeoff.png", [&](OutputFile &file) { draw_tradeoff(tradeoff).write_png(file); });
+  throw_if_interrupted();
+  files.publish();
+  std::vector<std::string> paths;
+  for (const std::string &name : files.names())
+    paths.push_back((files.directory() / name).string());
+  return paths;
+}
+
+} // namespace
+
+void run_tradeoff(const Options &options) {
+  const Setup setup = load_for_command(options);
+  OutputSet files(options.output_directory); // first, so that nothing is measured in vain
+  Sensor sensor = setup.start.sensors.front();
+  sensor.modulation_hz.resize(1);
+  const Tradeoff tradeoff = TradeoffSweep(setup, sensor, options.device).measure();
+  const std::vector<std::string> paths = write_files(files, tradeoff);
+  if (options.json) {
+    nlohmann::ordered_json json = tradeoff_json(tradeoff);
+    json["outputs"] = paths;
+    print(json);
+  } else {
+    print(fmt::format("device  {} ({})\n\n{}\nwritten:\n  {}\n", tradeoff.device, tradeoff.driver,
+                      tradeoff_text(tradeoff), fmt::join(paths, "\n  ")));
+  }
+}
+
+} // namespace pmdsim
