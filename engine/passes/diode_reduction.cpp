@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -16,7 +17,10 @@ namespace {
 
 constexpr double largest_amplitude_error = 1e-3;
 constexpr std::size_t most_candidates = 512;
-constexpr std::size_t fewest_diodes = 3; // of a cluster: fewer are not worth a look
+// Of all clusters together, lest it take long where diodes stand all over the scene: looks at whether the
+// series converges, and attempts.
+constexpr std::size_t most_looks = 4096, most_attempts = 64;
+constexpr std::size_t fewest_diodes = 6; // of a cluster: fewer are not worth a look
 
 VisibleBox box_of(std::span<const Diode> diodes) {
   VisibleBox box{diodes.front().position_m, diodes.front().position_m};
@@ -160,20 +164,31 @@ public:
   }
 
 private:
-  void reduce(std::vector<Diode> &diodes, std::span<const std::size_t> members) {
-    if (members.size() < fewest_diodes)
-      return;
-    const DiodeCluster cluster = cluster_of(diodes, members);
-    const std::vector<Sight> sights = sights_of(pieces_, cluster.centre_m, cluster.axes, cluster.beam);
-    const std::optional<MomentBounds> bounds = moments_that_matter(cluster, sights, scale_);
-    const std::optional<Reduction> reduction = bounds ? fewest(cluster, *bounds, scale_) : std::nullopt;
-    if (reduction) {
-      if (reduction->diodes.size() < members.size())
-        replace(diodes, members, cluster, *reduction);
-      return;
+  // Halves what the series does not converge for, the largest first.
+  void reduce(std::vector<Diode> &diodes, std::span<const std::size_t> all) {
+    std::deque<std::span<const std::size_t>> left{all};
+    for (; !left.empty() && looks_left_ > 0 && attempts_left_ > 0; left.pop_front(), --looks_left_) {
+      const std::span<const std::size_t> members = left.front();
+      if (members.size() < fewest_diodes)
+        continue;
+      const DiodeCluster cluster = cluster_of(diodes, members);
+      const std::vector<Sight> sights = sights_of(pieces_, cluster.centre_m, cluster.axes, cluster.beam);
+      if (const std::optional<Reduction> reduction = attempt(cluster, sights)) {
+        if (reduction->diodes.size() < members.size())
+          replace(diodes, members, cluster, *reduction);
+      } else {
+        left.push_back(members.first(members.size() / 2));
+        left.push_back(members.subspan(members.size() / 2));
+      }
     }
-    reduce(diodes, members.first(members.size() / 2));
-    reduce(diodes, members.subspan(members.size() / 2));
+  }
+
+  std::optional<Reduction> attempt(const DiodeCluster &cluster, const std::vector<Sight> &sights) {
+    if (!converges(cluster, sights, scale_))
+      return std::nullopt;
+    --attempts_left_;
+    const std::optional<MomentBounds> bounds = moments_that_matter(cluster, sights, scale_);
+    return bounds ? fewest(cluster, *bounds, scale_) : std::nullopt;
   }
 
   void replace(std::vector<Diode> &diodes, std::span<const std::size_t> members, const DiodeCluster &cluster,
@@ -201,6 +216,7 @@ private:
   std::vector<VisibleBox> pieces_;
   const ErrorScale &scale_;
   ReducedLight &result_;
+  std::size_t looks_left_ = most_looks, attempts_left_ = most_attempts;
   std::vector<bool> drop_; // of the illuminator's diodes
 };
 
@@ -233,7 +249,7 @@ ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
                            const Wavenumbers &wavenumbers, double max_error_m, double max_amplitude_error) {
   ReducedLight result{illuminators, box_of(illuminators)};
-  if (visible.empty())
+  if (visible.empty() || !(max_error_m > 0.0) || !(max_amplitude_error > 0.0))
     return result;
   std::vector<VisibleBox> pieces = pieces_of(visible, result.lights);
   ErrorScale scale{wavenumbers.largest_rad_m,

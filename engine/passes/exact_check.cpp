@@ -7,25 +7,23 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <set>
 
 namespace pmdsim {
 namespace {
 
 constexpr std::uint32_t checked_pixels = 1024;
 
-// Of a frame, row by row.
-std::vector<std::uint32_t> choose_pixels(std::uint64_t count) {
+// Of a frame, row by row; each once, as two invocations must not work on the same sample.
+std::set<std::uint32_t> choose_pixels(std::uint64_t count) {
   std::mt19937_64 random(1); // whose numbers the standard fixes
-  std::vector<std::uint32_t> pixels(std::min<std::uint64_t>(count, checked_pixels));
-  if (count <= checked_pixels)
-    for (std::uint32_t i = 0; i < count; ++i)
-      pixels[i] = i;
-  else
-    std::ranges::generate(pixels, [&] { return static_cast<std::uint32_t>(random() % count); });
+  std::set<std::uint32_t> pixels;
+  while (pixels.size() < std::min<std::uint64_t>(count, checked_pixels))
+    pixels.insert(static_cast<std::uint32_t>(random() % count));
   return pixels;
 }
 
-std::vector<std::vector<std::uint32_t>> by_strip(const std::vector<std::uint32_t> &pixels,
+std::vector<std::vector<std::uint32_t>> by_strip(const std::set<std::uint32_t> &pixels,
                                                  const std::vector<PlannedStrip> &strips) {
   std::vector<std::vector<std::uint32_t>> result(strips.size());
   for (const std::uint32_t pixel : pixels)

@@ -8,10 +8,12 @@
 namespace pmdsim {
 namespace {
 
-constexpr double largest_x = 0.6;          // of |x|
-constexpr double largest_beam_step = 0.5;  // of |a.I| / a.P
-constexpr std::size_t largest_degree = 24; // in x
-constexpr std::size_t most_moments = 1500;
+constexpr double largest_x = 0.75;           // of |x|
+constexpr double largest_beam_step = 0.5;    // of |a.I| / a.P
+constexpr double largest_beam_change = 10.0; // of order * |a.I| / a.P
+constexpr std::size_t largest_degree = 40;   // in x
+// More take too long; more than the square of the diodes, and there would be as many diodes after as before.
+constexpr std::size_t most_moments = 12000;
 constexpr std::size_t fewest_sampled_diodes = 100; // of a cluster
 constexpr double bearable_rest = 0.05;             // of the error that is bearable, for all that is left out
 
@@ -93,7 +95,7 @@ std::optional<SightSeries> series_of(const DiodeCluster &cluster, const Sight &s
   double z = 0.0;
   if (cluster.order) {
     z = cluster.beam_extent_m / (sight.beam_cosine * sight.range_m);
-    if (!(sight.beam_cosine > 0.0) || !(z <= largest_beam_step))
+    if (!(sight.beam_cosine > 0.0) || !(z <= largest_beam_step) || order * z > largest_beam_change)
       return std::nullopt;
   }
   SightSeries series{majorant(scale.wavenumber_rad_m * sight.range_m, x, s),
@@ -129,59 +131,59 @@ public:
   Enumeration(const DiodeCluster &cluster, const std::vector<SightSeries> &series, const ErrorScale &scale)
       : cluster_(cluster), series_(series), scale_(scale) {}
 
-  Coefficients all() {
+  // Nothing where they are more than `most`, about.
+  std::optional<Coefficients> all(std::size_t most) {
     double factorial = 1.0;
     for (std::size_t degree = 0; degree <= largest_degree; factorial *= static_cast<double>(++degree))
       for (std::size_t a = 0; a <= degree; ++a)
-        for (std::size_t i = 0; i + a <= degree; ++i)
+        for (std::size_t i = 0; i + a <= degree; ++i) {
           for (std::size_t j = 0; i + j + a <= degree; ++j)
-            add_all({a, i, j, degree - a - i - j}, degree, factorial);
+            add({a, i, j, degree - a - i - j}, degree, factorial);
+          if (result_.size() > most)
+            return std::nullopt;
+        }
     return std::move(result_);
   }
 
 private:
-  void add_all(const std::array<std::size_t, 4> &powers, std::size_t degree, double factorial) {
-    const auto is_zero = [&](const SightSeries &series) {
-      double share = 1.0;
+  void add(const std::array<std::size_t, 4> &powers, std::size_t degree, double factorial) {
+    std::vector<double> shares;
+    std::size_t beam_powers = 0;
+    for (const SightSeries &series : series_) {
+      double share = factorial / series.least_terms;
       for (std::size_t part = 0; part < powers.size(); ++part)
         share *= series.shares[part][powers[part]];
-      return share == 0.0;
-    };
-    if (std::ranges::all_of(series_, is_zero))
-      return;
-    std::size_t beam_powers = 0;
-    for (const SightSeries &series : series_)
-      beam_powers = std::max(beam_powers, series.in_beam.coefficients.size());
-    for (std::size_t beam_power = 0; beam_power < beam_powers; ++beam_power)
-      add(powers, beam_power, degree, factorial);
+      shares.push_back(share);
+      if (share > 0.0)
+        beam_powers = std::max(beam_powers, series.in_beam.coefficients.size());
+    }
+    for (std::size_t beam_power = 0; beam_power < beam_powers; ++beam_power) {
+      std::vector<Coefficient> coefficients(series_.size());
+      double largest = 0.0;
+      for (std::size_t sight = 0; sight < series_.size(); ++sight) {
+        const SightSeries &series = series_[sight];
+        if (beam_power >= series.in_beam.coefficients.size())
+          continue;
+        const double share = shares[sight] * series.in_beam.coefficients[beam_power];
+        coefficients[sight] = {share * series.in_x.re[degree], share * series.in_x.im[degree]};
+        largest = std::max(largest, scale_.excess(coefficients[sight].re, coefficients[sight].im));
+      }
+      if (largest >= negligible)
+        add({static_cast<std::uint8_t>(powers[0]), static_cast<std::uint8_t>(powers[1]),
+             static_cast<std::uint8_t>(powers[2]), static_cast<std::uint8_t>(powers[3]),
+             static_cast<std::uint8_t>(beam_power)},
+            coefficients);
+    }
   }
 
-  void add(const std::array<std::size_t, 4> &powers, std::size_t beam_power, std::size_t degree,
-           double factorial) {
-    std::vector<Coefficient> coefficients(series_.size());
-    double largest = 0.0;
-    for (std::size_t sight = 0; sight < series_.size(); ++sight) {
-      const SightSeries &series = series_[sight];
-      if (beam_power >= series.in_beam.coefficients.size())
-        continue;
-      double share = factorial * series.in_beam.coefficients[beam_power] / series.least_terms;
-      for (std::size_t part = 0; part < powers.size(); ++part)
-        share *= series.shares[part][powers[part]];
-      coefficients[sight] = {share * series.in_x.re[degree], share * series.in_x.im[degree]};
-      largest = std::max(largest, scale_.excess(coefficients[sight].re, coefficients[sight].im));
-    }
-    if (largest < negligible)
-      return;
-    Powers key{};
-    std::transform(powers.begin(), powers.end(), key.begin(),
-                   [](std::size_t power) { return static_cast<std::uint8_t>(power); });
-    key[4] = static_cast<std::uint8_t>(beam_power);
+  void add(const Powers &powers, const std::vector<Coefficient> &coefficients) {
     for (std::size_t slant = 0; slant < slants(scale_); ++slant) {
-      add(key, slant, 1.0, coefficients);
-      if (scale_.lambert) {
-        Powers slanted = key;
-        ++slanted[slant + 1];
-        add(slanted, slant, cluster_.slant(static_cast<int>(slant)), coefficients);
+      add(powers, slant, 1.0, coefficients);
+      const double slanted = scale_.lambert ? cluster_.slant(static_cast<int>(slant)) : 0.0;
+      if (slanted > 0.0) {
+        Powers raised = powers;
+        ++raised[slant + 1];
+        add(raised, slant, slanted, coefficients);
       }
     }
   }
@@ -314,6 +316,11 @@ SumError MomentBounds::error(const Eigen::VectorXd &changes, const ErrorScale &s
   return largest_of(least);
 }
 
+bool converges(const DiodeCluster &cluster, const std::vector<Sight> &sights, const ErrorScale &scale) {
+  return std::ranges::all_of(
+      sights, [&](const Sight &sight) { return series_of(cluster, sight, scale).has_value(); });
+}
+
 std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
                                                 const ErrorScale &scale) {
   std::vector<SightSeries> series;
@@ -323,11 +330,13 @@ std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, con
       return std::nullopt;
     series.push_back(std::move(*of_sight));
   }
-  Coefficients coefficients = Enumeration(cluster, series, scale).all();
-  leave_out_the_least(coefficients, scale);
-  if (coefficients.size() > most_moments)
+  const std::size_t diodes = cluster.offsets_m.size();
+  std::optional<Coefficients> coefficients =
+      Enumeration(cluster, series, scale).all(std::min(most_moments, diodes * diodes));
+  if (!coefficients)
     return std::nullopt;
-  MomentBounds bounds = bounds_of(coefficients, cluster, series, scale);
+  leave_out_the_least(*coefficients, scale);
+  MomentBounds bounds = bounds_of(*coefficients, cluster, series, scale);
   for (Eigen::Index sight = 0; sight < bounds.rest_re.size(); ++sight)
     if (!(scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) <= bearable_rest))
       return std::nullopt;

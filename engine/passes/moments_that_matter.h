@@ -36,7 +36,10 @@ private:
   std::vector<SumError> errors(const Eigen::VectorXd &sizes, const ErrorScale &scale) const;
 };
 
-// The moments that matter; nothing where the series converges too slowly.
+// Whether the series converges fast enough to be worth a try.
+bool converges(const DiodeCluster &cluster, const std::vector<Sight> &sights, const ErrorScale &scale);
+
+// The moments that matter; nothing where they are too many.
 std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
                                                 const ErrorScale &scale);
 

@@ -49,6 +49,7 @@ std::vector<double> chebyshev_points(double from, double to, int count) {
   if (from == to)
     return {from};
   std::vector<double> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back(0.5 * (from + to) + 0.5 * (to - from) * std::cos(std::numbers::pi * (i + 0.5) / count));
   return points;
@@ -56,8 +57,47 @@ std::vector<double> chebyshev_points(double from, double to, int count) {
 
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
-// A moment's coefficient: factor * in_x[degree_in_x] * tau^(degree) * the direction to its powers.
-struct Term {
+std::vector<double> powers_of(double base, int degree) {
+  std::vector<double> powers{1.0};
+  for (int k = 0; k < degree; ++k)
+    powers.push_back(powers.back() * base);
+  return powers;
+}
+
+// Where tau, up to largest_size, and the direction go. Components that no moment asks for are 0.
+struct Domain {
+  double largest_size;
+  glm::dvec3 least{0.0}, largest{0.0};
+  std::size_t variables = 1;
+};
+
+Domain domain_of(const DiodeCluster &cluster, const Sight &sight, const std::vector<Powers> &moments) {
+  Domain domain{cluster.radius_m / sight.range_m};
+  for (int i = 0; i < 3; ++i) {
+    const auto coordinate = static_cast<std::size_t>(i) + 1;
+    if (std::ranges::none_of(moments, [&](const Powers &powers) { return powers[coordinate] > 0; }))
+      continue;
+    domain.least[i] = sight.least[i];
+    domain.largest[i] = sight.largest[i];
+    if (sight.least[i] < sight.largest[i])
+      ++domain.variables;
+  }
+  return domain;
+}
+
+std::vector<glm::dvec3> directions_of(const Domain &domain, int count) {
+  std::vector<glm::dvec3> directions;
+  for (const double x : chebyshev_points(domain.least.x, domain.largest.x, count))
+    for (const double y : chebyshev_points(domain.least.y, domain.largest.y, count))
+      for (const double z : chebyshev_points(domain.least.z, domain.largest.z, count))
+        directions.emplace_back(x, y, z);
+  return directions;
+}
+
+} // namespace
+
+// A moment's coefficient: factor * in_x[degree_in_x] * tau^degree * the direction to its powers.
+struct SeriesSamples::Term {
   Term(const Powers &powers, const DiodeCluster &cluster)
       : powers_of_direction{powers[1], powers[2], powers[3]},
         degree_in_x(static_cast<std::size_t>(powers[0] + powers[1] + powers[2] + powers[3])),
@@ -74,65 +114,48 @@ struct Term {
   double factor;
 };
 
-std::vector<double> powers_of(double base, int degree) {
-  std::vector<double> powers{1.0};
-  for (int k = 0; k < degree; ++k)
-    powers.push_back(powers.back() * base);
-  return powers;
-}
-
-} // namespace
-
 SeriesSamples::SeriesSamples(const DiodeCluster &cluster, const Sight &sight, const ErrorScale &scale,
                              const std::vector<Powers> &moments, double least_terms) {
-  glm::dvec3 from(0.0), to(0.0); // of the direction, along the axes that matter
-  std::size_t variables = 1;
-  for (int i = 0; i < 3; ++i) {
-    const auto coordinate = static_cast<std::size_t>(i) + 1;
-    if (std::ranges::none_of(moments, [&](const Powers &powers) { return powers[coordinate] > 0; }))
-      continue;
-    from[i] = sight.least[i];
-    to[i] = sight.largest[i];
-    if (from[i] < to[i])
-      ++variables;
-  }
   for (int i = 0; i < 3; ++i)
     slants_[static_cast<std::size_t>(i)] = cluster.slant(i);
-  const auto [degree, count] = resolutions[variables];
+  const Domain domain = domain_of(cluster, sight, moments);
+  const auto [degree, count] = resolutions[domain.variables];
   hold(moments, degree);
   std::vector<Term> terms;
   for (const Index moment : held_)
     terms.emplace_back(moments[static_cast<std::size_t>(moment)], cluster);
 
-  const double factor =
-      std::pow(std::cos(0.5 * std::numbers::pi * degree / count), -static_cast<double>(variables)) /
-      least_terms;
+  const double between_points =
+      std::pow(std::cos(0.5 * std::numbers::pi * degree / count), -static_cast<double>(domain.variables));
   const double s = 2.0 + cluster.order.value_or(0.0) + (scale.lambert ? 1.0 : 0.0);
-  const std::vector<double> sizes = chebyshev_points(0.0, cluster.radius_m / sight.range_m, count);
-  const std::array along{chebyshev_points(from.x, to.x, count), chebyshev_points(from.y, to.y, count),
-                         chebyshev_points(from.z, to.z, count)};
-  const auto rows = static_cast<Index>(sizes.size() * along[0].size() * along[1].size() * along[2].size());
-  re_.resize(static_cast<Index>(terms.size()), rows);
-  im_.resize(static_cast<Index>(terms.size()), rows);
-  Index row = 0;
+  const std::vector<glm::dvec3> directions = directions_of(domain, count);
+  const std::vector<double> sizes = chebyshev_points(0.0, domain.largest_size, count);
+  re_.resize(static_cast<Index>(terms.size()), static_cast<Index>(sizes.size() * directions.size()));
+  im_.resizeLike(re_);
+  Index column = 0;
   for (const double size : sizes) {
     const auto in_x = series(scale.wavenumber_rad_m * cluster.radius_m / size, s, degree);
-    const auto of_size = powers_of(size, degree);
+    const std::vector<double> of_size = powers_of(size, degree);
     std::vector<std::complex<double>> of_terms;
+    of_terms.reserve(terms.size());
     for (const Term &term : terms)
-      of_terms.push_back(factor * term.factor * of_size[term.degree] * in_x[term.degree_in_x]);
-    for (const double x : along[0])
-      for (const double y : along[1])
-        for (const double z : along[2]) {
-          const std::array powers{powers_of(x, degree), powers_of(y, degree), powers_of(z, degree)};
-          for (std::size_t i = 0; i < terms.size(); ++i) {
-            const auto &[px, py, pz] = terms[i].powers_of_direction;
-            const std::complex<double> value = of_terms[i] * (powers[0][px] * powers[1][py] * powers[2][pz]);
-            re_(static_cast<Index>(i), row) = value.real();
-            im_(static_cast<Index>(i), row) = value.imag();
-          }
-          ++row;
-        }
+      of_terms.push_back(between_points / least_terms * term.factor * of_size[term.degree] *
+                         in_x[term.degree_in_x]);
+    for (const glm::dvec3 &direction : directions)
+      set_column(column++, terms, of_terms, direction, degree);
+  }
+}
+
+void SeriesSamples::set_column(Index column, const std::vector<Term> &terms,
+                               const std::vector<std::complex<double>> &of_size, const glm::dvec3 &direction,
+                               int degree) {
+  const std::array powers{powers_of(direction.x, degree), powers_of(direction.y, degree),
+                          powers_of(direction.z, degree)};
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto &[x, y, z] = terms[i].powers_of_direction;
+    const std::complex<double> value = of_size[i] * (powers[0][x] * powers[1][y] * powers[2][z]);
+    re_(static_cast<Index>(i), column) = value.real();
+    im_(static_cast<Index>(i), column) = value.imag();
   }
 }
 

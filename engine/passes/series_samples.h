@@ -11,6 +11,7 @@
 #include "engine/passes/sum_error.h"
 
 #include <array>
+#include <complex>
 #include <vector>
 
 namespace pmdsim {
@@ -27,7 +28,11 @@ public:
   SumError largest_error(const Eigen::VectorXd &changes, const ErrorScale &scale) const;
 
 private:
+  struct Term;
+
   void hold(const std::vector<Powers> &moments, int degree);
+  void set_column(Eigen::Index column, const std::vector<Term> &terms,
+                  const std::vector<std::complex<double>> &of_size, const glm::dvec3 &direction, int degree);
 
   std::vector<Eigen::Index> held_;
   // Beside held_: the moment with one power more of each coordinate, or no_moment.

@@ -8,7 +8,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double largest_size_over_distance = 0.25;
-constexpr std::size_t pieces_at_most = 16384;
+constexpr std::size_t pieces_at_most = 4096;
 constexpr double sights_per_octave = 2.0;
 
 void cut(const VisibleBox &box, const VisibleBox &around, int cuts_left, std::vector<VisibleBox> &pieces) {
@@ -93,6 +93,7 @@ std::vector<Sight> sights_of(const std::vector<VisibleBox> &pieces, const glm::d
       widen(found->second, sight);
   }
   std::vector<Sight> sights;
+  sights.reserve(by_range.size());
   for (const auto &[octave, sight] : by_range)
     sights.push_back(sight);
   return sights;

@@ -281,9 +281,9 @@ std::vector<Case> cases() {
       {"disc of 24,000", {{disc(24000, 0.166)}}, at_2m, constant, 20e6, 1e-6, 12},
       {"half ring", {{rings(48, -90, 90)}}, at_2m, constant, 20e6, 1e-6, 12},
       {"half ring", {{rings(48, -90, 90)}}, at_2m, lambert, 20e6, 1e-6, 16},
-      {"room", ring, room(), constant, 20e6, 1e-6, 22},
-      {"room", ring, room(), lambert, 20e6, 1e-6, 30},
-      {"room", ring, room(), lambert, 20e6, 10e-6, 20},
+      {"room", ring, room(), constant, 20e6, 1e-6, 16},
+      {"room", ring, room(), lambert, 20e6, 1e-6, 22},
+      {"room", ring, room(), lambert, 20e6, 10e-6, 16},
       {"cos^1", {{with(rings(48), cosine(1))}}, at_2m, lambert, 20e6, 1e-6, 16},
       {"cos^3.5", {{with(rings(48), cosine(3.5))}}, at_2m, lambert, 20e6, 1e-6, 18},
       {"cos^50", {{with(rings(48), cosine(50))}}, at_2m, constant, 20e6, 1e-6, 32},
@@ -298,9 +298,9 @@ std::vector<Case> cases() {
       {"two with phases", two, at_2m, lambert, 20e6, 1e-6, 30},
       {"paper_ring", ring, at_2m, constant, 1e3, 1e-6, 12},
       {"paper_ring", ring, at_2m, constant, 200e6, 1e-6, 16},
-      {"paper_ring", ring, at_2m, lambert, 2e9, 1e-6, 60},
-      {"room", ring, room(), lambert, 1e3, 1e-6, 40},
-      {"at 0.3 m", ring, wall(0.03, 0.3), lambert, 20e6, 1e-6, 200},
+      {"paper_ring", ring, at_2m, lambert, 2e9, 1e-6, 40},
+      {"room", ring, room(), lambert, 1e3, 1e-6, 24},
+      {"at 0.3 m", ring, wall(0.03, 0.3), lambert, 20e6, 1e-6, 60},
       {"at 0.5 m", ring, wall(0.05, 0.5), lambert, 20e6, 1e-6, 40},
       {"at 100 km", ring, wall(1e4, 1e5), lambert, 20e6, 1e-6, 12},
       {"1 m to 100 km", ring, {{{-0.1, -0.1, 1.0}, {0.1, 0.1, 1e5}}}, constant, 20e6, 1e-6, 40},
@@ -384,6 +384,10 @@ TEST_CASE("diodes stay as they are where nothing is known or gained") {
     diode.intensity_w_sr = 0.0;
   const Pattern table{Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>()};
   stays({{rings(48)}}, {});
+  const double k = wavenumber(20e6);
+  CHECK(
+      diodes_of(reduce_diodes({{rings(48)}}, room(), Backscatter::constant, {k, k}, 0.0, 1.0).illuminators) ==
+      240);
   stays({{dark}}, wall(0.2, 2.0));
   stays({{with(rings(48), table)}}, wall(0.2, 2.0));
   stays({{std::vector<Diode>(1)}}, wall(0.2, 2.0));
