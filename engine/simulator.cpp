@@ -215,6 +215,7 @@ void Simulator::State::warm_up() {
   }
   if (prepared->listed) {
     const ListedPasses &listed = *prepared->listed;
+    listed.lists.record_clear(recorder.commands());
     listed.short_way.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
     listed.lists.record_count(recorder.commands(), samples);
     for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)

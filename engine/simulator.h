@@ -30,11 +30,11 @@ public:
 
   // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
-  // (the error asked for cannot be promised).
+  // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart).
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {});
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
-  // accuracy (the error asked for was not kept).
+  // accuracy (the error asked for was not kept), input (more light returns than a float holds).
   Measurement measure(const Progress &progress = {});
 
 private:

@@ -1,5 +1,6 @@
 #include "engine/passes/diode_groups.h"
 
+#include "engine/error.h"
 #include "engine/passes/diagram_tables.h"
 #include "engine/passes/excess.h"
 
@@ -17,6 +18,8 @@ constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q w
 constexpr std::uint32_t largest_run_blocks = 16, largest_precise_run_blocks = 4;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
 constexpr std::uint64_t run_overhead_blocks = 4;
+// Of the strongest diode's intensity: what is weaker would leave float's range on its way over distances.
+constexpr double weakest_intensity = 1e-25;
 
 struct NumberedDiode : Diode {
   std::uint32_t number; // among those of all illuminators
@@ -89,6 +92,15 @@ shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m
   if (diode.pattern.kind == Pattern::Kind::diagram)
     set_diagram(diode, diagrams.grid_of(diode.pattern.diagram), record);
   return record;
+}
+
+// A dark diode may stand beside any other.
+void check_intensities(std::span<const NumberedDiode> diodes, double largest_w_sr) {
+  if (std::ranges::any_of(diodes, [&](const Diode &diode) {
+        return diode.intensity_w_sr > 0.0 && diode.intensity_w_sr < weakest_intensity * largest_w_sr;
+      }))
+    throw Error(ExitCode::input, "the strongest diode is more than 1e25 times as strong as the weakest: "
+                                 "expected intensities closer to each other, or 0");
 }
 
 float rest(double value, float rounded) { return static_cast<float>(value - static_cast<double>(rounded)); }
@@ -245,6 +257,7 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
     grouping.split(left.first(diodes.size()), phase_turns);
     left = left.subspan(diodes.size());
   }
+  check_intensities(ordered, result.largest_intensity_w_sr);
 
   for (const Group &group : grouping.groups()) {
     result.excess_m = std::max(result.excess_m, group.reach.excess_m);

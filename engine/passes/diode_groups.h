@@ -42,7 +42,7 @@ struct DiodeGroups {
 };
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
-// that they light; wavenumber = 2 pi f / c, rad/m.
+// that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                          Precision precision = Precision::fp32);

@@ -69,7 +69,7 @@ void PixelLists::record_count(const vk::raii::CommandBuffer &commands, std::uint
   shader::PixelListConstants constants{{}, samples};
   std::ranges::transform(lists_, constants.lists,
                          [](const vulkan::Buffer &list) { return words(list.address()); });
-  count_.dispatch(commands, constants, shader::pixel_lists, shader::pixel_lists);
+  count_.dispatch(commands, constants, 1, 1);
   vulkan::compute_barrier(commands);
 }
 

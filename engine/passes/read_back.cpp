@@ -1,11 +1,15 @@
 #include "engine/passes/read_back.h"
 
+#include "engine/error.h"
 #include "engine/passes/raster_blocks.h"
 #include "engine/scene.h"
 
 #include "engine/vulkan/commands.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <span>
 
 namespace pmdsim {
 namespace {
@@ -19,6 +23,18 @@ void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t
   for (std::uint32_t row = 0; row < strip.rows; ++row)
     std::memcpy(to.data() + std::size_t{strip.row + row} * frame_columns + strip.column,
                 from + row * row_bytes, row_bytes);
+}
+
+// Of a channel that a float may be too small for.
+void check_finite(const std::vector<float> &channel, const shader::Strip &strip,
+                  std::uint32_t frame_columns) {
+  for (std::uint32_t row = 0; row < strip.rows; ++row) {
+    const std::size_t first = std::size_t{strip.row + row} * frame_columns + strip.column;
+    if (std::ranges::any_of(std::span(channel).subspan(first, strip.columns),
+                            [](float value) { return std::isinf(value); }))
+      throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
+                                   "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
+  }
 }
 
 // Where `tiled`, tags lie in tiles (shaders/interface.h).
@@ -112,6 +128,9 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
     store(first + shader::channel_distance_m, to.distance_m);
     for (std::uint32_t k = 0; k < to.taps.size(); ++k)
       store(first + shader::channel_first_tap + k, to.taps[k]);
+    check_finite(to.amplitude, strip, strip.resolution_x);
+    for (const std::vector<float> &tap : to.taps)
+      check_finite(tap, strip, strip.resolution_x);
   }
   if (!measurement.sample_pixel_id.empty())
     store_sample_tags(buffers.tags_read.mapped().data(), strip, is_tiled(sensor), measurement);

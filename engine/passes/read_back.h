@@ -13,7 +13,8 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                       const StripBuffers &buffers, const Signal &signal);
 
-// Once that is done: copies it to its place in the frame.
+// Once that is done: copies it to its place in the frame. Throws Error: input where light is beyond what a
+// float holds.
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, Measurement &measurement);
 

@@ -46,6 +46,7 @@ void set_return(FrameReturn &channels, std::size_t pixel, const ReturnSum &sum, 
   const std::complex<double> z = sum.z() / static_cast<double>(samples);
   channels.z[pixel] = z;
   channels.amplitude[pixel] = std::abs(z);
+  channels.condition[pixel] = sum.weight() / samples / channels.amplitude[pixel];
   if (channels.amplitude[pixel] > 0) {
     channels.phase_rad[pixel] = phase_of_rad(z);
     channels.distance_m[pixel] =
@@ -69,7 +70,7 @@ Frame dark_frame(const Sensor &sensor) {
   frame.resolution = sensor.resolution;
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
     frame.returns.push_back({sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown,
-                             unknown, std::vector(sensor.taps, dark)});
+                             unknown, std::vector(sensor.taps, dark), unknown});
   frame.coverage = dark;
   for (auto *channel : {&frame.range_m, &frame.z_m})
     *channel = unknown;

@@ -21,6 +21,9 @@ struct FrameReturn {
   std::vector<std::complex<double>> z;
   std::vector<double> amplitude, phase_rad, distance_m;
   std::vector<std::vector<double>> taps; // c_k, k = 0 ... N-1
+  // The paths' weights, added up, over |z|: how many times more than its terms' the error of z may be. Of a
+  // sine 1 at least; infinity where all cancels, NaN where no light returns.
+  std::vector<double> condition;
 };
 
 struct Frame {

@@ -56,6 +56,8 @@ ReturnSum::ReturnSum(const Sensor &sensor, double modulation_hz)
 }
 
 void ReturnSum::add(const std::vector<LightPath> &paths) {
+  for (const LightPath &path : paths)
+    weight_.add(path.weight_w_m2_sr);
   if (is_sine())
     for (const LightPath &path : paths)
       phasors_.add(std::polar(path.weight_w_m2_sr, full_turn_rad * phase_turns(path)));

@@ -26,6 +26,7 @@ public:
 
   std::complex<double> z() const; // (2/N) sum over k of tap(k) exp(+j 2 pi k / N)
   double tap(std::uint32_t k) const;
+  double weight() const { return weight_.value(); } // of all paths, whatever their phase
 
 private:
   double phase_turns(const LightPath &path) const; // -1/2 to 3/2
@@ -33,6 +34,7 @@ private:
 
   const Sensor *sensor_;
   double turns_per_m_;
+  CompensatedSum weight_;
   ComplexSum phasors_;               // a sine's
   std::vector<CompensatedSum> taps_; // any other waveform's
 };
