@@ -68,9 +68,10 @@ PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a 
 // after the other, then its own.
 PMDSIM_CONSTANT short_way_resolve = 14;
 PMDSIM_CONSTANT short_way_points = 24;
-PMDSIM_CONSTANT constant_runs = 30;      // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_samples = 31;   // S
-PMDSIM_CONSTANT constant_one_place = 32; // 1: pixels of several samples may be evaluated at their centre
+PMDSIM_CONSTANT constant_runs = 30;         // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 31;      // S
+PMDSIM_CONSTANT constant_one_place = 32;    // 1: pixels of several samples may be evaluated at their centre
+PMDSIM_CONSTANT constant_lists_pixels = 33; // 0: all pixels go the short way and none can break the promise
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -402,7 +403,6 @@ struct ShortWayConstants {
 // Where the short way leaves what it cannot do.
 struct ShortWayWork {
   uvec2 lists[pixel_lists]; // PixelList
-  uvec2 broken;             // BrokenPromise
   uint lit_channel;
   uint diodes; // of all illuminators
 };
@@ -434,7 +434,7 @@ static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope)
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(LightRun) == 48 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 80);
-static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
+static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 24);
 static_assert(sizeof(AccumulateConstants) == 108);
 static_assert(sizeof(ResolveConstants) == 124);
 static_assert(sizeof(ShortWayConstants) == 120 && offsetof(ShortWayConstants, slope) == 32);

@@ -14,7 +14,7 @@ RealComplex complex_multiply(RealComplex a, RealComplex b) {
                      add(multiply(a.re, b.im), multiply(a.im, b.re)));
 }
 
-// Horner's rule from `tail` down through the `coefficients`, the highest power last.
+// sum_k coefficients[k] x^k + tail x^4, by Horner's rule.
 Real real_series(Real x, float tail, vec2 coefficients[4]) {
   Real sum = real(tail);
   [[unroll]] for (int k = 3; k >= 0; --k)
@@ -33,8 +33,8 @@ RealComplex real_unit_phasor(Real turns) {
   Real x = multiply(add(turns, real(-0.25 * quarter)), real(6.28318548, -1.74845553e-7)); // |x| <= pi / 4
   Real u = multiply(x, x);
   float v = high(u);
-  Real s = real_series(u, v * (-2.50521084e-8 + v * (1.60590438e-10 + v * -7.64716373e-13)), sine_series);
-  Real c = real_series(u, v * (-2.75573192e-7 + v * (2.0876757e-9 + v * (-1.14707456e-11 + v * 4.77947733e-14))),
+  Real s = real_series(u, -2.50521084e-8 + v * (1.60590438e-10 + v * -7.64716373e-13), sine_series);
+  Real c = real_series(u, -2.75573192e-7 + v * (2.0876757e-9 + v * (-1.14707456e-11 + v * 4.77947733e-14)),
                        cosine_series);
   s = add(x, multiply(multiply(x, u), s));
   c = add(real(1.0), multiply(u, c));
@@ -55,7 +55,7 @@ Real real_log_of(Real x, Real s) {
   Real y = divide(near_one ? negate(s) : add(m, real(-1.0)), add(m, real(1.0)));
   Real u = multiply(y, y);
   float v = high(u);
-  float tail = v * (0.181818182 + v * (0.153846154 + v * (0.133333333 + v * (0.117647059 + v * 0.105263158))));
+  float tail = 0.181818182 + v * (0.153846154 + v * (0.133333333 + v * (0.117647059 + v * 0.105263158)));
   Real log_m = multiply(y, add(real(2.0), multiply(u, real_series(u, tail, log_series))));
   return add(log_m, multiply(real(float(exponent)), real(0.693147182, -1.90465421e-9)));
 }
@@ -70,8 +70,8 @@ Real real_exp_of(Real x) {
   // x - k ln 2, ln 2 in two parts, the first of which is exact times k.
   Real f = add(add(x, real(-k * 0.693359375)), negate(multiply(real(k), real(-2.12194442e-4, 1.64659497e-12))));
   float v = high(f);
-  float tail = v * (1.98412698e-4 + v * (2.48015873e-5 + v * (2.75573192e-6 + v * (2.75573192e-7 +
-               v * (2.50521084e-8 + v * 2.0876757e-9)))));
+  float tail = 1.98412698e-4 + v * (2.48015873e-5 + v * (2.75573192e-6 + v * (2.75573192e-7 +
+               v * (2.50521084e-8 + v * 2.0876757e-9))));
   Real p = add(multiply(real_series(f, tail, exp_series), f), real(0.5));
   p = add(multiply(add(multiply(p, f), real(1.0)), f), real(1.0));
   return multiply(p, real(k < -126.0 ? 0.0 : uintBitsToFloat(uint(int(k) + 127) << 23)));

@@ -25,6 +25,7 @@ layout(constant_id = short_way_points + constant_chip) const uint general_chip =
 layout(constant_id = constant_runs) const uint runs = 1;
 layout(constant_id = constant_samples) const uint side = 1; // S
 layout(constant_id = constant_one_place) const uint one_place = 0;
+layout(constant_id = constant_lists_pixels) const uint lists_pixels = 1;
 
 // What the samples of a pixel have in common.
 struct Seen {
@@ -103,10 +104,9 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
   }
 }
 
-// Stores a pixel's channels and returns whether what was promised of them holds; `worst` is what they may be off by.
+// Stores a pixel's channels and returns whether what was promised of them holds.
 bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Real3 position, vec4 z[tones], float terms,
-                 Errors added, out Errors worst) {
-  worst = Errors(0.0, 0.0);
+                 Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Frequencies(light.frequencies).at[t];
@@ -118,9 +118,7 @@ bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Real3 
     sum.hits = hits ? 1u : 0u;
     sum.lit = hits ? 1u : 0u;
     float size = store_return(to, frequency, uvec2(0), 1u, pixel, sum);
-    Errors errors = errors_of(frequency, hits ? terms : 0.0, size, added);
-    kept = kept && is_kept(frequency, errors);
-    worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));
+    kept = kept && is_kept(frequency, errors_of(frequency, hits ? terms : 0.0, size, added));
     if (t == 0) {
       store_ground_truth(to, 1u, pixel, sum);
       if (lit_is_kept != 0)
@@ -165,16 +163,14 @@ void main() {
     vec4 z[tones];
     float terms;
     sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, z, terms);
-    Errors added = Errors(0.0, 0.0), worst;
+    Errors added = Errors(0.0, 0.0);
     if (side > 1)
       added = one_place_errors(plane, high3(ray), half_step(0, in_frame), half_step(1, in_frame), high3(position), light);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
-    bool kept = store_pixel(channels, light, to, hits, position, z, terms, added, worst);
+    bool kept = store_pixel(channels, light, to, hits, position, z, terms, added);
     store_ids(channels, seen.tag, plane.object, to);
-    done = seen.alike && seen.lit && (side == 1 || (one_place != 0 && kept) || !hits);
-    if (done && !kept && !pads)
-      say_broken(Works(constants.work).at.broken, worst);
+    done = seen.alike && seen.lit && kept && (side == 1 || one_place != 0 || !hits);
   }
-  if (!done && !pads)
+  if (lists_pixels != 0 && !done && !pads)
     enlist(seen.lit ? list_lit : list_rest, pixel);
 }

@@ -229,10 +229,14 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
 
 double largest_remainder(Precision precision) { return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26; }
 
+double largest_term(double phase_rad, double remainder) {
+  return remainder * std::min(1.0, 16.0 * phase_rad);
+}
+
 std::uint32_t moments_needed(double phase_rad, double remainder) {
   std::uint32_t k = 1;
   double term = phase_rad; // (kappa e)^k / k!
-  while (term > remainder)
+  while (term > largest_term(phase_rad, remainder))
     term *= phase_rad / ++k;
   return k;
 }

@@ -50,7 +50,11 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
 // (kappa * e)^K / K! that the moments left out may come to, of the sum of the weights (DESIGN section 4).
 double largest_remainder(Precision precision);
 
-// The smallest K whose remainder (kappa * e)^K / K! is at most `remainder`.
+// What the remainder may come to where kappa * e is `phase_rad`: where a wavelength is long, that much of a
+// turn would be a long way, so it is no more than 16 times as much of e, too.
+double largest_term(double phase_rad, double remainder);
+
+// The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);
 
 } // namespace pmdsim

@@ -111,6 +111,7 @@ void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const S
     }
   report.found_m = distance_m;
   report.found_amplitude = amplitude;
+  report.checked_pixels += of_strip_[strip].size();
 }
 
 } // namespace pmdsim

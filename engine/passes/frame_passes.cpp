@@ -116,18 +116,18 @@ ExactCheck make_check(const vulkan::Device &device, const SimulatorOptions &opti
 
 ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &options,
                          const FrameRequest &request, const HostView &view, const FramePlan &plan,
-                         const Ways &ways, const std::vector<PlannedStrip> &strips, const SceneBuffers &scene,
-                         const StripBuffers &buffers) {
+                         const Ways &ways, const std::vector<PlannedStrip> &strips, const SceneBuffers &scene) {
+  // Of one sample a pixel, the short way takes all that every diode lights and that surely keep the promise.
+  const bool has_lit = !ways.short_way || request.sensor.samples > 1 || !plan.surely_kept;
+  const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
   ShortWay short_way(device, request.sensor, plan.stand_ins, plan.extent, view.model, view.signal,
-                     *plan.promise, options, {scene.paint.painted, ways.thin_out, ways.short_way}, buffers,
-                     lists);
+                     *plan.promise, options,
+                     {scene.paint.painted, ways.thin_out, ways.short_way, lists_pixels}, lists);
   std::optional<PointsPass> points;
   if (!ways.all_points)
     points.emplace(device, request.sensor, view.model.surface_vectors(plan.precision), scene.paint.painted,
                    options.precision, true);
-  // Of one sample a pixel, the short way takes all that every diode lights.
-  const bool has_lit = !ways.short_way || request.sensor.samples > 1;
   return {
       std::move(lists),
       std::move(short_way),
@@ -183,7 +183,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
                 options.precision);
   std::optional<ListedPasses> listed;
   if (ways.listed)
-    listed.emplace(make_listed(device, options, request, view, plan, ways, strips, scene, buffers));
+    listed.emplace(make_listed(device, options, request, view, plan, ways, strips, scene));
   std::optional<ExactCheck> check;
   if (checks)
     check.emplace(make_check(device, options, request, view, plan, of_check, strips, scene));

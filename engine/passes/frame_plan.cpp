@@ -97,9 +97,11 @@ std::optional<double> largest_condition(const LitView &view, const FramePlan &pl
 
 void claim(const LitView &view, const Promise &bound, FramePlan &plan) {
   if (const auto condition = largest_condition(view, plan)) {
-    plan.claimed_m = std::min(bound.limit_m, bound.fixed_m + bound.per_condition_m * *condition);
-    plan.claimed_amplitude =
-        std::min(bound.amplitude_limit, bound.amplitude_fixed + bound.amplitude_per_condition * *condition);
+    const double error_m = bound.fixed_m + bound.per_condition_m * *condition;
+    const double amplitude = bound.amplitude_fixed + bound.amplitude_per_condition * *condition;
+    plan.surely_kept = error_m <= bound.limit_m && amplitude <= bound.amplitude_limit;
+    plan.claimed_m = std::min(bound.limit_m, error_m);
+    plan.claimed_amplitude = std::min(bound.amplitude_limit, amplitude);
   } else if (plan.promise) { // of which every pixel makes sure
     plan.claimed_m = bound.limit_m;
     if (std::isfinite(bound.amplitude_limit))

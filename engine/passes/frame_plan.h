@@ -30,6 +30,7 @@ struct FramePlan {
   LightExtent extent;    // of the light, as the stand-ins' bound has it
   // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
   std::optional<Promise> promise, promise_of_all;
+  bool surely_kept = false; // by every pixel, which is known before the frame
   // Before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
 

@@ -145,7 +145,9 @@ public:
         const Signal &signal, const RoundingScope &scope)
       : groups_(groups), signal_(signal), scope_(scope), lengths_(lengths_of(groups, visible, scope)),
         u_(scope.precision == Precision::fp64 ? precise_rounding : float_rounding),
-        weight_(u_ * weight_error(groups, model, scope)) {}
+        // One sample's backscatter is common to all its terms.
+        weight_(u_ * weight_error(groups, model, scope) +
+                (scope.samples > 1 ? scope.backscatter_error : 0.0)) {}
 
   RoundingBound of(double frequency_hz) const {
     const double wavenumber_rad_m = 2.0 * std::numbers::pi * frequency_hz / speed_of_light_m_s;
@@ -159,7 +161,8 @@ private:
   double summation() const {
     const double blocks = groups_.blocks_per_run;
     const double of_run = scope_.precision == Precision::fp64 ? block * blocks : block + blocks;
-    return u_ * of_run + 0x1p-47 * static_cast<double>(groups_.runs.size() + scope_.samples * scope_.samples);
+    const double samples = scope_.samples;
+    return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
   }
 
   // Phases that differ by more than the paths': as bad as any.
@@ -183,7 +186,7 @@ private:
     double left_out = 1.0;
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
-    TermError error{weight_ + summation() * growth + 3.0 * u_ + scope_.backscatter_error, 0.0};
+    TermError error{weight_ + summation() * growth + 3.0 * u_, 0.0};
     error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
                    growth * (summation() * groups_.excess_m + left_out / wavenumber_rad_m);
     const double turned_m = lengths_.detour_m + groups_.excess_m;
@@ -207,23 +210,22 @@ private:
     return bound;
   }
 
-  // Harmonics whose returns the taps mistake for the fundamental's have phases of their own; all are turned
-  // by their whole phase, in float.
+  // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
+  // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
+    const double turning = signal_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const TermError fundamental = of_tone(wavenumber_rad_m);
+    double angle_rad = fundamental.angle_rad(wavenumber_rad_m, spread_m()) + turning;
+    double amplitude = fundamental.weight + wavenumber_rad_m * fundamental.path_m + turning;
+    for (std::uint32_t h = 2; h <= signal_.tones; ++h) {
+      if (h % signal_.taps != 1 && h % signal_.taps != signal_.taps - 1)
+        continue;
+      const TermError alias = of_tone(h * wavenumber_rad_m);
+      const double any_rad = alias.weight + h * wavenumber_rad_m * alias.path_m + turning;
+      angle_rad = std::max(angle_rad, any_rad);
+      amplitude = std::max(amplitude, any_rad);
+    }
     RoundingBound bound = fixed(wavenumber_rad_m);
-    double angle_rad = of_tone(wavenumber_rad_m).angle_rad(wavenumber_rad_m, spread_m());
-    TermError whole = of_tone(wavenumber_rad_m);
-    double amplitude = whole.weight + wavenumber_rad_m * whole.path_m;
-    if (signal_.waveform == shader::waveform_harmonics)
-      for (std::uint32_t h = 1; h <= signal_.tones; ++h) {
-        const bool is_alias = h % signal_.taps == 1 || h % signal_.taps == signal_.taps - 1;
-        if (!is_alias)
-          continue;
-        const TermError error = of_tone(h * wavenumber_rad_m);
-        const double any_rad = error.weight + h * wavenumber_rad_m * error.path_m;
-        amplitude = std::max(amplitude, any_rad + phasor * float_rounding);
-        angle_rad = std::max(angle_rad, (h > 1 ? any_rad : angle_rad) + phasor * float_rounding);
-      }
     bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
     return bound;
@@ -237,10 +239,9 @@ private:
     const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.
-    const double weight = weight_ + scope_.backscatter_error;
-    const double angle_rad = z + weight * std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
+    const double angle_rad = z + weight_ * std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
     bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
-    bound.amplitude_per_condition = z + 2.0 * weight;
+    bound.amplitude_per_condition = z + 2.0 * weight_;
     return bound;
   }
 

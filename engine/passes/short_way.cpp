@@ -40,6 +40,7 @@ vulkan::Specialization constants_of(const Sensor &sensor, const DiodeGroups &gro
   constants.push_back(sensor.samples);
   // Paint may change within a pixel.
   constants.push_back(ways.may_thin_out && !ways.painted ? 1u : 0u);
+  constants.push_back(ways.lists ? 1u : 0u);
   return constants;
 }
 
@@ -84,7 +85,7 @@ bool ShortWay::can_sum(const DiodeGroups &groups, const Signal &signal, const Se
 ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
                    const LightExtent &extent, const SumModel &model, const Signal &signal,
                    const Promise &promise, const SimulatorOptions &options, const ShortWayOptions &ways,
-                   const StripBuffers &buffers, const PixelLists &lists)
+                   const PixelLists &lists)
     : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
       diodes_(upload_all(device, groups.diodes)), diagrams_(upload_all(device, groups.diagrams)),
       tones_(upload_tones(device, signal)),
@@ -97,7 +98,9 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
   light.diagrams = words(diagrams_.address());
   light.frequencies = words(frequencies_.address());
   light_ = upload_light(device, light, light_runs(groups));
-  shader::ShortWayWork work{{}, words(buffers.broken.address()), signal.lit_channel(), groups.diode_count};
+  shader::ShortWayWork work{};
+  work.lit_channel = signal.lit_channel();
+  work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
     work.lists[list] = words(lists.of(list).address());
   work_ = vulkan::upload(device, std::as_bytes(std::span(&work, 1)));

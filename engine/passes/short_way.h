@@ -21,6 +21,7 @@ struct ShortWayOptions {
   bool painted;      // shapes have paint
   bool may_thin_out; // a pixel of several samples may be evaluated at one place, within the promise
   bool sums;         // false: the pass only lists pixels
+  bool lists;        // false: it takes all, and none can break the promise
 };
 
 class ShortWay {
@@ -28,11 +29,10 @@ public:
   // Whether the pass can sum such groups itself.
   static bool can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor);
 
-  // `groups` stand in for all diodes. `buffers` and `lists` are those that it will be used with.
+  // `groups` stand in for all diodes. `lists` are those that it will be used with.
   ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
            const LightExtent &extent, const SumModel &model, const Signal &signal, const Promise &promise,
-           const SimulatorOptions &options, const ShortWayOptions &ways, const StripBuffers &buffers,
-           const PixelLists &lists);
+           const SimulatorOptions &options, const ShortWayOptions &ways, const PixelLists &lists);
 
   // Needs the strip's tags and, where Signal::lit, how many diodes reach each sample.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

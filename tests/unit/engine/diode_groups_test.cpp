@@ -60,13 +60,16 @@ std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
 } // namespace
 
 TEST_CASE("moments are as many as the remainder asks for") {
+  CHECK(largest_term(0.5, 0x1p-26) == 0x1p-26);
+  CHECK(largest_term(1e-6, 0x1p-26) == Approx(0x1p-22 * 1e-6));
+  CHECK(moments_needed(1e-9, 0x1p-26) == 2); // of the excess something is left, however small
   for (const double remainder : {0x1p-26, 0x1p-45}) {
     CHECK(moments_needed(0.0, remainder) == 1);
     for (const double phase_rad : {1e-9, 1e-3, 0.07, 0.5}) {
       const std::uint32_t k = moments_needed(phase_rad, remainder);
-      CHECK(std::pow(phase_rad, k) / std::tgamma(k + 1.0) <= remainder);
+      CHECK(std::pow(phase_rad, k) / std::tgamma(k + 1.0) <= largest_term(phase_rad, remainder));
       if (k > 1)
-        CHECK(std::pow(phase_rad, k - 1.0) / std::tgamma(double(k)) > remainder);
+        CHECK(std::pow(phase_rad, k - 1.0) / std::tgamma(double(k)) > largest_term(phase_rad, remainder));
     }
   }
 }
