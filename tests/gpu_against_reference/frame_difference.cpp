@@ -55,10 +55,10 @@ FrameDifference difference(const Measurement &measured, const Measurement &expec
       ++result.disagreements;
     result.truth_m = std::max({result.truth_m, apart(measured.range_m[i], expected.range_m[i]),
                                apart(measured.z_m[i], expected.z_m[i])});
-    result.lit += expected.returns[0].amplitude[i] > 0.0f ? 1 : 0;
+    result.lit += expected.returns[0].amplitude[i] > 0.0f ? 1u : 0u;
     if (expected.coverage[i] == 0.0f) {
       ++result.empty;
-      result.badly_empty += is_empty(measured, i) ? 0 : 1;
+      result.badly_empty += is_empty(measured, i) ? 0u : 1u;
     }
   }
   return result;
