@@ -214,7 +214,9 @@ struct LightRun {
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
-  uint padding_1, padding_2;
+  float radius_m;    // at most, of its diodes about the reference point
+  float grazing; // with Lambert's law: what rounding the diodes' heights may be taken for in sum of |terms|,
+                 // times r^3
 };
 
 // A harmonic of a modulation frequency.

@@ -43,8 +43,7 @@ bool is_dark(const Return &measured, std::size_t pixel) {
 // Without a promise of the error nothing may be left of a return of which the limit leaves nothing.
 bool may_be_dark(const ExtremeTruth &truth, const Accuracy &accuracy, std::size_t pixel) {
   const bool promised = accuracy.mode == Mode::automatic;
-  return !truth.is_known(pixel) ||
-         (!promised && truth.limit_m(pixel) * truth.condition(pixel) >= 0.5 * truth.ambiguity_m());
+  return !truth.is_known(pixel) || (!promised && truth.limit_m(pixel) >= 0.5 * truth.ambiguity_m());
 }
 
 void compare_pixel(ExtremeRun &run, const Return &measured, const ExtremeTruth &truth, std::size_t pixel) {
@@ -53,8 +52,7 @@ void compare_pixel(ExtremeRun &run, const Return &measured, const ExtremeTruth &
       std::abs(std::remainder(measured.distance_m[pixel] - expected.distance_m[pixel], expected.ambiguity_m));
   ++run.pixels;
   run.error_m = std::max(run.error_m, error_m);
-  run.error_over_limit =
-      std::max(run.error_over_limit, error_m / (truth.limit_m(pixel) * truth.condition(pixel)));
+  run.error_over_limit = std::max(run.error_over_limit, error_m / truth.limit_m(pixel));
   run.amplitude_error =
       std::max(run.amplitude_error, std::abs(measured.amplitude[pixel] / expected.amplitude[pixel] - 1.0));
 }
@@ -80,7 +78,7 @@ ExtremeTruth::ExtremeTruth(const ExtremeSetup &setup)
 
 double ExtremeTruth::limit_m(std::size_t pixel) const {
   const double distance_m = std::max(frame_.range_m[pixel], frame_.returns[0].distance_m[pixel]);
-  return std::min(std::max(1e-6, 1.2e-7 * distance_m), 1e-3 * ambiguity_m());
+  return condition(pixel) * std::min(std::max(1e-6, 1.2e-7 * distance_m), 1e-3 * ambiguity_m());
 }
 
 bool ExtremeTruth::is_known(std::size_t pixel) const {
@@ -88,7 +86,7 @@ bool ExtremeTruth::is_known(std::size_t pixel) const {
     return false;
   // Of a path's phase: that of the sine, and of the path's length in turns.
   const double rounding_turns = (1.0 + frame_.range_m[pixel] / ambiguity_m()) * 0x1p-52;
-  return condition(pixel) * rounding_turns * ambiguity_m() < 0.1 * limit_m(pixel);
+  return condition(pixel) * rounding_turns * ambiguity_m() < 0.1e-6;
 }
 
 double ExtremeTruth::smallest_limit_m() const {

@@ -12,7 +12,7 @@ namespace pmdsim::test {
 
 // What the reference says, and what is asked of each pixel: 1 micrometre or 1.2e-7 of the distance (of the
 // point or of the wrapped distance, whichever is larger: the last bits of its float), and a thousandth of the
-// ambiguity range at most.
+// ambiguity range at most; times the pixel's condition, as far as returns cancel.
 class ExtremeTruth {
 public:
   explicit ExtremeTruth(const ExtremeSetup &setup);
@@ -43,7 +43,7 @@ struct ExtremeRun {
   std::size_t differing = 0;     // their samples see other triangles
   std::size_t impossible = 0;    // not a number, infinite, negative or beyond its range where it may not be
   double error_m = 0.0;          // the largest of distance, wrapped
-  double error_over_limit = 0.0; // the largest of error / (limit * condition)
+  double error_over_limit = 0.0; // the largest of error / limit
   double amplitude_error = 0.0;  // the largest, relative
 };
 

@@ -84,20 +84,20 @@ std::vector<Cell> axes() {
   using Values = std::vector<double>;
   using Counts = std::vector<std::uint32_t>;
   along("wall at {} m", &ExtremeSetup::distance_m, Values{1e-3, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4, 1e5});
-  along("{} Hz", &ExtremeSetup::modulation_hz, Values{1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10});
-  along("{} diodes", &ExtremeSetup::diodes, Counts{1, 2, 17, 1000, 10'000, 100'000});
+  along("{} Hz", &ExtremeSetup::modulation_hz, Values{1e3, 1e5, 1e7, 1e8, 1e9, 1e10});
+  along("{} diodes", &ExtremeSetup::diodes, Counts{1, 2, 17, 1000, 100'000});
   along("ring of {} m", &ExtremeSetup::ring_radius_m, Values{1e-3, 1e-2, 0.1, 1, 10});
-  along("{} m from the origin", &ExtremeSetup::offset_m, Values{1, 1e3, 1e5, 1e6, 1e7});
-  along("S = {}", &ExtremeSetup::samples, Counts{2, 3, 7, 16});
-  along("at {} deg", &ExtremeSetup::incidence_deg, Values{45, 80, 89, 89.9, 89.99, 89.999});
-  along("triangles of {} m", &ExtremeSetup::triangle_m, Values{1e-6, 1e-4, 1e-2, 1, 1e2, 1e5});
-  along("{} W/sr", &ExtremeSetup::intensity_w_sr, Values{1e-30, 1e-10, 1e10, 1e30});
+  along("{} m from the origin", &ExtremeSetup::offset_m, Values{1e3, 1e5, 1e7});
+  along("S = {}", &ExtremeSetup::samples, Counts{2, 7, 16});
+  along("at {} deg", &ExtremeSetup::incidence_deg, Values{45, 80, 89, 89.9, 89.999});
+  along("triangles of {} m", &ExtremeSetup::triangle_m, Values{1e-6, 1e-4, 1e-2, 1, 1e5});
+  along("{} W/sr", &ExtremeSetup::intensity_w_sr, Values{1e-30, 1e-10, 1e30});
   for (const End &end : {slivers, over_the_wall})
     cells.push_back(cell({end}));
   opposed_by = ExtremeSetup::Opposed::phase;
-  along("opposed, {} left over", &ExtremeSetup::left_over, Values{0.1, 1e-2, 1e-4, 1e-6, 1e-8, 0});
+  along("opposed, {} left over", &ExtremeSetup::left_over, Values{0.1, 1e-2, 1e-4, 1e-6, 0});
   opposed_by = ExtremeSetup::Opposed::path;
-  along("half a wave behind, {} left over", &ExtremeSetup::left_over, Values{0.1, 1e-2, 1e-4, 1e-6, 1e-8, 0});
+  along("half a wave behind, {} left over", &ExtremeSetup::left_over, Values{0.1, 1e-2, 1e-4, 1e-6, 0});
   return cells;
 }
 
@@ -146,8 +146,6 @@ std::vector<Cell> worst_pairs() {
       {far_out, many_samples},
       {grazing, many_samples},
       {grazing, slivers},
-      {many_diodes, weak},
-      {many_diodes, strong},
       {over_the_wall, slow},
       {over_the_wall, fast},
       {over_the_wall, far_out},
@@ -160,7 +158,6 @@ std::vector<Cell> worst_pairs() {
       {opposed, slow},
       {opposed, fast},
       {opposed, large_ring},
-      {opposed, many_diodes},
       {opposed, far_out},
       {opposed, weak},
       {opposed, grazing},
@@ -171,7 +168,6 @@ std::vector<Cell> worst_pairs() {
       {half_wave_behind, many_samples},
       {large_ring, slow, at_1_mm},
       {large_ring, slow, grazing},
-      {large_ring, slow, many_diodes},
       {fast, large_ring, many_diodes},
       {at_1_mm, small_ring, many_diodes, strong},
       {at_100_km, slow, weak},
@@ -239,12 +235,12 @@ void check(const ExtremeTruth &truth, const Runs &runs) {
     CHECK(run->differing <= truth.frame().range_m.size() / 20);
   }
   CHECK(runs.chosen.error_over_limit <= 1.0);
-  // What mode auto promises is no less where returns cancel.
+  // What mode auto promises is the same for all pixels.
   CHECK(runs.chosen.error_m <= truth.smallest_limit_m());
 }
 
 void check_cells(const std::vector<Cell> &cells) {
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .loop = DiodeLoop::looped});
   fmt::print("{}", heading());
   for (const Cell &cell : cells) {
     const ExtremeTruth truth(cell.setup);
