@@ -117,7 +117,7 @@ const std::map<std::string, HostLayout> scene_and_light{
     {"LightRun",
      {sizeof(LightRun),
       {MEMBER(LightRun, reference_hi), MEMBER(LightRun, reference_lo), MEMBER(LightRun, phase_turns),
-       MEMBER(LightRun, padding_1), MEMBER(LightRun, padding_2)}}},
+       MEMBER(LightRun, radius_m), MEMBER(LightRun, grazing)}}},
     {"Frequency",
      {sizeof(Frequency),
       {MEMBER(Frequency, turns_per_m), MEMBER(Frequency, ambiguity_m), MEMBER(Frequency, below),
