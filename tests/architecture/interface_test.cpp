@@ -24,12 +24,17 @@
 #include "spirv/lit_trace_fp64.h"
 #include "spirv/lit_try_double_float.h"
 #include "spirv/lit_try_fp64.h"
+#include "spirv/pixel_list_count.h"
 #include "spirv/points_double_float.h"
 #include "spirv/points_fp64.h"
 #include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
 #include "spirv/search_double_float.h"
 #include "spirv/search_fp64.h"
+#include "spirv/short_way_looped_double_float.h"
+#include "spirv/short_way_looped_fp64.h"
+#include "spirv/short_way_straight_double_float.h"
+#include "spirv/short_way_straight_fp64.h"
 #include "spirv/visibility_frag.h"
 #include "spirv/visibility_masked_double_float.h"
 #include "spirv/visibility_masked_fp64.h"
@@ -109,6 +114,17 @@ const std::map<std::string, HostLayout> scene_and_light{
        MEMBER(PreciseDiode, intensity_rest), MEMBER(PreciseDiode, order_rest),
        MEMBER(PreciseDiode, padding_1), MEMBER(PreciseDiode, padding_2)}}},
     {"Tone", {sizeof(Tone), {MEMBER(Tone, turns_per_m), MEMBER(Tone, wavenumber), MEMBER(Tone, harmonic)}}},
+    {"LightRun",
+     {sizeof(LightRun),
+      {MEMBER(LightRun, reference_hi), MEMBER(LightRun, reference_lo), MEMBER(LightRun, phase_turns),
+       MEMBER(LightRun, radius_m), MEMBER(LightRun, grazing)}}},
+    {"Frequency",
+     {sizeof(Frequency),
+      {MEMBER(Frequency, turns_per_m), MEMBER(Frequency, ambiguity_m), MEMBER(Frequency, below),
+       MEMBER(Frequency, amplitude_scale), MEMBER(Frequency, first_channel), MEMBER(Frequency, limit_m),
+       MEMBER(Frequency, fixed_m), MEMBER(Frequency, per_condition_m), MEMBER(Frequency, amplitude_limit),
+       MEMBER(Frequency, amplitude_fixed), MEMBER(Frequency, amplitude_per_condition),
+       MEMBER(Frequency, padding_1), MEMBER(Frequency, padding_2)}}},
 };
 
 const std::map<std::string, HostLayout> constants_until_points{
@@ -132,7 +148,7 @@ const std::map<std::string, HostLayout> constants_until_points{
        MEMBER(PointsConstants, tags), MEMBER(PointsConstants, planes), MEMBER(PointsConstants, position_hi),
        MEMBER(PointsConstants, position_lo), MEMBER(PointsConstants, surface),
        MEMBER(PointsConstants, backscatter), MEMBER(PointsConstants, shapes),
-       MEMBER(PointsConstants, surfaces)}}},
+       MEMBER(PointsConstants, surfaces), MEMBER(PointsConstants, list)}}},
     {"SearchConstants",
      {sizeof(SearchConstants),
       {MEMBER(SearchConstants, strip), MEMBER(SearchConstants, lens), MEMBER(SearchConstants, view),
@@ -208,39 +224,55 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
      {sizeof(AccumulateConstants),
       {MEMBER(AccumulateConstants, position_hi), MEMBER(AccumulateConstants, position_lo),
        MEMBER(AccumulateConstants, surface), MEMBER(AccumulateConstants, backscatter),
-       MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, diodes),
-       MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, blocks),
-       MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, reference_hi),
-       MEMBER(AccumulateConstants, reference_lo), MEMBER(AccumulateConstants, phase_turns),
-       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached)}}},
+       MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, run),
+       MEMBER(AccumulateConstants, diodes), MEMBER(AccumulateConstants, tones),
+       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
+       MEMBER(AccumulateConstants, terms), MEMBER(AccumulateConstants, list),
+       MEMBER(AccumulateConstants, blocks), MEMBER(AccumulateConstants, plane),
+       MEMBER(AccumulateConstants, padded_pixels)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
-      {MEMBER(ResolveConstants, position_hi),
-       MEMBER(ResolveConstants, position_lo),
-       MEMBER(ResolveConstants, sum),
-       MEMBER(ResolveConstants, tags),
-       MEMBER(ResolveConstants, planes),
-       MEMBER(ResolveConstants, channels),
-       MEMBER(ResolveConstants, harmonics),
-       MEMBER(ResolveConstants, turns_per_m),
-       MEMBER(ResolveConstants, ambiguity_m),
-       MEMBER(ResolveConstants, limits),
-       MEMBER(ResolveConstants, amplitude_scale),
-       MEMBER(ResolveConstants, columns),
-       MEMBER(ResolveConstants, samples),
-       MEMBER(ResolveConstants, padded_pixels),
-       MEMBER(ResolveConstants, pixels),
-       MEMBER(ResolveConstants, plane),
-       MEMBER(ResolveConstants, first_channel),
-       MEMBER(ResolveConstants, lit_channel),
-       MEMBER(ResolveConstants, lit),
-       MEMBER(ResolveConstants, diodes)}}},
+      {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),
+       MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags), MEMBER(ResolveConstants, planes),
+       MEMBER(ResolveConstants, channels), MEMBER(ResolveConstants, harmonics),
+       MEMBER(ResolveConstants, frequency), MEMBER(ResolveConstants, lit), MEMBER(ResolveConstants, terms),
+       MEMBER(ResolveConstants, broken), MEMBER(ResolveConstants, list), MEMBER(ResolveConstants, columns),
+       MEMBER(ResolveConstants, samples), MEMBER(ResolveConstants, padded_pixels),
+       MEMBER(ResolveConstants, pixels), MEMBER(ResolveConstants, plane),
+       MEMBER(ResolveConstants, lit_channel), MEMBER(ResolveConstants, diodes)}}},
+};
+
+const std::map<std::string, HostLayout> short_way{
+    {"PixelList",
+     {sizeof(PixelList),
+      {MEMBER(PixelList, sample_groups_x), MEMBER(PixelList, sample_groups_y),
+       MEMBER(PixelList, sample_groups_z), MEMBER(PixelList, pixel_groups_x),
+       MEMBER(PixelList, pixel_groups_y), MEMBER(PixelList, pixel_groups_z), MEMBER(PixelList, count),
+       MEMBER(PixelList, padding)}}},
+    {"PixelListConstants",
+     {sizeof(PixelListConstants), {MEMBER(PixelListConstants, lists), MEMBER(PixelListConstants, samples)}}},
+    {"ShortWayLight",
+     {sizeof(ShortWayLight),
+      {MEMBER(ShortWayLight, middle_m), MEMBER(ShortWayLight, extent_m), MEMBER(ShortWayLight, diagrams),
+       MEMBER(ShortWayLight, pattern_slope), MEMBER(ShortWayLight, spread_m),
+       MEMBER(ShortWayLight, wavenumber), MEMBER(ShortWayLight, padding_1), MEMBER(ShortWayLight, padding_2),
+       MEMBER(ShortWayLight, padding_3), MEMBER(ShortWayLight, tones), MEMBER(ShortWayLight, frequencies)}}},
+    {"ShortWayWork",
+     {sizeof(ShortWayWork),
+      {MEMBER(ShortWayWork, lists), MEMBER(ShortWayWork, lit_channel), MEMBER(ShortWayWork, diodes)}}},
+    {"ShortWayConstants",
+     {sizeof(ShortWayConstants),
+      {MEMBER(ShortWayConstants, strip), MEMBER(ShortWayConstants, slope), MEMBER(ShortWayConstants, chip),
+       MEMBER(ShortWayConstants, tags), MEMBER(ShortWayConstants, planes), MEMBER(ShortWayConstants, shapes),
+       MEMBER(ShortWayConstants, surfaces), MEMBER(ShortWayConstants, lit), MEMBER(ShortWayConstants, light),
+       MEMBER(ShortWayConstants, diodes), MEMBER(ShortWayConstants, channels),
+       MEMBER(ShortWayConstants, work)}}},
 };
 
 std::map<std::string, HostLayout> host_layouts() {
   std::map<std::string, HostLayout> all;
   for (const auto &some : {chip_and_lens, scene_and_light, shadows, constants_until_points,
-                           constants_of_shadows, constants_of_the_sum})
+                           constants_of_shadows, constants_of_the_sum, short_way})
     all.insert(some.begin(), some.end());
   return all;
 }
@@ -281,6 +313,11 @@ const std::vector<Shader> shaders{
     {"accumulate direct, straight, float pairs", accumulate_direct_straight_double_float_spirv},
     {"accumulate direct, looped, fp64", accumulate_direct_looped_fp64_spirv},
     {"accumulate direct, looped, float pairs", accumulate_direct_looped_double_float_spirv},
+    {"short way, straight, fp64", short_way_straight_fp64_spirv},
+    {"short way, straight, float pairs", short_way_straight_double_float_spirv},
+    {"short way, looped, fp64", short_way_looped_fp64_spirv},
+    {"short way, looped, float pairs", short_way_looped_double_float_spirv},
+    {"pixel_list_count", pixel_list_count_spirv},
     {"resolve, fp64", resolve_fp64_spirv},
     {"resolve, float pairs", resolve_double_float_spirv},
 };
@@ -308,4 +345,10 @@ TEST_CASE("a raster's vertex is the vec3 and the uint that the vertex shader tak
   CHECK(offsetof(RasterVertex, y_fragments) == 4);
   CHECK(offsetof(RasterVertex, inverse_depth) == 8);
   CHECK(offsetof(RasterVertex, triangle) == 12);
+}
+
+TEST_CASE("what breaks a promise is the three words that the shaders keep") {
+  CHECK(offsetof(BrokenPromise, pixels) == 0);
+  CHECK(offsetof(BrokenPromise, worst_m) == 4);
+  CHECK(offsetof(BrokenPromise, amplitude) == 8);
 }

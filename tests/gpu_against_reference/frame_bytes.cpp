@@ -29,6 +29,7 @@ struct Change {
   std::string name;
   std::function<void(Sensor &)> of;
   Shadows shadows = Shadows::off;
+  Mode mode = Mode::exact;
 };
 
 const std::vector<Change> &changes() {
@@ -63,6 +64,19 @@ const std::vector<Change> &changes() {
          make_square(s);
        },
        Shadows::automatic},
+      {"automatic", [](Sensor &) {}, Shadows::off, Mode::automatic},
+      {"automatic_one_sample", [](Sensor &s) { s.samples = 1; }, Shadows::off, Mode::automatic},
+      {"automatic_brown",
+       [](Sensor &s) {
+         s.distortion = BrownConrady{-0.2, 0.05, 0.01, -0.02, 0.01};
+       },
+       Shadows::off, Mode::automatic},
+      {"automatic_shadows_tilted_filled",
+       [](Sensor &s) {
+         s.chip.rotation_rad = {0.1, -0.05, 0.2};
+         fill_in_part(s);
+       },
+       Shadows::automatic, Mode::automatic},
   };
   return all;
 }
@@ -108,7 +122,10 @@ RepeatabilityFrame repeatability_frame(const std::string &name) {
   for (const Change &change : changes())
     if (change.name == name) {
       change.of(sensor);
-      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera), change.shadows};
+      Accuracy accuracy;
+      accuracy.mode = change.mode;
+      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera), change.shadows,
+              accuracy};
     }
   throw std::out_of_range("no repeatability frame " + name);
 }
@@ -122,7 +139,8 @@ SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
 }
 
 Measurement measure(Simulator &simulator, const RepeatabilityFrame &frame) {
-  simulator.prepare(frame.scene, frame.sensor, {frame.illuminator}, Backscatter::lambert, frame.shadows);
+  simulator.prepare(frame.scene, frame.sensor, {frame.illuminator}, Backscatter::lambert, frame.shadows,
+                    frame.accuracy);
   return simulator.measure();
 }
 

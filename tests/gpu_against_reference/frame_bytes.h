@@ -11,7 +11,8 @@ namespace pmdsim::test {
 
 std::string bytes_of(const Measurement &measurement);
 
-// What the repeatability frames have beyond a pinhole and a sine without shadows.
+// What the repeatability frames have beyond a pinhole and a sine without shadows in mode
+// exact.
 const std::vector<std::string> &repeatability_frames();
 
 struct RepeatabilityFrame {
@@ -19,9 +20,10 @@ struct RepeatabilityFrame {
   Sensor sensor;
   Illuminator illuminator;
   Shadows shadows;
+  Accuracy accuracy;
 };
 
-// A random scene of 256 x 192 pixels with 2 x 2 samples or more each and 30 diodes. Throws std::out_of_range
+// A random scene of 256 x 192 pixels with 1 x 1 to 3 x 3 samples each and 30 diodes. Throws std::out_of_range
 // where there is no such frame.
 RepeatabilityFrame repeatability_frame(const std::string &name);
 
