@@ -214,7 +214,9 @@ struct LightRun {
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
-  uint padding_1, padding_2;
+  float radius_m;    // at most, of its diodes about the reference point
+  float grazing; // with Lambert's law: what rounding the diodes' heights may be taken for in sum of |terms|,
+                 // times r^3
 };
 
 // A harmonic of a modulation frequency.
@@ -370,19 +372,20 @@ struct BrokenPromise {
   uint padding;
 };
 
-// The diodes that stand in for all, as the short way sees them. Their LightRuns follow.
+// The light as the short way sees it. The LightRuns of the diodes that stand in for all follow. (What has an
+// address in memory, lavapipe fetches for each lane.)
+PMDSIM_CONSTANT short_way_tones = 4; // at most
 struct ShortWayLight {
   vec4 middle_m;       // of the box around the light, camera frame
   vec4 extent_m;       // half of it; w: the radius of the sphere around it
-  uvec2 diodes;        // GroupDiode[], run by run
-  uvec2 tones;         // Tone[], one for each frequency
   uvec2 diagrams;      // vec2[]
-  uvec2 frequencies;   // Frequency[]
   float pattern_slope; // at most, of ln J, per radian
   float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
                     // theirs do
   float wavenumber; // of the highest frequency, rad/m
-  uint padding;
+  uint padding_1, padding_2, padding_3;
+  Tone tones[short_way_tones];
+  Frequency frequencies[short_way_tones];
 };
 
 // Sees a pixel from its tags to its channels, or lists it.
@@ -395,7 +398,8 @@ struct ShortWayConstants {
   uvec2 shapes;
   uvec2 surfaces;
   uvec2 lit;      // in, where shadowed: uint a sample, the diodes that reach it
-  uvec2 light;    // in: ShortWayLight
+  uvec2 light;    // in: ShortWayLight and its LightRuns
+  uvec2 diodes;   // in: GroupDiode[], run by run
   uvec2 channels; // out, as in ResolveConstants
   uvec2 work;     // in and out: ShortWayWork
 };
@@ -433,11 +437,11 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 48 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 80);
+static_assert(sizeof(LightRun) == 48 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 24);
 static_assert(sizeof(AccumulateConstants) == 108);
 static_assert(sizeof(ResolveConstants) == 124);
-static_assert(sizeof(ShortWayConstants) == 120 && offsetof(ShortWayConstants, slope) == 32);
+static_assert(sizeof(ShortWayConstants) == 128 && offsetof(ShortWayConstants, slope) == 32);
 } // namespace pmdsim::shader
 #endif
 

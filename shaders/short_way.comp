@@ -92,15 +92,15 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
     float total[moments];
     [[unroll]] for (uint k = 0; k < moments; ++k)
       total[k] = 0.0;
-    Diodes diodes = Diodes(light.diodes);
+    Diodes diodes = Diodes(constants.diodes);
 #ifdef STRAIGHT_LINE
     [[unroll]]
 #endif
     for (uint block = 0; block < unrolled_blocks; ++block)
       add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
-    terms += backscatter * total[0];
+    terms += backscatter * terms_of(total[0], point.rho, run);
     [[unroll]] for (uint t = 0; t < tones; ++t)
-      z[t] = compensated_add(z[t], backscatter * tone_return(total, path, run, Tones(light.tones).at[t]));
+      z[t] = compensated_add(z[t], backscatter * tone_return(total, path, run, Lights(constants.light).at.tones[t]));
   }
 }
 
@@ -109,7 +109,7 @@ bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Real3 
                  Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
-    Frequency frequency = Frequencies(light.frequencies).at[t];
+    Frequency frequency = Lights(constants.light).at.frequencies[t];
     PixelSum sum;
     see_nothing(sum);
     sum.z[0] = hits ? z[t] : vec4(0.0);

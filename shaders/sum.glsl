@@ -71,6 +71,13 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
   return path;
 }
 
+// What a run's terms come to without their phases; where light grazes a surface, what rounding does to Lambert's cosines
+// counts as if it were light (rounding_bound.h).
+float terms_of(float weights, float rho, LightRun run) {
+  float nearest = rho - run.radius_m; // half of rho at least
+  return backscatter_model == backscatter_lambert ? weights + run.grazing / (nearest * nearest * nearest) : weights;
+}
+
 // The phase of a path at a tone, the illuminator's with it, in turns.
 Real phase_turns(Real path_m, LightRun run, Tone tone) {
   Real turns = multiply(path_m, real(tone.turns_per_m.x, tone.turns_per_m.y));

@@ -69,8 +69,8 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
   const bool one_window = !view.signal.lit || windows == 1;
   Ways ways{};
   ways.rest = view.signal.lit || view.model.backscatter != shader::backscatter_flat;
-  const bool can = plan.promise && one_window && plan.precision == Precision::fp32 &&
-                   ShortWay::can_sum(plan.stand_ins, view.signal, sensor);
+  const bool can =
+      plan.short_promise && one_window && ShortWay::can_sum(plan.short_groups, view.signal, sensor);
   ways.thin_out =
       can && sensor.samples > 1 && (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
@@ -116,13 +116,14 @@ ExactCheck make_check(const vulkan::Device &device, const SimulatorOptions &opti
 
 ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &options,
                          const FrameRequest &request, const HostView &view, const FramePlan &plan,
-                         const Ways &ways, const std::vector<PlannedStrip> &strips, const SceneBuffers &scene) {
+                         const Ways &ways, const std::vector<PlannedStrip> &strips,
+                         const SceneBuffers &scene) {
   // Of one sample a pixel, the short way takes all that every diode lights and that surely keep the promise.
   const bool has_lit = !ways.short_way || request.sensor.samples > 1 || !plan.surely_kept;
   const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
-  ShortWay short_way(device, request.sensor, plan.stand_ins, plan.extent, view.model, view.signal,
-                     *plan.promise, options,
+  ShortWay short_way(device, request.sensor, plan.short_groups, plan.extent, view.model, view.signal,
+                     plan.short_promise.value_or(*plan.promise), options,
                      {scene.paint.painted, ways.thin_out, ways.short_way, lists_pixels}, lists);
   std::optional<PointsPass> points;
   if (!ways.all_points)

@@ -18,6 +18,9 @@ namespace {
 // for pixels whose returns cancel in part.
 constexpr double share_of_stand_ins[frame_plans] = {0.5, 0.02, 0.0};
 
+// Of paint, texture and vignetting, relative.
+constexpr double painted_backscatter_error = 0x1p-21;
+
 double wavenumber_rad_m(double modulation_hz) {
   return 2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s;
 }
@@ -27,12 +30,14 @@ Wavenumbers wavenumbers_of(const Signal &signal) {
   return {wavenumber_rad_m(smallest), wavenumber_rad_m(largest)};
 }
 
-std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision) {
+std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision,
+                                      std::uint32_t samples) {
   RoundingScope scope;
   scope.precision = precision;
-  scope.samples = view.sensor.samples;
-  scope.incidence_cosine = least_incidence_cosine(view.camera, groups, view.visible);
+  scope.samples = samples;
+  scope.incidence_cosine = 1.0; // where light grazes a surface, the shaders' terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
+  scope.backscatter_error = painted_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.signal, scope);
 }
 
@@ -43,6 +48,16 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
 [[noreturn]] void refuse(const Accuracy &accuracy, const std::string &why) {
   throw Error(ExitCode::accuracy, fmt::format("a distance error of at most {:.6g} mm cannot be promised: {}",
                                               1e3 * accuracy.max_error_m, why));
+}
+
+// Of pixels of which some keep the one and some the other.
+Promise worse_of(const Promise &a, const Promise &b) {
+  return {a.limit_m,
+          std::max(a.fixed_m, b.fixed_m),
+          std::max(a.per_condition_m, b.per_condition_m),
+          a.amplitude_limit,
+          std::max(a.amplitude_fixed, b.amplitude_fixed),
+          std::max(a.amplitude_per_condition, b.amplitude_per_condition)};
 }
 
 DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
@@ -65,7 +80,7 @@ RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     const Precision precision = sum_precision(view.signal, wanted);
     DiodeGroups groups = groups_of(view, view.lights, precision);
-    const auto bound = bound_of(view, groups, precision);
+    const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     if (bound && is_within(*bound, accuracy))
       return {precision, std::move(groups), *bound};
     if (bound)
@@ -129,18 +144,36 @@ ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const R
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }
 
+// One sample in float, whatever the precision of the others.
+void plan_short_way(const LitView &view, const Accuracy &accuracy, const ReducedLight &light,
+                    FramePlan &plan) {
+  if (accuracy.precision == Precision::fp64)
+    return;
+  plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
+  plan.short_groups.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
+  const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, 1);
+  if (!rounding)
+    return;
+  const Promise promise = promise_of(accuracy, *rounding, light);
+  if (promise.fixed_m + promise.per_condition_m <= promise.limit_m &&
+      promise.amplitude_fixed + promise.amplitude_per_condition <= promise.amplitude_limit)
+    plan.short_promise = promise;
+}
+
 FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   FramePlan plan;
   plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
   plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
   const ReducedLight light = whole_light(view);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
-  if (const auto rounding = bound_of(view, plan.all, plan.precision)) {
+  if (const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples)) {
     const Promise bound = promise_of(accuracy, *rounding, light);
     if (view.sensor.adaptive_samples)
       plan.promise = plan.promise_of_all = bound;
     claim(view, bound, plan);
   }
+  if (plan.promise && plan.precision == Precision::fp32)
+    plan_short_way(view, accuracy, light, plan);
   return plan;
 }
 
@@ -158,9 +191,10 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
   plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view));
-  const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision);
+  const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
   plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
-  claim(view, *plan.promise, plan);
+  plan_short_way(view, accuracy, light, plan);
+  claim(view, worse_of(*plan.promise, plan.short_promise.value_or(*plan.promise)), plan);
   return plan;
 }
 

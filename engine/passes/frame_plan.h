@@ -25,11 +25,14 @@ struct LitView {
 
 struct FramePlan {
   Precision precision = Precision::fp32;
-  DiodeGroups all;       // every diode
-  DiodeGroups stand_ins; // of those, with other intensities, that do where all light and face a point
-  LightExtent extent;    // of the light, as the stand-ins' bound has it
+  DiodeGroups all;          // every diode
+  DiodeGroups stand_ins;    // of those, with other intensities, that do where all light and face a point
+  DiodeGroups short_groups; // the stand-ins in float, for the short way
+  LightExtent extent;       // of the light, as the stand-ins' bound has it
   // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
   std::optional<Promise> promise, promise_of_all;
+  // Of what the short way sums; nothing where that is not exact enough.
+  std::optional<Promise> short_promise;
   bool surely_kept = false; // by every pixel, which is known before the frame
   // Before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;

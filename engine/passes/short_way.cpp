@@ -18,7 +18,6 @@ namespace pmdsim {
 namespace {
 
 constexpr std::size_t most_blocks = 16; // as one straight line
-constexpr std::uint32_t most_tones = 4;
 
 const Forms forms{shader::short_way_straight_fp64_spirv, shader::short_way_straight_double_float_spirv,
                   shader::short_way_looped_fp64_spirv, shader::short_way_looped_double_float_spirv};
@@ -79,7 +78,8 @@ vulkan::Buffer upload_all(const vulkan::Device &device, const std::vector<T> &re
 
 bool ShortWay::can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
   return signal.waveform == shader::waveform_sine && signal.by_moments && !sensor.has_distortion() &&
-         signal.frequencies() <= most_tones && groups.runs.size() * groups.blocks_per_run <= most_blocks;
+         signal.frequencies() <= shader::short_way_tones &&
+         groups.runs.size() * groups.blocks_per_run <= most_blocks;
 }
 
 ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
@@ -88,15 +88,12 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
                    const PixelLists &lists)
     : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
       diodes_(upload_all(device, groups.diodes)), diagrams_(upload_all(device, groups.diagrams)),
-      tones_(upload_tones(device, signal)),
-      frequencies_(upload_all(device, frequency_records(signal, groups.largest_intensity_w_sr, promise))),
       pipeline_(device, forms.choose(device, options), sizeof(shader::ShortWayConstants),
                 constants_of(sensor, groups, model, signal, ways)) {
   shader::ShortWayLight light = light_record(extent, signal, groups.phased);
-  light.diodes = words(diodes_.address());
-  light.tones = words(tones_.address());
   light.diagrams = words(diagrams_.address());
-  light.frequencies = words(frequencies_.address());
+  std::ranges::copy(signal.all_tones(), light.tones);
+  std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
   light_ = upload_light(device, light, light_runs(groups));
   shader::ShortWayWork work{};
   work.lit_channel = signal.lit_channel();
@@ -118,6 +115,7 @@ void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Str
                                             words(scene.paint.surfaces.address()),
                                             words(buffers.lit.address()),
                                             words(light_.address()),
+                                            words(diodes_.address()),
                                             words(buffers.channels.address()),
                                             words(work_.address())};
   pipeline_.dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);

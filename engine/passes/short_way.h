@@ -40,7 +40,7 @@ public:
 
 private:
   shader::vec4 slope_;
-  vulkan::Buffer chip_, diodes_, diagrams_, tones_, frequencies_, light_, work_;
+  vulkan::Buffer chip_, diodes_, diagrams_, light_, work_;
   vulkan::ComputePipeline pipeline_;
 };
 
