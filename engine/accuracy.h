@@ -21,7 +21,7 @@ inline constexpr double default_max_error_m = 10e-6;
 // What is asked for.
 struct Accuracy {
   Mode mode = Mode::exact;
-  std::optional<Precision> precision; // nothing: fp32, or, where automatic, what the error takes
+  std::optional<Precision> precision; // nothing: fp32, or what the error takes
   double max_error_m =
       default_max_error_m; // of distance in every pixel, wrapped; not of what mode exact does
   double max_amplitude_error = std::numeric_limits<double>::infinity(); // relative, likewise

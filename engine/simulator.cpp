@@ -13,7 +13,6 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <variant>
@@ -34,9 +33,9 @@ DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
 // What is left to the host: frames in which nothing stands in any light, and samples that see nothing.
 void finish_lit(const FramePasses &prepared, Measurement &measurement) {
   if (!prepared.lit) {
-    const auto lit = std::views::transform(measurement.coverage,
-                                           [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
-    measurement.lit.assign(lit.begin(), lit.end());
+    measurement.lit.resize(measurement.coverage.size());
+    std::ranges::transform(measurement.coverage, measurement.lit.begin(),
+                           [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
     all_reached(prepared.groups, measurement.sample_reached);
   }
   if (!measurement.sample_reached.empty())

@@ -80,7 +80,7 @@ float terms_of(float weights, float rho, LightRun run) {
     terms += run.grazing * inverse * inverse * inverse;
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;
-  return terms;
+  return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
 }
 
 // The phase of a path at a tone, the illuminator's with it, in turns.

@@ -198,6 +198,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
       {is_tiled(sensor), ways.listed, plan.precision, stand_in ? plan.promise : plan.promise_of_all});
   if (stand_in)
     windows = {all_runs(summed)};
+  const AccuracyReport report = report_of(plan, ways, stand_in);
   return {sensor,
           view.signal,
           strips,
@@ -215,7 +216,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
           std::move(accumulate),
           std::move(resolve),
           std::move(check),
-          report_of(plan, ways, stand_in)};
+          report};
 }
 
 } // namespace pmdsim

@@ -35,6 +35,8 @@ double slope_of(const Diode &diode, const std::vector<VisibleBox> &visible) {
   double tangent = 0.0;
   for (const VisibleBox &box : visible)
     tangent = std::max(tangent, largest_tangent(diode, box));
+  if (tangent == unbounded) // also of order 0, which ends as an edge
+    return unbounded;
   // d ln cos^n = -n tan, and the second derivative is -n / cos^2.
   return std::max(pattern.order * tangent, std::sqrt(pattern.order * (1.0 + tangent * tangent)));
 }
