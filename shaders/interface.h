@@ -215,8 +215,10 @@ struct LightRun {
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   float radius_m;    // at most, of its diodes about the reference point
-  float grazing; // with Lambert's law: what rounding the diodes' heights may be taken for in sum of |terms|,
-                 // times r^3
+  float grazing;  // with Lambert's law: what rounding the diodes' heights may be taken for in sum of |terms|,
+                  // times r^3
+  float diagrams; // likewise of measured diagrams, times r^2
+  uint padding_1, padding_2, padding_3;
 };
 
 // A harmonic of a modulation frequency.
@@ -437,7 +439,7 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 48 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
+static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 24);
 static_assert(sizeof(AccumulateConstants) == 108);
 static_assert(sizeof(ResolveConstants) == 124);

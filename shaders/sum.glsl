@@ -71,11 +71,16 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
   return path;
 }
 
-// What a run's terms come to without their phases; where light grazes a surface, what rounding does to Lambert's cosines
-// counts as if it were light (rounding_bound.h).
+// What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, and to
+// steep diagrams, counts as if it were light.
 float terms_of(float weights, float rho, LightRun run) {
-  float nearest = rho - run.radius_m; // half of rho at least
-  return backscatter_model == backscatter_lambert ? weights + run.grazing / (nearest * nearest * nearest) : weights;
+  float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
+  float terms = weights;
+  if (backscatter_model == backscatter_lambert)
+    terms += run.grazing * inverse * inverse * inverse;
+  if (pattern_model == pattern_axial || pattern_model == pattern_any)
+    terms += run.diagrams * inverse * inverse;
+  return terms;
 }
 
 // The phase of a path at a tone, the illuminator's with it, in turns.

@@ -22,8 +22,9 @@ namespace pmdsim {
 namespace {
 
 // What rounding does to a diode's height over a surface, at most 14 u times the size of the light with its
-// distance from the lens, over what it does to a weight otherwise, 35 u at least (rounding_bound.cpp).
-constexpr double grazing_share = 0.5;
+// distance from the lens, and to a diagram, 16 u times its slope, over what it does to a weight otherwise, 35
+// u at least (rounding_bound.cpp).
+constexpr double rounding_share = 0.5;
 // Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
 constexpr double largest_whole_power = 8.0;
 
@@ -127,19 +128,26 @@ Precision sum_precision(const Signal &signal, Precision wanted) {
 
 std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
+  // Diagrams are looked up in float, whatever the sum is in.
+  const double diagram_share = groups.precise_diodes.empty() ? rounding_share : 0x1p21 * rounding_share;
   std::vector<shader::LightRun> result;
   for (const DiodeRun &run : groups.runs) {
-    double intensity = 0.0; // relative
-    for (std::size_t i = run.first; i < run.first + run_diodes; ++i)
+    double intensity = 0.0, steepness = 0.0; // relative; times the diagrams' slopes
+    for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
+      steepness += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].diagram_slope;
+    }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);
     const double size_m = glm::length(run.reference_m) + groups.radius_m;
-    result.push_back({reference.hi,
-                      reference.lo,
-                      {phase_turns.hi, phase_turns.lo},
-                      static_cast<float>(groups.radius_m),
-                      static_cast<float>(grazing_share * intensity * size_m)});
+    shader::LightRun record{};
+    record.reference_hi = reference.hi;
+    record.reference_lo = reference.lo;
+    record.phase_turns = {phase_turns.hi, phase_turns.lo};
+    record.radius_m = static_cast<float>(groups.radius_m);
+    record.grazing = static_cast<float>(rounding_share * intensity * size_m);
+    record.diagrams = static_cast<float>(diagram_share * steepness);
+    result.push_back(record);
   }
   return result;
 }

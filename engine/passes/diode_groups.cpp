@@ -1,6 +1,7 @@
 #include "engine/passes/diode_groups.h"
 
 #include "engine/error.h"
+#include "engine/passes/diagram_slope.h"
 #include "engine/passes/diagram_tables.h"
 #include "engine/passes/excess.h"
 
@@ -206,6 +207,10 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
+double slope_of(const Diode &diode) {
+  return diode.pattern.kind == Pattern::Kind::diagram ? diagram_slope(*diode.pattern.diagram) : 0.0;
+}
+
 void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
@@ -220,7 +225,7 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
       if (precision == Precision::fp64)
         result.precise_diodes.push_back(
             precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
-      result.places.push_back({diode.position_m, dark ? no_id : diode.number});
+      result.places.push_back({diode.position_m, dark ? no_id : diode.number, slope_of(diode)});
     }
   }
 }

@@ -35,7 +35,7 @@ std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &gr
   RoundingScope scope;
   scope.precision = precision;
   scope.samples = samples;
-  scope.incidence_cosine = 1.0; // where light grazes a surface, the shaders' terms have it
+  scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
   scope.backscatter_error = painted_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.signal, scope);
@@ -74,7 +74,7 @@ struct RoundedSum {
 
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
 RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
-  std::string why = "theory has no bound for diodes with measured diagrams";
+  std::string why = "a measured diagram that varies about its own axis has no bound";
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   for (const Precision wanted :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {

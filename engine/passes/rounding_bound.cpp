@@ -279,7 +279,8 @@ std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t
 std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope) {
-  if (model.pattern == shader::pattern_axial || model.pattern == shader::pattern_any)
+  if (!std::ranges::all_of(groups.places,
+                           [](const DiodePlace &place) { return std::isfinite(place.diagram_slope); }))
     return std::nullopt;
   const Bound bound(groups, visible, model, signal, scope);
   RoundingBound largest{};

@@ -37,7 +37,8 @@ struct RoundingScope {
   double backscatter_error = 0x1p-24;
 };
 
-// Nothing where diodes have measured diagrams, whose error depends on their slope.
+// Nothing where a measured diagram is infinitely steep; else what rounding does to diagrams is in the pixel's
+// terms (shaders/sum.glsl), as grazing light is where the scope's cosine is 1.
 std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope);

@@ -26,7 +26,7 @@ struct RandomSetup {
 // tilted, in one or two illuminators that may have a phase; walls, rooms and loose triangles, in shadow or
 // not; 1 to 3 frequencies of 1 to 200 MHz, sines mostly; up to 4 x 4 samples a pixel; some lenses with
 // distortion, tilted chips and pixels filled in part. Up to 32 x 32 pixels, fewer where there is much to sum.
-// Eight consecutive seeds share what shaders are compiled for: waveform, number of frequencies and
+// Sixteen consecutive seeds share what shaders are compiled for: waveform, number of frequencies and
 // illuminators, kinds of diagrams, backscatter, shadows.
 RandomSetup random_setup(std::uint32_t seed);
 
