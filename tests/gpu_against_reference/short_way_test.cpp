@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -25,8 +26,9 @@ struct Case {
   std::vector<Illuminator> lights{};
   Backscatter backscatter = Backscatter::lambert;
   Shadows shadows = Shadows::off;
-  double max_error_m = 5e-6;
+  double max_error_m = 10e-6;
   std::uint32_t fewer_than = 0; // diodes; 0: as many as there are
+  std::optional<Precision> precision{};
   bool empty_pixels = false;
 };
 
@@ -40,7 +42,7 @@ Measurement measure(const Case &of, const SimulatorOptions &options, const Accur
 
 Accuracy within(const Case &of) {
   return {.mode = Mode::automatic,
-          .precision = {},
+          .precision = of.precision,
           .max_error_m = of.max_error_m,
           .max_amplitude_error = max_amplitude_error};
 }
@@ -111,7 +113,7 @@ Scene corner() {
   builder.add_wall({2.0, {0.7}, {-3.0, -0.4}, {0.0, 3.0}});
   builder.add_mesh({{0.0, -0.4, 2.5}, {0.0, 3.0, 2.5}, {3.0, 3.0, 4.0}, {3.0, -0.4, 4.0}},
                    {{0, 1, 2}, {0, 2, 3}}, {0.4, true});
-  builder.add_mesh({{-3.0, 0.1, 0.5}, {-3.0, 0.1, 4.0}, {3.0, 0.1, 4.0}, {3.0, 0.1, 0.5}},
+  builder.add_mesh({{-3.0, 0.1, 1.5}, {-3.0, 0.1, 4.0}, {3.0, 0.1, 4.0}, {3.0, 0.1, 1.5}},
                    {{0, 1, 2}, {0, 2, 3}}, {0.9, true});
   return builder.scene();
 }
@@ -189,6 +191,15 @@ TEST_CASE("a single diode, and diodes that are turned from what is seen") {
       diode.axis = glm::normalize(glm::dvec3(1.0, 0.0, 0.05));
     half_spaces.fewer_than = 0;
     check(half_spaces);
+  }
+}
+
+TEST_CASE("few diodes in the precision that was asked for") {
+  for (const Precision precision : {Precision::fp32, Precision::fp64}) {
+    Case of = in_corner(precision == Precision::fp64 ? "fp64" : "fp32", 1);
+    of.precision = precision;
+    check(of);
+    CHECK(measure(of, {}, within(of)).accuracy.precision == precision);
   }
 }
 
