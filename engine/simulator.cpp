@@ -359,7 +359,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
-  state_->requested.emplace(&scene, sensor, illuminators, backscatter, shadows, accuracy);
+  state_->requested = Requested{&scene, sensor, illuminators, backscatter, shadows, accuracy};
   state_->attempt = 0;
   state_->prepare();
 }

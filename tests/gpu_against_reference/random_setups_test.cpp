@@ -22,9 +22,11 @@ using namespace pmdsim::test;
 namespace {
 
 constexpr std::uint32_t setups = 200;
-// Of the setups, those that may be refused: returns of two lights cancel somewhere, or the last bit of a
-// float's distance is more than the error asked for.
-constexpr double largest_refused_share = 0.1;
+// Of the setups, at most as many may be refused: those with measured diagrams, of whose error theory has no
+// bound, and those whose rounding may exceed the budget, as returns of two lights cancel, a float's last bit
+// of a long distance is more than a micrometre, or the waveform is no sine and has no sum in double
+// precision.
+constexpr double most_without_bound = 0.4, most_beyond_rounding = 0.2;
 
 Accuracy within_budget(const RandomSetup &setup) {
   Accuracy accuracy;
@@ -184,6 +186,7 @@ SimulatorOptions keeping_everything() {
 TEST_CASE("random setups stay within their budgets") {
   Simulator simulator = make_simulator(keeping_everything());
   std::map<std::string, Row> rows;
+  std::size_t without_bound = 0;
   for (std::uint32_t seed = 0; seed < setups; ++seed) {
     const RandomSetup setup = random_setup(seed);
     INFO("seed " << seed << ", budget " << 1e6 * setup.max_error_m << " um");
@@ -193,13 +196,17 @@ TEST_CASE("random setups stay within their budgets") {
     CHECK(outcome.accuracy.found_m.value_or(0.0) <= setup.max_error_m);
     if (!outcome.refusal.empty())
       fmt::print("seed {}, {:.3g} um: {}\n", seed, 1e6 * setup.max_error_m, outcome.refusal);
+    without_bound += outcome.refusal.find("no bound") != std::string::npos;
     rows["all"].add(outcome);
     rows[budget_kind(setup.max_error_m)].add(outcome);
     for (const std::string &kind : setup.kinds)
       rows[kind].add(outcome);
   }
   print(rows);
-  CHECK(rows["all"].refused <= static_cast<std::size_t>(largest_refused_share * setups));
+  fmt::print("refused: {} without a bound, {} beyond it\n", without_bound,
+             rows["all"].refused - without_bound);
+  CHECK(static_cast<double>(without_bound) <= most_without_bound * setups);
+  CHECK(static_cast<double>(rows["all"].refused - without_bound) <= most_beyond_rounding * setups);
   CHECK(rows["all"].pixels >= setups * 100);
   CHECK(rows["all"].left_out <= rows["all"].pixels / 50);
 }

@@ -111,7 +111,7 @@ TEST_CASE("the worst of several frequencies, and lights that differ in phase") {
   CHECK(bound_of({lights})->per_condition_m > 10.0 * alike_m);
 }
 
-TEST_CASE("waveforms have a bound, measured diagrams none") {
+TEST_CASE("waveforms have a bound, and diagrams that are not infinitely steep") {
   for (const Waveform &waveform :
        {Waveform{Waveform::Kind::square, {}}, Waveform{Waveform::Kind::harmonics, {1.0, 0.0, -0.1}}}) {
     const RoundingBound bound = bound_of({diodes_at(pair), point_at_2m, {20e6}, waveform}).value();
@@ -119,7 +119,10 @@ TEST_CASE("waveforms have a bound, measured diagrams none") {
     CHECK(bound.per_condition_m < 100e-6);
   }
   const auto table = std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}});
-  CHECK_FALSE(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, table})}));
+  CHECK(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, table})}));
+  const auto about_axis =
+      std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0, 3.0}, {1.0, 0.9, 0.5, 0.5}});
+  CHECK_FALSE(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, about_axis})}));
 }
 
 TEST_CASE("least cosines of a wall") {
