@@ -88,7 +88,7 @@ void main() {
 
   float backscatter = Floats(constants.backscatter).at[i];
   if (waveform == waveform_square) {
-    add_taps(i, total, backscatter, terms_of(total[distinct_taps], point.rho, run));
+    add_taps(i, total, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
   } else {
     Real detour = add(path.rho, negate(path.range));
     float turns = turn_fraction(phase_turns(detour, run, tone));

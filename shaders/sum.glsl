@@ -73,11 +73,16 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
 
 // What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, and to
 // steep diagrams, counts as if it were light.
-float terms_of(float weights, float rho, LightRun run) {
+float terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
   float terms = weights;
-  if (backscatter_model == backscatter_lambert)
-    terms += run.grazing * inverse * inverse * inverse;
+  if (backscatter_model == backscatter_lambert) {
+    float any = run.grazing * inverse * inverse * inverse;
+    // In the dark beside a beam a height's rounding weighs no more than the light: half as in accumulate.cpp.
+    float lowest = height - run.radius_m; // of the run's diodes, at least
+    float size = length(run.reference_hi.xyz) + run.radius_m;
+    terms += lowest > 0.0 ? min(any, 0.5 * weights * size / lowest) : any;
+  }
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;
   return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
