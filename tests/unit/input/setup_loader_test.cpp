@@ -66,7 +66,8 @@ TEST_CASE("Samples are a number or automatic") {
   CHECK(setup.start.sensors[0].samples == 4);
   CHECK(setup.as_used["sensors"][0]["samples"] == "auto");
   fixture.sensor()["samples"] = "many";
-  CHECK_THAT(fixture.error(), Catch::Contains("/sensors/0/samples: expected ") && Catch::Contains("\"many\""));
+  CHECK_THAT(fixture.error(),
+             Catch::Contains("/sensors/0/samples: expected ") && Catch::Contains("\"many\""));
 }
 
 TEST_CASE("Without a pose the camera looks along -Z, +Y up, and the light is with it") {
