@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/passes/frame_passes.h"
+#include "engine/passes/promise_breach.h"
 #include "engine/passes/reached.h"
 #include "engine/passes/read_back.h"
 #include "engine/vulkan/device_choice.h"
@@ -9,12 +10,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <chrono>
-#include <fmt/format.h>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <variant>
 
 namespace pmdsim {
@@ -47,20 +47,12 @@ std::set<std::size_t> windows_to_warm(std::size_t count) {
   return {0, std::min<std::size_t>(1, count - 1), count - 1};
 }
 
-std::string broken_text(const shader::BrokenPromise &broken, const Accuracy &accuracy) {
-  return fmt::format(
-      "{} pixels may be off by up to {:.6g} mm and {:.3g} of their amplitude, as their returns "
-      "cancel; expected at most {:.6g} mm and {:.3g}",
-      broken.pixels, 1e3 * std::bit_cast<float>(broken.worst_m), std::bit_cast<float>(broken.amplitude),
-      1e3 * accuracy.max_error_m, accuracy.max_amplitude_error);
+LitWindow few_runs(LitWindow window) {
+  window.last_run = std::min(window.last_run, window.first_run + 2);
+  return window;
 }
 
-std::string found_text(const Measurement &measurement, const Accuracy &accuracy) {
-  return fmt::format("pixels evaluated exactly are off by up to {:.6g} mm and {:.3g} of their amplitude; "
-                     "expected at most {:.6g} mm and {:.3g}",
-                     1e3 * *measurement.accuracy.found_m, *measurement.accuracy.found_amplitude,
-                     1e3 * accuracy.max_error_m, accuracy.max_amplitude_error);
-}
+void nobody(double) {}
 
 // What a frame is to be made of; made again where the first plan does not keep what was promised.
 struct Requested {
@@ -81,8 +73,9 @@ struct Simulator::State {
 
   void prepare();
   void warm_up();
-  bool keeps_promise(const Measurement &measurement) const;
-  void refine(const Measurement &measurement);
+  void warm_up_lists(const PlannedStrip &pixel);
+  std::optional<std::string> breach_of(const Measurement &measurement) const;
+  void refine(const std::string &breach);
   void forget_broken();
   Measurement measure(const Progress &progress);
   void measure_strip(const PlannedStrip &planned, const Progress &progress, Measurement &measurement);
@@ -197,13 +190,6 @@ void Simulator::State::warm_up() {
   PlannedStrip pixel = prepared->strips.front();
   pixel.strip.columns = pixel.strip.rows = 1;
   pixel.strip.padded_pixels = padded(1);
-  const auto nobody = [](double) {};
-  const auto few_runs = [](LitWindow window) {
-    window.last_run = std::min(window.last_run, window.first_run + 2);
-    return window;
-  };
-  const std::array<std::uint32_t, 1> first{0};
-  const std::uint32_t samples = pixel.strip.samples * pixel.strip.samples;
   recorder.begin();
   see(pixel);
   for (const std::size_t i : windows_to_warm(prepared->windows.size())) {
@@ -212,24 +198,30 @@ void Simulator::State::warm_up() {
     if (!prepared->listed)
       sum(pixel, few_runs(prepared->windows[i]), prepared->accumulate, nullptr, nobody);
   }
-  if (prepared->listed) {
-    const ListedPasses &listed = *prepared->listed;
-    listed.lists.record_clear(recorder.commands());
-    listed.short_way.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
-    listed.lists.record_count(recorder.commands(), samples);
-    for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
-      record_fill(recorder.commands(), listed.lists.of(list), first, samples);
-    if (listed.has_lit)
-      sum_list(pixel, few_runs({0, listed.accumulate.runs(), 0}), shader::list_lit, listed.accumulate,
-               listed.resolve, nobody);
-    if (prepared->has_rest)
-      sum_list(pixel, few_runs(prepared->windows.front()), shader::list_rest, prepared->accumulate,
-               prepared->resolve, nobody);
-  } else {
+  if (prepared->listed)
+    warm_up_lists(pixel);
+  else
     prepared->resolve.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene.planes);
-  }
   read_back(pixel);
   recorder.finish();
+}
+
+// Whatever way the pixel goes, it is put into every list.
+void Simulator::State::warm_up_lists(const PlannedStrip &pixel) {
+  const ListedPasses &listed = *prepared->listed;
+  const std::array<std::uint32_t, 1> first{0};
+  const std::uint32_t samples = pixel.strip.samples * pixel.strip.samples;
+  listed.lists.record_clear(recorder.commands());
+  listed.short_way.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
+  listed.lists.record_count(recorder.commands(), samples);
+  for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
+    record_fill(recorder.commands(), listed.lists.of(list), first, samples);
+  if (listed.has_lit)
+    sum_list(pixel, few_runs({0, listed.accumulate.runs(), 0}), shader::list_lit, listed.accumulate,
+             listed.resolve, nobody);
+  if (prepared->has_rest)
+    sum_list(pixel, few_runs(prepared->windows.front()), shader::list_rest, prepared->accumulate,
+             prepared->resolve, nobody);
 }
 
 void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress &progress,
@@ -275,7 +267,7 @@ void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) 
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (many)
       light(planned, i);
-    sum(planned, windows[i], check.sum(), &check.list(), [](double) {});
+    sum(planned, windows[i], check.sum(), &check.list(), nobody);
   }
   check.record_channels(recorder.commands(), planned, prepared->buffers, prepared->scene);
   record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
@@ -295,28 +287,20 @@ void Simulator::State::prepare() {
   warm_up();
 }
 
-// No pixel's bound is beyond what was asked for, and none that was checked is.
-bool Simulator::State::keeps_promise(const Measurement &measurement) const {
+// Why the frame does not keep what was promised, if so.
+std::optional<std::string> Simulator::State::breach_of(const Measurement &measurement) const {
   if (prepared->accuracy.mode == Mode::exact)
-    return true;
-  const auto [pixels, worst_m, amplitude, padding] = broken_promise(prepared->buffers);
-  const AccuracyReport &report = measurement.accuracy;
-  // What is compared is rounded to float itself.
-  const double rounding_m = 0x1p-24 * prepared->sensor.ambiguity_m();
-  return pixels == 0 && report.found_m.value_or(0.0) <= prepared->accuracy.max_error_m + rounding_m &&
-         report.found_amplitude.value_or(0.0) <= prepared->accuracy.max_amplitude_error + 0x1p-23;
+    return std::nullopt;
+  return promise_breach(broken_promise(prepared->buffers), measurement.accuracy, prepared->accuracy,
+                        prepared->sensor.ambiguity_m());
 }
 
 // The next plan. Throws Error (accuracy) where there is none.
-void Simulator::State::refine(const Measurement &measurement) {
-  const shader::BrokenPromise broken = broken_promise(prepared->buffers);
-  if (prepared->accuracy.mode == Mode::automatic && attempt + 1 < frame_plans) {
-    ++attempt;
-    prepare();
-    return;
-  }
-  throw Error(ExitCode::accuracy, broken.pixels > 0 ? broken_text(broken, prepared->accuracy)
-                                                    : found_text(measurement, prepared->accuracy));
+void Simulator::State::refine(const std::string &breach) {
+  if (prepared->accuracy.mode != Mode::automatic || attempt + 1 == frame_plans)
+    throw Error(ExitCode::accuracy, breach);
+  ++attempt;
+  prepare();
 }
 
 Measurement Simulator::State::measure(const Progress &progress) {
@@ -368,8 +352,8 @@ Measurement Simulator::measure(const Progress &progress) {
   if (!state_->prepared)
     throw std::logic_error("measure() before prepare()");
   Measurement measurement = state_->measure(progress);
-  while (!state_->keeps_promise(measurement)) {
-    state_->refine(measurement);
+  while (const auto breach = state_->breach_of(measurement)) {
+    state_->refine(*breach);
     measurement = state_->measure(progress);
   }
   return measurement;

@@ -215,10 +215,11 @@ struct LightRun {
   vec4 reference_lo; // its rest
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   float radius_m;    // at most, of its diodes about the reference point
-  float grazing;  // with Lambert's law: what rounding the diodes' heights may be taken for in sum of |terms|,
-                  // times r^3
-  float diagrams; // likewise of measured diagrams, times r^2
-  uint padding_1, padding_2, padding_3;
+  float intensity;   // of all its diodes, relative
+  float heights;     // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
+                     // I / r^3, m
+  float diagrams;    // likewise of measured diagrams, times r^2
+  uint padding_1, padding_2;
 };
 
 // A harmonic of a modulation frequency.
@@ -368,7 +369,7 @@ struct PixelListConstants {
 
 // Pixels that may be off by more than was promised.
 struct BrokenPromise {
-  uint pixels;
+  uint returns;    // of pixels, each at each frequency
   float worst_m;   // as far as is known; bits of a float >= 0 compare as the float does
   float amplitude; // relative, likewise
   uint padding;

@@ -77,11 +77,10 @@ float terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
   float terms = weights;
   if (backscatter_model == backscatter_lambert) {
-    float any = run.grazing * inverse * inverse * inverse;
-    // In the dark beside a beam a height's rounding weighs no more than the light: half as in accumulate.cpp.
+    float any = run.heights * run.intensity * inverse * inverse * inverse;
+    // In the dark beside a beam a height's rounding weighs no more than the light.
     float lowest = height - run.radius_m; // of the run's diodes, at least
-    float size = length(run.reference_hi.xyz) + run.radius_m;
-    terms += lowest > 0.0 ? min(any, 0.5 * weights * size / lowest) : any;
+    terms += lowest > 0.0 ? min(any, run.heights * weights / lowest) : any;
   }
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;

@@ -21,10 +21,9 @@
 namespace pmdsim {
 namespace {
 
-// What rounding does to a diode's height over a surface, at most 14 u times the size of the light with its
-// distance from the lens, and to a diagram, 16 u times its slope, over what it does to a weight otherwise, 35
-// u at least (rounding_bound.cpp).
-constexpr double rounding_share = 0.5;
+// What rounding does to a diode's height over a surface: this often u, 2^-24 of float and 2^-45 of fp64,
+// times the size of the light with its distance from the lens.
+constexpr double height_rounding = 14.0;
 // Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
 constexpr double largest_whole_power = 8.0;
 
@@ -126,16 +125,15 @@ Precision sum_precision(const Signal &signal, Precision wanted) {
   return signal.by_moments ? wanted : Precision::fp32;
 }
 
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms_per_weight_error) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
-  // Diagrams are looked up in float, whatever the sum is in.
-  const double diagram_share = groups.precise_diodes.empty() ? rounding_share : 0x1p21 * rounding_share;
+  const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
   for (const DiodeRun &run : groups.runs) {
-    double intensity = 0.0, steepness = 0.0; // relative; times the diagrams' slopes
+    double intensity = 0.0, diagrams = 0.0; // relative; times what the diagrams are off by
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
-      steepness += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].diagram_slope;
+      diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].diagram_error;
     }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);
@@ -145,8 +143,9 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
     record.reference_lo = reference.lo;
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
     record.radius_m = static_cast<float>(groups.radius_m);
-    record.grazing = static_cast<float>(rounding_share * intensity * size_m);
-    record.diagrams = static_cast<float>(diagram_share * steepness);
+    record.intensity = static_cast<float>(intensity);
+    record.heights = static_cast<float>(terms_per_weight_error * height_rounding * rounding * size_m);
+    record.diagrams = static_cast<float>(terms_per_weight_error * diagrams);
     result.push_back(record);
   }
   return result;
@@ -154,8 +153,10 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups) {
 
 namespace {
 
-vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups) {
-  const std::vector<shader::LightRun> runs = light_runs(groups);
+vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups,
+                           const std::optional<Promise> &promise) {
+  const std::vector<shader::LightRun> runs =
+      light_runs(groups, promise ? promise->terms_per_weight_error : 0.0);
   return vulkan::upload(device, std::as_bytes(std::span(runs)));
 }
 
@@ -163,8 +164,8 @@ vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &grou
 
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                                const Signal &signal, const SimulatorOptions &options, const Scope &scope)
-    : runs_(groups.runs), light_runs_(upload_runs(device, groups)), blocks_per_run_(groups.blocks_per_run),
-      bundles_per_run_(bundles_per_run(groups)),
+    : runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
+      blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       diode_bytes_(scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
                                                       : sizeof(shader::GroupDiode)),
       dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),

@@ -5,11 +5,14 @@
 #include "engine/accuracy.h"
 #include "engine/passes/lit_windows.h"
 #include "engine/passes/pixel_lists.h"
+#include "engine/passes/promise.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
 #include "engine/simulator_options.h"
 #include "engine/vulkan/compute_pipeline.h"
+
+#include <optional>
 
 namespace pmdsim {
 
@@ -34,10 +37,11 @@ Precision sum_precision(const Signal &signal, Precision wanted);
 class AccumulatePass {
 public:
   // `shadowed`: not every diode reaches every sample; `listed`: only of lists of pixels; `precision` is the
-  // one of the groups and of the surfaces' vectors.
+  // one of the groups and of the surfaces' vectors; `promise`: what the sum's error is to be held against.
   struct Scope {
     bool shadowed = false, listed = false;
     Precision precision = Precision::fp32;
+    std::optional<Promise> promise{};
   };
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                  const Signal &signal, const SimulatorOptions &options, const Scope &scope);
@@ -65,8 +69,9 @@ private:
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
-// What the runs' diodes share, as the shaders read it.
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups);
+// What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
+// promise's bound counts as light; of a relative error, `terms_per_weight_error` times as much (promise.h).
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms_per_weight_error);
 
 // Of the moments' forms and what they share with other sums: specialization constants, and the tones that
 // they read.

@@ -1,5 +1,7 @@
 #include "engine/passes/diagram_tables.h"
 
+#include "engine/passes/diagram_slope.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +15,8 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Where no grid within these steps does it, the finest stands in: beside an angle where the slope of J
 // changes by s, it is off by s / 4 of a step at most. Of 180 degrees that is 1.9e-7 rad * s.
 constexpr std::uint32_t most_steps = 1u << 22;
+// What rounding takes from a direction, as a part of its angles.
+constexpr double direction_rounding = 16 * 0x1p-24;
 
 // The fewest even steps of `span_rad` from the first angle, up to most_steps, that meet all the others to
 // 1e-4 of a step: a bend of J is then off by 1e-4 of itself at most, and angles that a file has rounded are
@@ -48,10 +52,59 @@ double place_among(const std::vector<double> &angles, double angle) {
   return static_cast<double>(above - angles.begin() - 1) + (angle - lower) / (*above - lower);
 }
 
+// How far off the even grid is, at most, that holds `value_of` the place among `angles` at each of its steps:
+// as at one of them, where it bends.
+template <class ValueOf>
+double grid_error(const std::vector<double> &angles, double steps_per_rad, ValueOf value_of) {
+  const auto value_at_step = [&](double step) {
+    return value_of(place_among(angles, angles.front() + step / steps_per_rad));
+  };
+  double largest = 0.0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double at = (angles[i] - angles.front()) * steps_per_rad, lower = std::floor(at);
+    const double value = std::lerp(value_at_step(lower), value_at_step(lower + 1.0), at - lower);
+    largest = std::max(largest, std::abs(value - value_of(static_cast<double>(i))));
+  }
+  return largest;
+}
+
 double value_at(const std::vector<double> &values, double place) {
   const auto lower = static_cast<std::size_t>(place);
   const std::size_t upper = std::min(lower + 1, values.size() - 1);
   return std::lerp(values[lower], values[upper], place - static_cast<double>(lower));
+}
+
+// Of J, from an angle to the next in theta, and in phi.
+glm::dvec2 largest_steps(const Diagram &diagram) {
+  const std::size_t columns = diagram.phi_rad.size(), rows = diagram.theta_rad.size();
+  const auto value = [&](std::size_t t, std::size_t p) {
+    return diagram.relative[t * columns + p % columns];
+  };
+  glm::dvec2 largest(0.0);
+  for (std::size_t t = 0; t < rows; ++t)
+    for (std::size_t p = 0; p < columns; ++p) {
+      const glm::dvec2 next(value(std::min(t + 1, rows - 1), p), value(t, p + 1));
+      largest = glm::max(largest, glm::abs(next - value(t, p)));
+    }
+  return largest;
+}
+
+// The angles of phi, and the first again.
+std::vector<double> around(const Diagram &diagram) {
+  std::vector<double> phis = diagram.phi_rad;
+  phis.push_back(phis.front() + turn_rad);
+  return phis;
+}
+
+double error_of(const Diagram &diagram, const DiagramGrid &grid) {
+  const double rounding = direction_rounding * diagram_slope(diagram);
+  if (grid.row_length == 0)
+    return rounding + grid_error(diagram.theta_rad, grid.theta_steps_per_rad,
+                                 [&](double place) { return value_at(diagram.relative, place); });
+  const auto same = [](double place) { return place; };
+  const glm::dvec2 steps = largest_steps(diagram);
+  return rounding + grid_error(diagram.theta_rad, grid.theta_steps_per_rad, same) * steps.x +
+         grid_error(around(diagram), grid.phi_steps / turn_rad, same) * steps.y;
 }
 
 // `steps` + 1 values, each with the next one; after the last it stays.
@@ -90,13 +143,13 @@ DiagramGrid DiagramTables::grid_of(const std::shared_ptr<const Diagram> &diagram
         values_);
   else
     append_both(*diagram, theta_place, grid);
+  grid.error = error_of(*diagram, grid);
   return grid;
 }
 
 void DiagramTables::append_both(const Diagram &diagram,
                                 const std::function<double(std::uint32_t)> &theta_place, DiagramGrid &grid) {
-  std::vector<double> phis = diagram.phi_rad;
-  phis.push_back(phis.front() + turn_rad); // the first again
+  const std::vector<double> phis = around(diagram);
   grid.phi_steps = even_steps(phis, turn_rad).value_or(most_steps);
   grid.row_length = static_cast<std::uint32_t>(diagram.theta_rad.size());
   append(grid.theta_steps, theta_place, values_);

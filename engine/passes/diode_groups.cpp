@@ -1,7 +1,6 @@
 #include "engine/passes/diode_groups.h"
 
 #include "engine/error.h"
-#include "engine/passes/diagram_slope.h"
 #include "engine/passes/diagram_tables.h"
 #include "engine/passes/excess.h"
 
@@ -207,8 +206,8 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
-double slope_of(const Diode &diode) {
-  return diode.pattern.kind == Pattern::Kind::diagram ? diagram_slope(*diode.pattern.diagram) : 0.0;
+double diagram_error(const Diode &diode, DiagramTables &diagrams) {
+  return diode.pattern.kind == Pattern::Kind::diagram ? diagrams.grid_of(diode.pattern.diagram).error : 0.0;
 }
 
 void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
@@ -225,7 +224,8 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
       if (precision == Precision::fp64)
         result.precise_diodes.push_back(
             precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
-      result.places.push_back({diode.position_m, dark ? no_id : diode.number, slope_of(diode)});
+      result.places.push_back(
+          {diode.position_m, dark ? no_id : diode.number, diagram_error(diode, diagrams)});
     }
   }
 }

@@ -22,7 +22,7 @@ struct DiodeRun {
 struct DiodePlace {
   glm::dvec3 position_m;        // camera frame
   std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
-  double diagram_slope = 0.0;   // of a measured diagram (diagram_slope.h)
+  double diagram_error = 0.0;   // of a measured diagram (diagram_tables.h)
 };
 
 struct DiodeGroups {

@@ -129,14 +129,14 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
   if (!ways.all_points)
     points.emplace(device, request.sensor, view.model.surface_vectors(plan.precision), scene.paint.painted,
                    options.precision, true);
-  return {
-      std::move(lists),
-      std::move(short_way),
-      std::move(points),
-      has_lit,
-      AccumulatePass(device, plan.stand_ins, view.model, view.signal, options, {false, true, plan.precision}),
-      ResolvePass(device, view.signal, plan.stand_ins, options,
-                  {is_tiled(request.sensor), true, plan.precision, plan.promise})};
+  return {std::move(lists),
+          std::move(short_way),
+          std::move(points),
+          has_lit,
+          AccumulatePass(device, plan.stand_ins, view.model, view.signal, options,
+                         {false, true, plan.precision, plan.promise}),
+          ResolvePass(device, view.signal, plan.stand_ins, options,
+                      {is_tiled(request.sensor), true, plan.precision, plan.promise})};
 }
 
 std::uint32_t shining(const DiodeGroups &groups) {
@@ -191,11 +191,11 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   // Where all samples are alike, what stands in for the diodes does so for all of them.
   const bool stand_in = !ways.listed && !ways.rest && plan.is_reduced();
   const DiodeGroups &summed = stand_in ? plan.stand_ins : plan.all;
+  const auto &promise = stand_in ? plan.promise : plan.promise_of_all;
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
-                            {view.signal.lit, ways.listed, plan.precision});
-  ResolvePass resolve(
-      device, view.signal, summed, options,
-      {is_tiled(sensor), ways.listed, plan.precision, stand_in ? plan.promise : plan.promise_of_all});
+                            {view.signal.lit, ways.listed, plan.precision, promise});
+  ResolvePass resolve(device, view.signal, summed, options,
+                      {is_tiled(sensor), ways.listed, plan.precision, promise});
   if (stand_in)
     windows = {all_runs(summed)};
   const AccuracyReport report = report_of(plan, ways, stand_in);

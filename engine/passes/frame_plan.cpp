@@ -57,7 +57,8 @@ Promise worse_of(const Promise &a, const Promise &b) {
           std::max(a.per_condition_m, b.per_condition_m),
           a.amplitude_limit,
           std::max(a.amplitude_fixed, b.amplitude_fixed),
-          std::max(a.amplitude_per_condition, b.amplitude_per_condition)};
+          std::max(a.amplitude_per_condition, b.amplitude_per_condition),
+          std::max(a.terms_per_weight_error, b.terms_per_weight_error)};
 }
 
 DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
@@ -92,12 +93,19 @@ RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::
 Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
   // A relative error of the sum below 10^-2 turns it by its arcsine.
   constexpr double of_arcsine = 1.0001;
-  return {accuracy.max_error_m,
-          rounding.fixed_m,
-          of_arcsine * (rounding.per_condition_m + light.error_per_condition_m),
-          accuracy.max_amplitude_error,
-          rounding.amplitude_fixed,
-          rounding.amplitude_per_condition + light.amplitude_error_per_condition};
+  Promise promise{accuracy.max_error_m,
+                  rounding.fixed_m,
+                  of_arcsine * (rounding.per_condition_m + light.error_per_condition_m),
+                  accuracy.max_amplitude_error,
+                  rounding.amplitude_fixed,
+                  rounding.amplitude_per_condition + light.amplitude_error_per_condition,
+                  0.0};
+  if (rounding.per_weight_m > 0.0)
+    promise.terms_per_weight_error = of_arcsine * rounding.per_weight_m / promise.per_condition_m;
+  if (std::isfinite(promise.amplitude_limit))
+    promise.terms_per_weight_error = std::max(
+        promise.terms_per_weight_error, rounding.amplitude_per_weight / promise.amplitude_per_condition);
+  return promise;
 }
 
 // At most, where all paths of a pixel differ so little that none cancels another; nothing where they may.

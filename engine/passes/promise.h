@@ -7,6 +7,8 @@ namespace pmdsim {
 struct Promise {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
+  // A diode's weight that is off by its own size is as bad as this many times its term in the condition.
+  double terms_per_weight_error = 0.0;
 };
 
 } // namespace pmdsim

@@ -134,8 +134,9 @@ double excess_error_m(const DiodeGroups &groups) {
 struct TermError {
   double weight, path_m;
 
-  double angle_rad(double wavenumber_rad_m, double spread_m) const {
-    return weight * std::min(wavenumber_rad_m * spread_m, 1.0) + wavenumber_rad_m * path_m;
+  // `turning`: at most, |sin| of the angle between a term and the sum.
+  double angle_rad(double wavenumber_rad_m, double turning) const {
+    return weight * turning + wavenumber_rad_m * path_m;
   }
 };
 
@@ -213,21 +214,25 @@ private:
   // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
   // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
-    const double turning = signal_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const double rotation = signal_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
     const TermError fundamental = of_tone(wavenumber_rad_m);
-    double angle_rad = fundamental.angle_rad(wavenumber_rad_m, spread_m()) + turning;
-    double amplitude = fundamental.weight + wavenumber_rad_m * fundamental.path_m + turning;
+    double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
+    double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;
+    double amplitude = fundamental.angle_rad(wavenumber_rad_m, 1.0) + rotation;
     for (std::uint32_t h = 2; h <= signal_.tones; ++h) {
       if (h % signal_.taps != 1 && h % signal_.taps != signal_.taps - 1)
         continue;
       const TermError alias = of_tone(h * wavenumber_rad_m);
-      const double any_rad = alias.weight + h * wavenumber_rad_m * alias.path_m + turning;
+      const double any_rad = alias.angle_rad(h * wavenumber_rad_m, 1.0) + rotation;
+      turning = 1.0;
       angle_rad = std::max(angle_rad, any_rad);
       amplitude = std::max(amplitude, any_rad);
     }
     RoundingBound bound = fixed(wavenumber_rad_m);
     bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
+    bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.amplitude_per_weight = 1.0;
     return bound;
   }
 
@@ -239,9 +244,11 @@ private:
     const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.
-    const double angle_rad = z + weight_ * std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
-    bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
+    const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
+    bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
     bound.amplitude_per_condition = z + 2.0 * weight_;
+    bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.amplitude_per_weight = 2.0;
     return bound;
   }
 
@@ -280,7 +287,7 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope) {
   if (!std::ranges::all_of(groups.places,
-                           [](const DiodePlace &place) { return std::isfinite(place.diagram_slope); }))
+                           [](const DiodePlace &place) { return std::isfinite(place.diagram_error); }))
     return std::nullopt;
   const Bound bound(groups, visible, model, signal, scope);
   RoundingBound largest{};
@@ -291,6 +298,8 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
     largest.amplitude_fixed = std::max(largest.amplitude_fixed, of_frequency.amplitude_fixed);
     largest.amplitude_per_condition =
         std::max(largest.amplitude_per_condition, of_frequency.amplitude_per_condition);
+    largest.per_weight_m = std::max(largest.per_weight_m, of_frequency.per_weight_m);
+    largest.amplitude_per_weight = std::max(largest.amplitude_per_weight, of_frequency.amplitude_per_weight);
   }
   return largest;
 }

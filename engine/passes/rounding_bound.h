@@ -16,6 +16,8 @@ namespace pmdsim {
 struct RoundingBound {
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
+  // Included above: what a relative error of every weight does, over that error.
+  double per_weight_m, amplitude_per_weight;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
@@ -37,8 +39,8 @@ struct RoundingScope {
   double backscatter_error = 0x1p-24;
 };
 
-// Nothing where a measured diagram is infinitely steep; else what rounding does to diagrams is in the pixel's
-// terms (shaders/sum.glsl), as grazing light is where the scope's cosine is 1.
+// Nothing where a measured diagram is infinitely steep; else what is off in diagrams is in the pixel's terms
+// (shaders/sum.glsl), as grazing light is where the scope's cosine is 1.
 std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope);

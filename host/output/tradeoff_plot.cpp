@@ -158,13 +158,13 @@ void draw_legend(Canvas &canvas, const Plot &plot, const std::vector<Marker> &ma
     canvas.text(x + 10.0, y, text, Anchor::left);
     x += text_width(text) + 36.0;
   };
-  for (const auto &[name, colour] : all_series) {
+  for (const auto &series : all_series) {
     const auto known = std::ranges::find_if(
-        markers, [&](const Marker &marker) { return series_name(*marker.point) == name; });
+        markers, [&](const Marker &marker) { return series_name(*marker.point) == series.name; });
     if (known == markers.end())
       continue;
-    draw_marker(canvas, x, y, colour, true);
-    say(fmt::format("{}, against S = {}", name, known->point->reference_samples));
+    draw_marker(canvas, x, y, series.colour, true);
+    say(fmt::format("{}, against S = {}", series.name, known->point->reference_samples));
   }
   say("filled, joined: Pareto fronts");
 }

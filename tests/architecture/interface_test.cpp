@@ -117,8 +117,8 @@ const std::map<std::string, HostLayout> scene_and_light{
     {"LightRun",
      {sizeof(LightRun),
       {MEMBER(LightRun, reference_hi), MEMBER(LightRun, reference_lo), MEMBER(LightRun, phase_turns),
-       MEMBER(LightRun, radius_m), MEMBER(LightRun, grazing), MEMBER(LightRun, diagrams),
-       MEMBER(LightRun, padding_1), MEMBER(LightRun, padding_2), MEMBER(LightRun, padding_3)}}},
+       MEMBER(LightRun, radius_m), MEMBER(LightRun, intensity), MEMBER(LightRun, heights),
+       MEMBER(LightRun, diagrams), MEMBER(LightRun, padding_1), MEMBER(LightRun, padding_2)}}},
     {"Frequency",
      {sizeof(Frequency),
       {MEMBER(Frequency, turns_per_m), MEMBER(Frequency, ambiguity_m), MEMBER(Frequency, below),
@@ -349,7 +349,7 @@ TEST_CASE("a raster's vertex is the vec3 and the uint that the vertex shader tak
 }
 
 TEST_CASE("what breaks a promise is the three words that the shaders keep") {
-  CHECK(offsetof(BrokenPromise, pixels) == 0);
+  CHECK(offsetof(BrokenPromise, returns) == 0);
   CHECK(offsetof(BrokenPromise, worst_m) == 4);
   CHECK(offsetof(BrokenPromise, amplitude) == 8);
 }

@@ -71,6 +71,12 @@ const std::vector<Change> &changes() {
          s.distortion = BrownConrady{-0.2, 0.05, 0.01, -0.02, 0.01};
        },
        Shadows::off, Mode::automatic},
+      {"automatic_shadows_tilted_filled",
+       [](Sensor &s) {
+         s.chip.rotation_rad = {0.1, -0.05, 0.2};
+         fill_in_part(s);
+       },
+       Shadows::automatic, Mode::automatic},
   };
   return all;
 }

@@ -101,6 +101,17 @@ double largest_difference(const Diagram &diagram, const DiagramTables &tables, c
 
 } // namespace
 
+TEST_CASE("what a diagram may be off by is a direction's rounding and what the even grid misses") {
+  DiagramTables tables;
+  // 1 per degree; 16 u of half a turn.
+  const auto even = diagram_of({0, 1, 2}, {0}, {0, 1, 2});
+  CHECK(tables.grid_of(even).error == Approx(16 * 0x1p-24 * 180).epsilon(1e-6));
+  // The grid bends at 2, the diagram 5e-5 of a step later.
+  const auto off = diagram_of({0, 1, 2.00005, 3}, {0}, {0, 0, 0, 1});
+  CHECK(tables.grid_of(off).theta_steps == 3);
+  CHECK(tables.grid_of(off).error == Approx(16 * 0x1p-24 * 180 / 0.99995 + 5e-5).epsilon(1e-3));
+}
+
 TEST_CASE("a grid's step divides all angles of a diagram, so that it is the diagram") {
   DiagramTables tables;
   const auto uneven = diagram_of({0, 2.5, 10, 12.75, 90}, {0}, values_for(5));
@@ -156,7 +167,10 @@ TEST_CASE("angles that a file has rounded are met by even steps") {
   const auto rounded = diagram_of(theta_deg, {0}, values_for(theta_deg.size()));
   const DiagramGrid grid = tables.grid_of(rounded);
   CHECK(grid.theta_steps == 55);
-  CHECK(largest_difference(*rounded, tables, grid) < 2e-4); // 1e-4 of the bends, which are 2 at most
+  const double difference = largest_difference(*rounded, tables, grid);
+  CHECK(difference < 2e-4); // 1e-4 of the bends, which are 2 at most
+  CHECK(difference > 1e-6);
+  CHECK(difference <= grid.error);
 }
 
 TEST_CASE("angles that no grid meets take the finest, which is off by a quarter step of their bends") {
@@ -169,6 +183,7 @@ TEST_CASE("angles that no grid meets take the finest, which is off by a quarter 
   CHECK(grid.theta_steps == 1u << 22);
   const double steepest = 2.0 / (0.9 * degree); // values are 0 to 1: the slope changes by twice that at most
   CHECK(largest_difference(*odd, tables, grid) < 0.25 * steepest * 90 * degree / (1u << 22) + 1e-7);
+  CHECK(largest_difference(*odd, tables, grid) <= grid.error);
 }
 
 TEST_CASE("angles that no grid meets in either direction are met by the diagram's own") {

@@ -49,6 +49,7 @@ TEST_CASE("light in the lens is rounded at the output only") {
   const RoundingBound bound = bound_of({diodes_at({{0.0, 0.0, 0.0}})}).value();
   CHECK(bound.fixed_m == Approx((float_rounding + 0x1p-38) * 2.0));
   CHECK(bound.per_condition_m == 0.0); // whatever its weight is off by, there is one path
+  CHECK(bound.per_weight_m == 0.0);
   CHECK(bound.amplitude_fixed == Approx(25 * float_rounding));
   CHECK(bound.amplitude_per_condition == Approx(33 * float_rounding)); // 13 the weight, 17 sums, 3 Horner
 }
@@ -59,6 +60,8 @@ TEST_CASE("a pair of diodes by hand") {
   const RoundingBound bound = bound_of({diodes_at(pair)}).value();
   CHECK(bound.per_condition_m ==
         Approx(0.5 * float_rounding * (34.01 * 3 * 0.01 / 3.9 + 0.766)).epsilon(1e-3));
+  CHECK(bound.per_weight_m == Approx(0.5 * 3 * 0.01 / 3.9).epsilon(1e-3));
+  CHECK(bound.amplitude_per_weight == 1.0);
   const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;
   CHECK(bound.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9) + angle_m).epsilon(1e-3));
 }
