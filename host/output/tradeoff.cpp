@@ -3,6 +3,7 @@
 #include "host/output/accuracy_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -71,8 +72,16 @@ std::string length_text(double length_m) {
 
 using Cells = std::vector<std::string>;
 
+// With as many digits at least, and no exponent where there are more.
+std::string with_digits(double value, int digits) {
+  return value < std::pow(10.0, digits) ? fmt::format("{:.{}g}", value, digits)
+                                        : fmt::format("{:.0f}", value);
+}
+
+std::string milliseconds(double time_ms) { return with_digits(time_ms, 4); }
+
 std::string micrometres(const std::optional<double> &length_m) {
-  return length_m ? fmt::format("{:.3g}", 1e6 * *length_m) : "-";
+  return length_m ? with_digits(1e6 * *length_m, 3) : "-";
 }
 
 const Cells &header() {
@@ -96,8 +105,8 @@ Cells cells_of(const TradeoffPoint &point) {
   }
   const FrameTime &time = point.time;
   cells.insert(cells.end(), {precision_name(point.report.precision), fmt::format("{}", point.report.diodes),
-                             samples_text(point), fmt::format("{:.4g}", time.median_ms),
-                             fmt::format("{:.4g} to {:.4g}", time.min_ms, time.max_ms),
+                             samples_text(point), milliseconds(time.median_ms),
+                             milliseconds(time.min_ms) + " to " + milliseconds(time.max_ms),
                              micrometres(point.smooth.max_m), micrometres(point.smooth.rms_m),
                              micrometres(point.edges.max_m), micrometres(point.edges.rms_m),
                              micrometres(point.report.claimed_m), point.pareto ? "front" : ""});
