@@ -170,6 +170,11 @@ void Simulator::State::sum_listed(const PlannedStrip &planned, const Progress &p
   listed.lists.record_clear(recorder.commands());
   listed.short_way.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene);
   listed.lists.record_count(recorder.commands(), side * side);
+  if (listed.few_places) {
+    listed.few_places->record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene,
+                              &listed.lists.of(shader::list_few));
+    listed.lists.record_count(recorder.commands(), side * side);
+  }
   recorder.end_pass("short_way");
   if (listed.has_lit)
     sum_list(planned, {0, listed.accumulate.runs(), 0}, shader::list_lit, listed.accumulate, listed.resolve,
@@ -214,7 +219,12 @@ void Simulator::State::warm_up_lists(const PlannedStrip &pixel) {
   listed.lists.record_clear(recorder.commands());
   listed.short_way.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
   listed.lists.record_count(recorder.commands(), samples);
-  for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
+  if (listed.few_places) {
+    const vulkan::Buffer &few = listed.lists.of(shader::list_few);
+    record_fill(recorder.commands(), few, first, samples);
+    listed.few_places->record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene, &few);
+  }
+  for (const std::uint32_t list : {shader::list_lit, shader::list_rest})
     record_fill(recorder.commands(), listed.lists.of(list), first, samples);
   if (listed.has_lit)
     sum_list(pixel, few_runs({0, listed.accumulate.runs(), 0}), shader::list_lit, listed.accumulate,

@@ -70,8 +70,10 @@ PMDSIM_CONSTANT short_way_resolve = 14;
 PMDSIM_CONSTANT short_way_points = 24;
 PMDSIM_CONSTANT constant_runs = 30;         // of diodes; 0: no pixel goes the short way, they are only listed
 PMDSIM_CONSTANT constant_samples = 31;      // S
-PMDSIM_CONSTANT constant_one_place = 32;    // 1: pixels of several samples may be evaluated at their centre
+PMDSIM_CONSTANT constant_places = 32;       // at which a pixel of several samples is evaluated: 1, its centre; 4, only
+                                            // pixels of list_few; 0: at its samples, elsewhere
 PMDSIM_CONSTANT constant_lists_pixels = 33; // 0: all pixels go the short way and none can break the promise
+PMDSIM_CONSTANT constant_few_follow = 34;   // 1: list_few is for pixels that one place does not do for
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -358,9 +360,10 @@ struct PixelList {
   uint count;
   uint padding;
 };
-PMDSIM_CONSTANT pixel_lists = 2;
+PMDSIM_CONSTANT pixel_lists = 3;
 PMDSIM_CONSTANT list_lit = 0;  // every diode lights whatever they see
-PMDSIM_CONSTANT list_rest = 1; // the others
+PMDSIM_CONSTANT list_rest = 1; // not every one does
+PMDSIM_CONSTANT list_few = 2;  // one surface that every diode lights, which few places may do for
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
@@ -385,8 +388,9 @@ struct ShortWayLight {
   float pattern_slope; // at most, of ln J, per radian
   float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
                     // theirs do
-  float wavenumber; // of the highest frequency, rad/m
-  uint padding_1, padding_2, padding_3;
+  float wavenumber;      // of the highest frequency, rad/m
+  float place_spread_m; // at most, how much the ranges of the places of a pixel may differ
+  uint padding_1, padding_2;
   Tone tones[short_way_tones];
   Frequency frequencies[short_way_tones];
 };
@@ -441,7 +445,7 @@ static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope)
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
-static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 24);
+static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
 static_assert(sizeof(AccumulateConstants) == 108);
 static_assert(sizeof(ResolveConstants) == 124);
 static_assert(sizeof(ShortWayConstants) == 128 && offsetof(ShortWayConstants, slope) == 32);

@@ -1,7 +1,7 @@
 #version 460
 // The short way: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
-// face, so that few diodes may stand in for all and one place for all samples. Other pixels are listed for the passes
-// that go sample by sample.
+// face, so that few diodes may stand in for all and one place, or four, for all samples. Other pixels are listed for the
+// passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -24,8 +24,14 @@ layout(push_constant, std430) uniform Constants { ShortWayConstants constants; }
 layout(constant_id = short_way_points + constant_chip) const uint general_chip = 0;
 layout(constant_id = constant_runs) const uint runs = 1;
 layout(constant_id = constant_samples) const uint side = 1; // S
-layout(constant_id = constant_one_place) const uint one_place = 0;
+layout(constant_id = constant_places) const uint places = 0;
 layout(constant_id = constant_lists_pixels) const uint lists_pixels = 1;
+layout(constant_id = constant_few_follow) const uint few_follow = 0;
+const bool by_four = places == 4;
+const uint evaluations = by_four ? 4 : 1;
+// The variance of the samples' places, in half steps between them. Four places at its root each way from the centre share all
+// moments with the samples up to the third.
+float variance() { return float(side * side - 1u) / 3.0; }
 
 // What the samples of a pixel have in common.
 struct Seen {
@@ -58,26 +64,27 @@ Seen see(uint pixel, ShortWayLight light) {
   return seen;
 }
 
-// What one place for all samples of a plane pixel may be off by, times the condition (ARCHITECTURE.md: "One place for many
-// samples"). `ray` leads to the pixel's centre on the chip, `range` from there to the point.
-Errors one_place_errors(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
-  float variance = float(side * side - 1u) / 3.0; // of the samples' places, in half steps
+// What the places of a plane pixel that stand in for its samples may be off by, times the condition (ARCHITECTURE.md: "one place
+// for many samples"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
+Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
   float depth = length(point) / length(ray);
   vec2 tilt = vec2(dot(plane.plane_hi.xyz, step_x), dot(plane.plane_hi.xyz, step_y)) / along;
   vec3 to_x = depth * (step_x - tilt.x * ray), to_y = depth * (step_y - tilt.y * ray); // of the point
-  float tilt2 = variance * dot(tilt, tilt), way2 = variance * (dot(to_x, to_x) + dot(to_y, to_y));
+  float tilt2 = variance() * dot(tilt, tilt), way2 = variance() * (dot(to_x, to_x) + dot(to_y, to_y));
   float range = length(point);
   float nearest = max(0.0, distance(point, light.middle_m.xyz) - light.extent_m.w);
   // ln w falls by slope / r a metre at most: r^-2, the cosine's r^-1 and the diagram.
   float slope = (3.0 + light.pattern_slope) / nearest;
   float bent = 2.0 * sqrt(tilt2 * way2) + 0.5 * way2 * (1.0 / range + 1.0 / nearest); // of the path
   float amplitude = sqrt(tilt2 * way2) * slope + way2 * (slope * (slope + 1.0 / nearest) + 2.0 * light.wavenumber * light.wavenumber);
-  // Beyond the second order: all is analytic within `nearest`, and the series of what is left begins with the fourth.
-  float farthest2 = 3.0 * max(way2 / (nearest * nearest), max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
-  float beyond = farthest2 < 0.03 ? 1.0 + 10.0 * farthest2 : 1.0 / 0.0;
   float path = bent + 2.0 * way2 * slope + amplitude * light.spread_m;
-  return Errors(beyond * 0.5 * path, beyond * amplitude);
+  // Of the second order; four places have that. Beyond it all is analytic within `nearest`, and the series of what is left begins
+  // with the fourth.
+  float farthest2 = 3.0 * max(way2 * slope * slope / 9.0, max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
+  float share = by_four ? 20.0 * farthest2 : 1.0 + 10.0 * farthest2;
+  share = farthest2 < 0.03 ? share : 1.0 / 0.0;
+  return Errors(share * 0.5 * path, share * amplitude);
 }
 
 // Adds up the terms of all diodes at a point.
@@ -104,23 +111,81 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
   }
 }
 
+// What a pixel's places come to beside their returns.
+struct Places {
+  float terms;
+  Real range, depth, reference_m; // the first two summed; of the first place, as the returns' phases are
+  float least_m, most_m;          // of the ranges
+};
+
+uvec2 in_frame(uint pixel) {
+  Strip strip = constants.strip;
+  return uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
+}
+
+// To a place of the pixel, from its centre in half steps between samples.
+Real3 ray_to(uint pixel, vec2 from_centre) {
+  return general_chip != 0 ? chip_ray(Chips(constants.chip).at, constants.strip, in_frame(pixel), from_centre)
+                           : plain_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
+}
+
+// `z`: of each tone.
+void add_place(ShortWayLight light, TrianglePlane plane, uint triangle, Real3 ray, uint place, inout Places sum,
+               inout vec4 z[tones]) {
+  Real3 position = point_on_plane(ray, plane);
+  float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
+  vec4 of_place[tones];
+  float terms;
+  sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, of_place, terms);
+  Real range = length3(position);
+  if (place == 0u)
+    sum.reference_m = range;
+  Real excess = add(range, negate(sum.reference_m));
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
+    if (!by_four) {
+      z[t] = of_place[t];
+      continue;
+    }
+    Real turns = multiply(excess, turns_per_m(Lights(constants.light).at.frequencies[t], 0));
+    z[t] = compensated_add(z[t], complex_multiply(compensated_value(of_place[t]), unit_phasor(turn_fraction(turns))));
+  }
+  sum.terms += terms;
+  sum.range = add(sum.range, range);
+  sum.depth = add(sum.depth, position.z);
+  sum.least_m = min(sum.least_m, high(range));
+  sum.most_m = max(sum.most_m, high(range));
+}
+
+Places sum_places(ShortWayLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
+  Places sum = Places(0.0, real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
+  [[unroll]] for (uint t = 0; t < tones; ++t)
+    z[t] = vec4(0.0);
+  [[unroll]] for (uint p = 0; p < evaluations; ++p) { // lavapipe fetches lane by lane in loops
+    vec2 side_of = vec2((p & 1u) == 0u ? -1.0 : 1.0, (p & 2u) == 0u ? -1.0 : 1.0);
+    vec2 from_centre = by_four ? sqrt(variance()) * side_of : vec2(0.0);
+    add_place(light, plane, triangle, ray_to(pixel, from_centre), p, sum, z);
+  }
+  return sum;
+}
+
 // Stores a pixel's channels and returns whether what was promised of them holds.
-bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Real3 position, vec4 z[tones], float terms,
-                 Errors added) {
+bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Lights(constants.light).at.frequencies[t];
     PixelSum sum;
     see_nothing(sum);
-    sum.z[0] = hits ? z[t] : vec4(0.0);
-    sum.reference_m = sum.range = hits ? length3(position) : real(0.0);
-    sum.depth = position.z;
-    sum.hits = hits ? 1u : 0u;
-    sum.lit = hits ? 1u : 0u;
-    float size = store_return(to, frequency, uvec2(0), 1u, pixel, sum);
-    kept = kept && is_kept(frequency, errors_of(frequency, hits ? terms : 0.0, size, added));
+    if (hits) {
+      sum.z[0] = z[t];
+      sum.range = seen.range;
+      sum.depth = seen.depth;
+      sum.reference_m = seen.reference_m;
+      sum.hits = sum.lit = evaluations;
+    }
+    float size = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
+    kept = kept && is_kept(frequency, errors_of(frequency, hits ? seen.terms : 0.0, size, added));
     if (t == 0) {
-      store_ground_truth(to, 1u, pixel, sum);
+      store_ground_truth(to, evaluations, pixel, sum);
       if (lit_is_kept != 0)
         store_lit(to, Works(constants.work).at.lit_channel, 1u, pixel, sum);
     }
@@ -143,34 +208,45 @@ vec3 half_step(uint axis, uvec2 pixel) {
   return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
 }
 
+Errors errors_of_pixel(ShortWayLight light, TrianglePlane plane, uint pixel, Places of_pixel) {
+  if (side == 1)
+    return Errors(0.0, 0.0);
+  Real3 ray = ray_to(pixel, vec2(0.0));
+  uvec2 at = in_frame(pixel);
+  Errors errors = errors_of_places(plane, high3(ray), half_step(0, at), half_step(1, at), high3(point_on_plane(ray, plane)), light);
+  if (by_four && side == 2) // these are the samples
+    errors = Errors(0.0, 0.0);
+  if (by_four && of_pixel.most_m - of_pixel.least_m > light.place_spread_m)
+    errors = Errors(1.0 / 0.0, 1.0 / 0.0);
+  return errors;
+}
+
 void main() {
   Strip strip = constants.strip;
   uint to = gl_GlobalInvocationID.x; // beyond the last pixel is room for what only pads
+  if (by_four)
+    to = listed_pixel(PixelLists(Works(constants.work).at.lists[list_few]), to, strip.padded_pixels);
   bool pads = to >= strip.columns * strip.rows;
   uint pixel = pads ? 0u : to;
   ShortWayLight light = Lights(constants.light).at;
   Seen seen = see(pixel, light);
   bool done = false;
   if (runs > 0) {
-    uvec2 in_frame = uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
-    Real3 ray = general_chip != 0 ? chip_ray(Chips(constants.chip).at, strip, in_frame, vec2(0.0))
-                                  : plain_ray(constants.slope, strip, in_frame, vec2(0.0));
     bool hits = seen.tag.x != 0u;
     uint triangle = hits ? seen.tag.y : 0u;
     TrianglePlane plane = Planes(constants.planes).at[triangle];
-    Real3 position = point_on_plane(ray, plane);
-    float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
     vec4 z[tones];
-    float terms;
-    sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, z, terms);
-    Errors added = Errors(0.0, 0.0);
-    if (side > 1)
-      added = one_place_errors(plane, high3(ray), half_step(0, in_frame), half_step(1, in_frame), high3(position), light);
+    Places places_seen = sum_places(light, plane, triangle, pixel, z);
+    Errors added = errors_of_pixel(light, plane, pixel, places_seen);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
-    bool kept = store_pixel(channels, light, to, hits, position, z, terms, added);
+    bool kept = store_pixel(channels, light, to, hits, places_seen, z, added);
     store_ids(channels, seen.tag, plane.object, to);
-    done = seen.alike && seen.lit && kept && (side == 1 || one_place != 0 || !hits);
+    done = seen.alike && seen.lit && kept && (side == 1 || places != 0 || !hits);
   }
-  if (lists_pixels != 0 && !done && !pads)
-    enlist(seen.lit ? list_lit : list_rest, pixel);
+  if (lists_pixels != 0 && !done && !pads) {
+    uint list = seen.lit ? list_lit : list_rest;
+    if (few_follow != 0)
+      list = seen.alike && seen.lit ? list_few : list;
+    enlist(list, pixel);
+  }
 }

@@ -122,15 +122,25 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
   const bool has_lit = !ways.short_way || request.sensor.samples > 1 || !plan.surely_kept;
   const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
-  ShortWay short_way(device, request.sensor, plan.short_groups, plan.extent, view.model, view.signal,
-                     plan.short_promise.value_or(*plan.promise), options,
-                     {scene.paint.painted, ways.thin_out, ways.short_way, lists_pixels}, lists);
+  const auto make_short_way = [&](const Promise &promise, const ShortWayOptions &of) {
+    return ShortWay(device, request.sensor, plan.short_groups, plan.extent, view.model, view.signal, promise,
+                    options, of, lists);
+  };
+  const bool painted = scene.paint.painted,
+             thin_out = ways.thin_out && !painted; // paint may change in a pixel
+  const bool few = thin_out && plan.few_promise;
+  ShortWay short_way = make_short_way(plan.short_promise.value_or(*plan.promise),
+                                      {painted, thin_out ? 1u : 0u, few, ways.short_way, lists_pixels});
+  std::optional<ShortWay> few_places;
+  if (few)
+    few_places.emplace(make_short_way(*plan.few_promise, {.painted = false, .places = 4}));
   std::optional<PointsPass> points;
   if (!ways.all_points)
     points.emplace(device, request.sensor, view.model.surface_vectors(plan.precision), scene.paint.painted,
                    options.precision, true);
   return {std::move(lists),
           std::move(short_way),
+          std::move(few_places),
           std::move(points),
           has_lit,
           AccumulatePass(device, plan.stand_ins, view.model, view.signal, options,

@@ -33,9 +33,10 @@ struct FrameRequest {
 struct ListedPasses {
   PixelLists lists;
   ShortWay short_way;
-  std::optional<PointsPass> points; // where not every sample's point is made
-  bool has_lit;                     // pixels in list_lit, which the two below sum
-  AccumulatePass accumulate;        // stand-ins
+  std::optional<ShortWay> few_places; // of list_few
+  std::optional<PointsPass> points;   // where not every sample's point is made
+  bool has_lit;                       // pixels in list_lit, which the two below sum
+  AccumulatePass accumulate;          // stand-ins
   ResolvePass resolve;
 };
 

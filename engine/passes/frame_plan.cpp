@@ -31,8 +31,10 @@ Wavenumbers wavenumbers_of(const Signal &signal) {
 }
 
 std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision,
-                                      std::uint32_t samples) {
+                                      std::uint32_t samples,
+                                      std::optional<double> sample_spread_m = std::nullopt) {
   RoundingScope scope;
+  scope.sample_spread_m = sample_spread_m;
   scope.precision = precision;
   scope.samples = samples;
   scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
@@ -152,20 +154,28 @@ ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const R
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }
 
-// One sample in float, whatever the precision of the others.
+bool is_kept_by_some(const Promise &promise) {
+  return promise.fixed_m + promise.per_condition_m <= promise.limit_m &&
+         promise.amplitude_fixed + promise.amplitude_per_condition <= promise.amplitude_limit;
+}
+
+// One place in float, or four, whatever the precision of the others.
 void plan_short_way(const LitView &view, const Accuracy &accuracy, const ReducedLight &light,
                     FramePlan &plan) {
   if (accuracy.precision == Precision::fp64)
     return;
   plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
   plan.short_groups.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
-  const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, 1);
-  if (!rounding)
-    return;
-  const Promise promise = promise_of(accuracy, *rounding, light);
-  if (promise.fixed_m + promise.per_condition_m <= promise.limit_m &&
-      promise.amplitude_fixed + promise.amplitude_per_condition <= promise.amplitude_limit)
-    plan.short_promise = promise;
+  const auto promised = [&](std::uint32_t side, double spread_m) -> std::optional<Promise> {
+    const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, side, spread_m);
+    if (!rounding)
+      return std::nullopt;
+    const Promise promise = promise_of(accuracy, *rounding, light);
+    return is_kept_by_some(promise) ? std::optional(promise) : std::nullopt;
+  };
+  plan.short_promise = promised(1, 0.0);
+  if (plan.short_promise && view.sensor.samples > 1)
+    plan.few_promise = promised(2, place_spread_m);
 }
 
 FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {

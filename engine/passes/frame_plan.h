@@ -33,12 +33,17 @@ struct FramePlan {
   std::optional<Promise> promise, promise_of_all;
   // Of what the short way sums; nothing where that is not exact enough.
   std::optional<Promise> short_promise;
+  // Likewise of pixels of several samples that it sums at four places.
+  std::optional<Promise> few_promise;
   bool surely_kept = false; // by every pixel, which is known before the frame
   // Before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
 
   bool is_reduced() const { return stand_ins.diodes.size() < all.diodes.size(); }
 };
+
+// Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
+inline constexpr double place_spread_m = 0.1;
 
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;

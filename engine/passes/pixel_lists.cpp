@@ -41,7 +41,8 @@ std::uint32_t most_pixels(const std::vector<PlannedStrip> &strips) {
 } // namespace
 
 PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
-    : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips))},
+    : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips)),
+             make_pixel_list(device, most_pixels(strips))},
       count_(device, shader::pixel_list_count_spirv, sizeof(shader::PixelListConstants)) {}
 
 void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,

@@ -2,6 +2,7 @@
 
 #include "engine/passes/chip_place.h"
 #include "engine/passes/forms.h"
+#include "engine/passes/frame_plan.h"
 #include "engine/passes/frequencies.h"
 #include "engine/passes/resolve.h"
 #include "engine/vulkan/commands.h"
@@ -36,10 +37,8 @@ vulkan::Specialization constants_of(const Sensor &sensor, const DiodeGroups &gro
                                       0};
   constants.insert(constants.end(), points.begin(), points.end());
   constants.push_back(ways.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u);
-  constants.push_back(sensor.samples);
-  // Paint may change within a pixel.
-  constants.push_back(ways.may_thin_out && !ways.painted ? 1u : 0u);
-  constants.push_back(ways.lists ? 1u : 0u);
+  constants.insert(constants.end(),
+                   {sensor.samples, ways.places, ways.lists ? 1u : 0u, ways.few_follow ? 1u : 0u});
   return constants;
 }
 
@@ -58,6 +57,7 @@ shader::ShortWayLight light_record(const LightExtent &extent, const Signal &sign
   record.pattern_slope = static_cast<float>(extent.pattern_slope);
   record.spread_m = static_cast<float>(phased ? one_radian_m : std::min(diameter_m, one_radian_m));
   record.wavenumber = static_cast<float>(rad_m_hz * *highest_hz);
+  record.place_spread_m = static_cast<float>(place_spread_m);
   return record;
 }
 
@@ -104,7 +104,8 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
 }
 
 void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const SceneBuffers &scene) const {
+                      const StripBuffers &buffers, const SceneBuffers &scene,
+                      const vulkan::Buffer *few) const {
   vulkan::compute_barrier(commands);
   const shader::ShortWayConstants constants{strip,
                                             slope_,
@@ -118,7 +119,7 @@ void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Str
                                             words(diodes_.address()),
                                             words(buffers.channels.address()),
                                             words(work_.address())};
-  pipeline_.dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
+  dispatch_listed(pipeline_, commands, constants, strip.padded_pixels, few, of_pixels);
 }
 
 } // namespace pmdsim

@@ -1,6 +1,6 @@
 #pragma once
 // The short way: pixels of one surface that every diode lights, from their tags to their channels in one
-// pass. The others are listed (pixel_lists.h).
+// pass, at one place or, in a pass of its own, at four. The others are listed (pixel_lists.h).
 
 #include "engine/passes/accumulate.h"
 #include "engine/passes/pixel_lists.h"
@@ -18,10 +18,12 @@ struct LightExtent {
 };
 
 struct ShortWayOptions {
-  bool painted;      // shapes have paint
-  bool may_thin_out; // a pixel of several samples may be evaluated at one place, within the promise
-  bool sums;         // false: the pass only lists pixels
-  bool lists;        // false: it takes all, and none can break the promise
+  bool painted = false; // shapes have paint
+  std::uint32_t places =
+      0;                   // at which a pixel of several samples may be evaluated: none, 1, or 4 for list_few
+  bool few_follow = false; // pixels for which one place is not enough are listed for four
+  bool sums = true;        // false: the pass only lists pixels
+  bool lists = true;       // false: it takes all, and none can break the promise
 };
 
 class ShortWay {
@@ -34,9 +36,11 @@ public:
            const LightExtent &extent, const SumModel &model, const Signal &signal, const Promise &promise,
            const SimulatorOptions &options, const ShortWayOptions &ways, const PixelLists &lists);
 
-  // Needs the strip's tags and, where Signal::lit, how many diodes reach each sample.
+  // Needs the strip's tags and, where Signal::lit, how many diodes reach each sample. Of four places, `few`
+  // is list_few, counted.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const SceneBuffers &scene) const;
+              const StripBuffers &buffers, const SceneBuffers &scene,
+              const vulkan::Buffer *few = nullptr) const;
 
 private:
   shader::vec4 slope_;

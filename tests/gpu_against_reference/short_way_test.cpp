@@ -129,7 +129,44 @@ Case in_corner(const std::string &name, std::uint32_t samples) {
   return result;
 }
 
+// A wall that falls away at 60 degrees, 2 to 5 m off, in pixels of 9 mrad.
+Case on_steep_wall(std::uint32_t samples) {
+  SceneBuilder builder;
+  builder.add_mesh({{-1.5, -2.0, 0.4}, {-1.5, 2.0, 0.4}, {1.5, 2.0, 5.6}, {1.5, -2.0, 5.6}},
+                   {{0, 1, 2}, {0, 2, 3}}, {0.6, true});
+  Case result{.name = fmt::format("steep wall, S = {}", samples),
+              .scene = builder.scene(),
+              .sensor = wide_sensor(),
+              .lights = {light_at({{0.1, 0.02, -0.05}}, 0.0, {Pattern::Kind::cosine, 1.0})},
+              .precision = Precision::fp32,
+              .empty_pixels = true};
+  result.sensor.pixel_pitch_m /= 2.0;
+  result.sensor.samples = samples;
+  return result;
+}
+
+std::size_t other_amplitudes(const Measurement &a, const Measurement &b) {
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < a.coverage.size(); ++i)
+    other += a.returns[0].amplitude[i] != b.returns[0].amplitude[i];
+  return other;
+}
+
 } // namespace
+
+TEST_CASE("four places stand in for samples that one place is too far from") {
+  for (const std::uint32_t samples : {2u, 3u, 4u, 8u}) {
+    const Case of = on_steep_wall(samples);
+    check(of);
+    const Measurement one_place = measure(on_steep_wall(1), {}, {}), all = measure(of, {}, {});
+    const Measurement automatic = measure(of, {}, within(of));
+    // It is not off by so much, and yet many pixels are not summed sample by sample, which has the same bits.
+    CHECK(difference(one_place, all, of.sensor).distance_m > 2.0 * of.max_error_m);
+    if (samples > 2)
+      CHECK(other_amplitudes(automatic, all) > of.sensor.pixel_count() / 4);
+    CHECK(difference(automatic, all, of.sensor).distance_m < 0.2 * of.max_error_m);
+  }
+}
 
 TEST_CASE("few diodes stand in for the paper's ring") {
   for (const std::uint32_t samples : {1u, 2u, 4u})
