@@ -23,7 +23,7 @@ struct Accuracy {
   Mode mode = Mode::exact;
   std::optional<Precision> precision; // nothing: fp32, or what the error takes
   double max_error_m =
-      default_max_error_m; // of distance in every pixel, wrapped; not of what mode exact does
+      default_max_error_m; // of distance in every pixel, wrapped; in mode exact of adaptive samples only
   double max_amplitude_error = std::numeric_limits<double>::infinity(); // relative, likewise
 };
 
@@ -32,7 +32,7 @@ struct Accuracy {
 struct AccuracyReport {
   Precision precision = Precision::fp32;
   std::uint32_t diodes = 0; // summed where all reach a point: those that stand in for all
-  // A bound from theory, known before the frame; nothing where theory has none.
+  // A bound from theory, known before the frame or kept by every pixel; nothing where theory has none.
   std::optional<double> claimed_m, claimed_amplitude;
   // Of pixels chosen at random (fixed seed) and evaluated exactly; nothing where that was not asked for.
   std::optional<double> found_m, found_amplitude;

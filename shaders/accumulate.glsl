@@ -37,7 +37,7 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
 void add_terms(uint i, float backscatter, float terms) {
-  if (promised == 0)
+  if (promised == 0 || constants.adds_terms == 0)
     return;
   Floats sums = Floats(constants.terms);
   float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;

@@ -57,9 +57,8 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
     total[k] += part[k];
 }
 
-void add_taps(uint i, float total[totals], float backscatter, float terms) {
+void add_taps(uint i, float total[totals], float backscatter) {
   float weight = total[distinct_taps];
-  add_terms(i, backscatter, terms);
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
     uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
     add_to_plane(p, i, backscatter, 4.0 * vec2(total[2 * p], total[second]) - weight);
@@ -88,7 +87,8 @@ void main() {
 
   float backscatter = Floats(constants.backscatter).at[i];
   if (waveform == waveform_square) {
-    add_taps(i, total, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
+    add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
+    add_taps(i, total, backscatter);
   } else {
     Real detour = add(path.rho, negate(path.range));
     float turns = turn_fraction(phase_turns(detour, run, tone));

@@ -22,7 +22,11 @@ ReferencePath load_point(uint i, LightRun run, out PrecisePoint point) {
   point.rho = path.rho;
   point.rho2 = multiply(path.rho, path.rho);
   point.normal = real3(Vec4s(constants.surface).at[2 * i].xyz, Vec4s(constants.surface).at[2 * i + 1].xyz);
-  point.height = negate(dot3(point.normal, point.position));
+  // As in sum.glsl.
+  Real offset = real(Vec4s(constants.surface).at[2 * i].w, Vec4s(constants.surface).at[2 * i + 1].w);
+  Real3 reference = real3(run.reference_hi.xyz, run.reference_lo.xyz);
+  point.height = high(point.rho) < length(run.reference_hi.xyz) ? negate(dot3(point.normal, point.position))
+                                                                : add(offset, dot3(point.normal, reference));
   return path;
 }
 

@@ -314,6 +314,7 @@ struct AccumulateConstants {
   uint blocks; // blocks of diodes to sum, for the looped variant
   uint plane;  // elements of a plane of the sum
   uint padded_pixels;
+  uint adds_terms; // 0: another dispatch for the same diodes does
 };
 
 // How a modulation frequency becomes channels, and what was promised of it: a distance within limit_m and an
@@ -446,7 +447,7 @@ static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) 
 static_assert(sizeof(Tone) == 16);
 static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
-static_assert(sizeof(AccumulateConstants) == 108);
+static_assert(sizeof(AccumulateConstants) == 112);
 static_assert(sizeof(ResolveConstants) == 124);
 static_assert(sizeof(ShortWayConstants) == 128 && offsetof(ShortWayConstants, slope) == 32);
 } // namespace pmdsim::shader

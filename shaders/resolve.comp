@@ -79,7 +79,7 @@ void main() {
   Channels to = Channels(constants.channels, constants.padded_pixels);
   float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
   if (promised != 0) {
-    Errors errors = errors_of(frequency, sum.terms, size, Errors(0.0, 0.0));
+    Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * sum.terms, size, Errors(0.0, 0.0));
     if (!is_kept(frequency, errors))
       say_broken(constants.broken, errors);
   }

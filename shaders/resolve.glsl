@@ -181,8 +181,23 @@ struct Errors {
 
 Errors errors_of(Frequency frequency, float terms, float size, Errors added) {
   float condition = terms > 0.0 ? terms / size : 0.0; // infinite where all cancels
-  return Errors(frequency.fixed_m + (frequency.per_condition_m + added.distance_m) * condition,
-                frequency.amplitude_fixed + (frequency.amplitude_per_condition + added.amplitude) * condition);
+  // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition;
+  float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
+  return Errors(frequency.fixed_m + (frequency.per_condition_m + added.distance_m) * condition * grown,
+                frequency.amplitude_fixed + relative);
+}
+
+// Of the amplitudes of the harmonics that N taps take for the fundamental: what each term is multiplied by, at most, in all.
+float largest_amplitude(uvec2 harmonics) {
+  if (waveform != waveform_harmonics)
+    return 1.0;
+  float sum = 0.0;
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    uint alias = (p + 1) % taps;
+    sum += alias == 1 || alias == taps - 1 ? abs(Floats(harmonics).at[p]) : 0.0;
+  }
+  return sum;
 }
 
 bool is_kept(Frequency frequency, Errors errors) {

@@ -208,8 +208,8 @@ vec3 half_step(uint axis, uvec2 pixel) {
   return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
 }
 
-Errors errors_of_pixel(ShortWayLight light, TrianglePlane plane, uint pixel, Places of_pixel) {
-  if (side == 1)
+Errors errors_of_pixel(ShortWayLight light, TrianglePlane plane, uint pixel, bool hits, Places of_pixel) {
+  if (side == 1 || !hits)
     return Errors(0.0, 0.0);
   Real3 ray = ray_to(pixel, vec2(0.0));
   uvec2 at = in_frame(pixel);
@@ -237,7 +237,7 @@ void main() {
     TrianglePlane plane = Planes(constants.planes).at[triangle];
     vec4 z[tones];
     Places places_seen = sum_places(light, plane, triangle, pixel, z);
-    Errors added = errors_of_pixel(light, plane, pixel, places_seen);
+    Errors added = errors_of_pixel(light, plane, pixel, hits, places_seen);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
     bool kept = store_pixel(channels, light, to, hits, places_seen, z, added);
     store_ids(channels, seen.tag, plane.object, to);

@@ -137,12 +137,12 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms
     }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);
-    const double size_m = glm::length(run.reference_m) + groups.radius_m;
+    const double size_m = glm::length(run.reference_m) + run.radius_m;
     shader::LightRun record{};
     record.reference_hi = reference.hi;
     record.reference_lo = reference.lo;
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
-    record.radius_m = static_cast<float>(groups.radius_m);
+    record.radius_m = static_cast<float>(run.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.heights = static_cast<float>(terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(terms_per_weight_error * diagrams);
@@ -203,7 +203,8 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
           address_of(list),
           blocks_per_run_,
           plane,
-          strip.padded_pixels};
+          strip.padded_pixels,
+          d == 0 ? 1u : 0u};
       dispatch_listed(run == 0 ? first_ : later_, commands, constants, plane, list, of_samples);
     }
   }

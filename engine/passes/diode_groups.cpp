@@ -213,8 +213,8 @@ double diagram_error(const Diode &diode, DiagramTables &diagrams) {
 void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
-    result.runs.push_back(
-        {group.reference_m, static_cast<std::uint32_t>(result.diodes.size()), group.phase_turns});
+    result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
+                           group.phase_turns, group.reach.radius_m});
     for (std::size_t i = first; i < first + run_diodes; ++i) {
       const bool dark = i >= group.diodes.size();
       const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];

@@ -16,6 +16,8 @@ struct DiodeRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into DiodeGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
+  double radius_m =
+      0.0; // of its group about the reference point, at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.

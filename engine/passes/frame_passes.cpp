@@ -4,6 +4,7 @@
 #include "engine/passes/projection.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pmdsim {
 namespace {
@@ -62,7 +63,7 @@ struct Ways {
 };
 
 Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest &request,
-                 std::size_t windows) {
+                 std::size_t windows, bool painted) {
   const Sensor &sensor = request.sensor;
   // The bits of several windows are never there together, so that nothing is known of a sample before it is
   // summed.
@@ -71,8 +72,11 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
   ways.rest = view.signal.lit || view.model.backscatter != shader::backscatter_flat;
   const bool can =
       plan.short_promise && one_window && ShortWay::can_sum(plan.short_groups, view.signal, sensor);
-  ways.thin_out =
-      can && sensor.samples > 1 && (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
+  // Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
+  const bool is_smooth =
+      !painted && sensor.vignetting == Vignetting::none && std::isfinite(plan.extent.pattern_slope);
+  ways.thin_out = can && sensor.samples > 1 && is_smooth &&
+                  (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
   ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
   ways.all_points = !ways.listed || view.signal.lit || sensor.has_distortion();
@@ -126,11 +130,10 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
     return ShortWay(device, request.sensor, plan.short_groups, plan.extent, view.model, view.signal, promise,
                     options, of, lists);
   };
-  const bool painted = scene.paint.painted,
-             thin_out = ways.thin_out && !painted; // paint may change in a pixel
-  const bool few = thin_out && plan.few_promise;
-  ShortWay short_way = make_short_way(plan.short_promise.value_or(*plan.promise),
-                                      {painted, thin_out ? 1u : 0u, few, ways.short_way, lists_pixels});
+  const bool few = ways.thin_out && plan.few_promise;
+  ShortWay short_way =
+      make_short_way(plan.short_promise.value_or(*plan.promise),
+                     {scene.paint.painted, ways.thin_out ? 1u : 0u, few, ways.short_way, lists_pixels});
   std::optional<ShortWay> few_places;
   if (few)
     few_places.emplace(make_short_way(*plan.few_promise, {.painted = false, .places = 4}));
@@ -175,13 +178,13 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
                               request.accuracy, attempt);
   view.signal.promised = plan.promise.has_value();
   std::vector<LitWindow> windows = view.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
-  const Ways ways = choose_ways(plan, view, request, windows.size());
+  SceneBuffers scene =
+      upload_scene(device, view.camera, request.scene, sensor, request.backscatter, textures);
+  const Ways ways = choose_ways(plan, view, request, windows.size(), scene.paint.painted);
   const bool checks = request.accuracy.mode != Mode::exact;
   const std::uint32_t samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : view.largest_strip;
   const auto strips = plan_strips(sensor, view.projection.blocks, samples);
-  SceneBuffers scene =
-      upload_scene(device, view.camera, request.scene, sensor, request.backscatter, textures);
   const Precision of_check = checks ? check_precision(view, plan, sensor) : plan.precision;
   StripBuffers buffers = make_strip_buffers(
       device, strips, view.projection.blocks, view.signal,

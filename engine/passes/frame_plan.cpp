@@ -52,6 +52,16 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
                                               1e3 * accuracy.max_error_m, why));
 }
 
+[[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound) {
+  if (bound.distance_m(1.0) >= accuracy.max_error_m)
+    refuse(accuracy, fmt::format("rounding alone may come to {:.6g} mm", 1e3 * bound.distance_m(1.0)));
+  throw Error(
+      ExitCode::accuracy,
+      fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
+                  "come to {:.3g}",
+                  accuracy.max_amplitude_error, bound.amplitude(1.0)));
+}
+
 // Of pixels of which some keep the one and some the other.
 Promise worse_of(const Promise &a, const Promise &b) {
   return {a.limit_m,
@@ -77,7 +87,7 @@ struct RoundedSum {
 
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
 RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
-  std::string why = "a measured diagram that varies about its own axis has no bound";
+  std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   for (const Precision wanted :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
@@ -86,52 +96,66 @@ RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     if (bound && is_within(*bound, accuracy))
       return {precision, std::move(groups), *bound};
-    if (bound)
-      why = fmt::format("rounding alone may come to {:.6g} mm", 1e3 * bound->distance_m(1.0));
+    last = bound;
   }
-  refuse(accuracy, why);
+  if (last)
+    refuse(accuracy, *last);
+  refuse(accuracy, "a measured diagram that varies about its own axis has no bound");
 }
 
 Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
-  // A relative error of the sum below 10^-2 turns it by its arcsine.
-  constexpr double of_arcsine = 1.0001;
   Promise promise{accuracy.max_error_m,
                   rounding.fixed_m,
-                  of_arcsine * (rounding.per_condition_m + light.error_per_condition_m),
+                  rounding.per_condition_m + light.error_per_condition_m,
                   accuracy.max_amplitude_error,
                   rounding.amplitude_fixed,
                   rounding.amplitude_per_condition + light.amplitude_error_per_condition,
                   0.0};
   if (rounding.per_weight_m > 0.0)
-    promise.terms_per_weight_error = of_arcsine * rounding.per_weight_m / promise.per_condition_m;
+    promise.terms_per_weight_error = rounding.per_weight_m / promise.per_condition_m;
   if (std::isfinite(promise.amplitude_limit))
     promise.terms_per_weight_error = std::max(
         promise.terms_per_weight_error, rounding.amplitude_per_weight / promise.amplitude_per_condition);
   return promise;
 }
 
-// At most, where all paths of a pixel differ so little that none cancels another; nothing where they may.
+// At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
+// counts as terms (terms_of in shaders/sum.glsl); nothing where it may be more.
 std::optional<double> largest_condition(const LitView &view, const FramePlan &plan) {
   const double wavenumber = view.signal.largest_wavenumber_rad_m();
   const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
   if (view.sensor.samples > 1 || plan.all.phased || half_rad > 1.0 ||
-      view.signal.waveform != shader::waveform_sine)
+      view.signal.waveform != shader::waveform_sine ||
+      view.model.backscatter == shader::backscatter_lambert || view.model.pattern == shader::pattern_axial ||
+      view.model.pattern == shader::pattern_any)
     return std::nullopt;
   return 1.0 / std::cos(half_rad);
 }
 
-void claim(const LitView &view, const Promise &bound, FramePlan &plan) {
-  if (const auto condition = largest_condition(view, plan)) {
-    const double error_m = bound.fixed_m + bound.per_condition_m * *condition;
-    const double amplitude = bound.amplitude_fixed + bound.amplitude_per_condition * *condition;
-    plan.surely_kept = error_m <= bound.limit_m && amplitude <= bound.amplitude_limit;
-    plan.claimed_m = std::min(bound.limit_m, error_m);
-    plan.claimed_amplitude = std::min(bound.amplitude_limit, amplitude);
-  } else if (plan.promise) { // of which every pixel makes sure
-    plan.claimed_m = bound.limit_m;
-    if (std::isfinite(bound.amplitude_limit))
-      plan.claimed_amplitude = bound.amplitude_limit;
-  }
+// What no pixel is off by more than, if that is known before the frame.
+struct SureBound {
+  double distance_m, amplitude;
+};
+
+// As errors_of in shaders/resolve.glsl.
+std::optional<SureBound> sure_bound(const LitView &view, const Promise &bound, const FramePlan &plan) {
+  const auto condition = largest_condition(view, plan);
+  if (!condition)
+    return std::nullopt;
+  const double relative = bound.amplitude_per_condition * *condition;
+  if (!(relative < 1.0))
+    return std::nullopt;
+  return SureBound{bound.fixed_m + bound.per_condition_m * *condition / (1.0 - relative),
+                   bound.amplitude_fixed + relative};
+}
+
+// Of what is asked for, every pixel makes sure, where it is not known before.
+void claim_within_limits(const LitView &view, const Promise &bound, FramePlan &plan) {
+  const auto sure = sure_bound(view, bound, plan);
+  plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
+  plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
+  if (sure || std::isfinite(bound.amplitude_limit))
+    plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
 }
 
 // All diodes for themselves.
@@ -162,10 +186,13 @@ bool is_kept_by_some(const Promise &promise) {
 // One place in float, or four, whatever the precision of the others.
 void plan_short_way(const LitView &view, const Accuracy &accuracy, const ReducedLight &light,
                     FramePlan &plan) {
-  if (accuracy.precision == Precision::fp64)
+  const bool in_float = accuracy.precision != Precision::fp64;
+  if (in_float)
+    plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
+  // How much light a sample has is counted in these, also where pixels are only listed.
+  plan.short_groups.diode_count = plan.all.diode_count;
+  if (!in_float)
     return;
-  plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
-  plan.short_groups.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   const auto promised = [&](std::uint32_t side, double spread_m) -> std::optional<Promise> {
     const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, side, spread_m);
     if (!rounding)
@@ -188,7 +215,11 @@ FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
     const Promise bound = promise_of(accuracy, *rounding, light);
     if (view.sensor.adaptive_samples)
       plan.promise = plan.promise_of_all = bound;
-    claim(view, bound, plan);
+    // Where samples adapt, pixels that may break the promise are summed in full: nothing is claimed of them.
+    if (const auto sure = sure_bound(view, bound, plan); sure && !plan.promise) {
+      plan.claimed_m = sure->distance_m;
+      plan.claimed_amplitude = sure->amplitude;
+    }
   }
   if (plan.promise && plan.precision == Precision::fp32)
     plan_short_way(view, accuracy, light, plan);
@@ -212,7 +243,10 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
   const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
   plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
   plan_short_way(view, accuracy, light, plan);
-  claim(view, worse_of(*plan.promise, plan.short_promise.value_or(*plan.promise)), plan);
+  Promise worst = worse_of(*plan.promise, plan.short_promise.value_or(*plan.promise));
+  if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)
+    worst = worse_of(worst, *plan.promise_of_all);
+  claim_within_limits(view, worst, plan);
   return plan;
 }
 

@@ -92,8 +92,10 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
                 constants_of(sensor, groups, model, signal, ways)) {
   shader::ShortWayLight light = light_record(extent, signal, groups.phased);
   light.diagrams = words(diagrams_.address());
-  std::ranges::copy(signal.all_tones(), light.tones);
-  std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
+  if (ways.sums) {
+    std::ranges::copy(signal.all_tones(), light.tones);
+    std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
+  }
   light_ = upload_light(device, light, light_runs(groups, promise.terms_per_weight_error));
   shader::ShortWayWork work{};
   work.lit_channel = signal.lit_channel();

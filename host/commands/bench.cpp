@@ -58,8 +58,10 @@ Timing time_all_sensors(const Setup &setup, Exposures &exposures, const std::str
   return *sum;
 }
 
-// NaN where there is no pass named "accumulate".
-double interactions_per_s(const Setup &setup, const Timing &timing) {
+// NaN where not every sample meets every diode in the accumulate pass.
+double interactions_per_s(const Setup &setup, Mode mode, const Timing &timing) {
+  if (mode != Mode::exact || std::ranges::any_of(setup.start.sensors, &Sensor::adaptive_samples))
+    return std::numeric_limits<double>::quiet_NaN();
   const auto accumulate = std::ranges::find(timing.passes, "accumulate", &PassTime::name);
   return accumulate == timing.passes.end() ? std::numeric_limits<double>::quiet_NaN()
                                            : interaction_count(setup) / (1e-3 * accumulate->ms);
@@ -85,7 +87,7 @@ ordered_json row_json(const Setup &setup, const Row &row) {
           {"frame_ms_min", timing.frame_ms.min},
           {"frame_ms_max", timing.frame_ms.max},
           {"frames_per_s", frames_per_s(timing)},
-          {"interactions_per_s", interactions_per_s(setup, timing)},
+          {"interactions_per_s", interactions_per_s(setup, mode, timing)},
           {"passes_ms", passes_json(timing.passes)},
           {"error_claimed_m", accuracy["error_claimed_m"]},
           {"error_found_m", largest_error_m(checks)},
@@ -137,7 +139,7 @@ std::string row_text(const Setup &setup, const Row &row) {
                       sensors, frames_per_s(timing));
   for (const PassTime &pass : timing.passes)
     text += fmt::format("  {:<20}{:>10.3f} ms\n", pass.name, pass.ms);
-  if (const double rate = interactions_per_s(setup, timing); !std::isnan(rate))
+  if (const double rate = interactions_per_s(setup, mode, timing); !std::isnan(rate))
     text += fmt::format("rate       {:.4g} interactions/s in the accumulate pass\n", rate);
   return text;
 }

@@ -62,6 +62,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
   }
   frame->returns = std::move(returns);
+  // Those of the exposures; what they come to together has no bound.
+  frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
   return std::move(*frame);
 }
 

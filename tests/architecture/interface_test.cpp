@@ -230,7 +230,7 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
        MEMBER(AccumulateConstants, terms), MEMBER(AccumulateConstants, list),
        MEMBER(AccumulateConstants, blocks), MEMBER(AccumulateConstants, plane),
-       MEMBER(AccumulateConstants, padded_pixels)}}},
+       MEMBER(AccumulateConstants, padded_pixels), MEMBER(AccumulateConstants, adds_terms)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position_hi), MEMBER(ResolveConstants, position_lo),

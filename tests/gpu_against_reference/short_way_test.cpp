@@ -129,6 +129,23 @@ Case in_corner(const std::string &name, std::uint32_t samples) {
   return result;
 }
 
+// What stands in the corner is partly in the shadow of a post.
+Case behind_a_post(const std::string &name, std::uint32_t samples) {
+  Case of = in_corner(name, samples);
+  SceneBuilder post;
+  const auto first = static_cast<std::uint32_t>(of.scene.positions_m.size());
+  post.add_wall({1.0, {0.5, true}, {-0.3, -0.5}, {-0.2, 0.05}});
+  for (const glm::dvec3 &corner_m : post.scene().positions_m)
+    of.scene.positions_m.push_back(corner_m);
+  for (Triangle triangle : post.scene().triangles) {
+    for (std::uint32_t &vertex : triangle.vertices)
+      vertex += first;
+    of.scene.triangles.push_back(triangle);
+  }
+  of.shadows = Shadows::automatic;
+  return of;
+}
+
 // A wall that falls away at 60 degrees, 2 to 5 m off, in pixels of 9 mrad.
 Case on_steep_wall(std::uint32_t samples) {
   SceneBuilder builder;
@@ -184,6 +201,12 @@ TEST_CASE("frequencies from one sum") {
     of.sensor.modulation_hz = {20e6, 60e6};
     check(of);
   }
+}
+
+TEST_CASE("more frequencies than the short way has room for") {
+  Case of = in_corner("10 to 50 MHz", 1);
+  of.sensor.modulation_hz = {10e6, 20e6, 30e6, 40e6, 50e6};
+  check(of);
 }
 
 TEST_CASE("chips that stand askew, pixels that are filled in part, cos^4") {
@@ -249,20 +272,11 @@ TEST_CASE("lights half a radian apart") {
 
 TEST_CASE("shadows that leave part of the light") {
   for (const std::uint32_t samples : {1u, 2u}) {
-    Case of = in_corner("shadows", samples);
-    SceneBuilder post;
-    of.scene = corner();
-    const auto first = static_cast<std::uint32_t>(of.scene.positions_m.size());
-    post.add_wall({1.0, {0.5, true}, {-0.3, -0.5}, {-0.2, 0.05}});
-    for (const glm::dvec3 &corner_m : post.scene().positions_m)
-      of.scene.positions_m.push_back(corner_m);
-    for (Triangle triangle : post.scene().triangles) {
-      for (std::uint32_t &vertex : triangle.vertices)
-        vertex += first;
-      of.scene.triangles.push_back(triangle);
-    }
-    of.shadows = Shadows::automatic;
-    check(of);
+    check(behind_a_post("shadows", samples));
+    // Few diodes, but none on the short way, which is in float.
+    Case precise = behind_a_post("shadows, fp64", samples);
+    precise.precision = Precision::fp64;
+    check(precise);
   }
 }
 
