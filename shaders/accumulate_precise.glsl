@@ -21,12 +21,13 @@ ReferencePath load_point(uint i, LightRun run, out PrecisePoint point) {
   ReferencePath path = see_path(load_position(i), run, point.position);
   point.rho = path.rho;
   point.rho2 = multiply(path.rho, path.rho);
-  point.normal = real3(Vec4s(constants.surface).at[2 * i].xyz, Vec4s(constants.surface).at[2 * i + 1].xyz);
-  // As in sum.glsl.
-  Real offset = real(Vec4s(constants.surface).at[2 * i].w, Vec4s(constants.surface).at[2 * i + 1].w);
+  // Whole vectors: lavapipe has been seen to load a wrong .w alone.
+  vec4 surface_hi = Vec4s(constants.surface).at[2 * i], surface_lo = Vec4s(constants.surface).at[2 * i + 1];
+  point.normal = real3(surface_hi.xyz, surface_lo.xyz);
+  // By the shorter way, as in sum.glsl.
   Real3 reference = real3(run.reference_hi.xyz, run.reference_lo.xyz);
-  point.height = high(point.rho) < length(run.reference_hi.xyz) ? negate(dot3(point.normal, point.position))
-                                                                : add(offset, dot3(point.normal, reference));
+  Real of_reference = add(real(surface_hi.w, surface_lo.w), dot3(point.normal, reference));
+  point.height = high(point.rho) < length(run.reference_hi.xyz) ? negate(dot3(point.normal, point.position)) : of_reference;
   return path;
 }
 

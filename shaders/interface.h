@@ -238,7 +238,7 @@ struct Strip {
   uint resolution_x;  // of the whole frame, pixels
   uint resolution_y;
   uint samples;       // S
-  uint padded_pixels; // columns * rows, rounded up to whole workgroups
+  uint padded_pixels; // columns * rows, rounded up to whole workgroups, and one more of these
 };
 
 // Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
