@@ -120,8 +120,10 @@ constexpr std::array<std::pair<double, double>, 8> directions{
 std::optional<Box> free_place(const Marker &marker, double width, const std::vector<Box> &taken,
                               const Box &whole) {
   const double height = text_size;
-  for (double away = marker_radius + 3.0; away < 60.0; away += 4.0)
+  constexpr int distances = 13; // from the marker, 4 apart
+  for (int i = 0; i < distances; ++i)
     for (const auto &[right, down] : directions) {
+      const double away = marker_radius + 3.0 + 4.0 * i;
       const double x = marker.x + right * (away + 0.5 * width), y = marker.y + down * (away + 0.5 * height);
       const Box place{x - 0.5 * width, y - 0.5 * height, width, height};
       const bool inside = place.left > whole.left && place.right() < whole.right() && place.top > whole.top &&
@@ -134,6 +136,7 @@ std::optional<Box> free_place(const Marker &marker, double width, const std::vec
 
 void draw_labels(Canvas &canvas, const std::vector<Marker> &markers, const Box &whole) {
   std::vector<Box> taken;
+  taken.reserve(2 * markers.size());
   for (const Marker &marker : markers)
     taken.push_back({marker.x - marker_radius - 1.0, marker.y - marker_radius - 1.0,
                      2.0 * marker_radius + 2.0, 2.0 * marker_radius + 2.0});
