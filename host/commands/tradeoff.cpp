@@ -8,7 +8,6 @@
 #include "host/commands/loaded_setup.h"
 #include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
-#include "host/commands/timing.h"
 #include "host/output/manifest.h"
 #include "host/output/output_set.h"
 
@@ -23,6 +22,9 @@ namespace {
 constexpr std::size_t compared_pixels = 4096;
 constexpr std::uint32_t finest_samples = 16; // of the reference that sample counts are compared with
 constexpr double reference_slowness = 50.0;  // roughly, of a sample there and on a device
+// Times drift on most machines: the points of a sweep are timed in turn, a frame each a round.
+constexpr int rounds = 5;
+constexpr int frames_of_a_point = 1 + 2 * rounds; // one to be judged, and in each round one to warm up
 
 constexpr std::array<SampleChoice, 5> swept_samples{{{1}, {2}, {4}, {8}, automatic_samples}};
 constexpr std::array swept_errors_m{1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
@@ -63,7 +65,7 @@ double work_of(const std::vector<TradeoffPoint> &points, const Sensor &sensor) {
   };
   double work = 0.0;
   for (const TradeoffPoint &point : points)
-    work += (2 + measured_frames) * samples(sensor.pixel_count(), point.samples);
+    work += (1 + frames_of_a_point) * samples(sensor.pixel_count(), point.samples);
   for (const std::uint32_t each : {sensor.samples, finest_samples})
     work +=
         reference_slowness * samples(std::min<std::uint64_t>(sensor.pixel_count(), compared_pixels), each);
@@ -78,15 +80,11 @@ public:
         tagging_camera_(device, {.sample_triangles = true}), bar_(work_of(points_, sensor)) {}
 
   Tradeoff measure() {
-    for (TradeoffPoint &point : points_) {
-      judge(point);
-      try {
-        measure(point);
-      } catch (const Error &error) {
-        if (error.code() != ExitCode::accuracy)
-          throw;
-        point.refusal = error.what();
-      }
+    for (const Sweep sweep : {Sweep::modes, Sweep::samples}) {
+      for (TradeoffPoint &point : points_)
+        if (point.sweep == sweep)
+          judge(point);
+      time(sweep);
     }
     mark_pareto(points_);
     return {setup_.file.string(), sensor_.name, camera_.device(), camera_.driver(), points_};
@@ -109,7 +107,7 @@ private:
   }
 
   // What the point is compared with; as it is where the one before has the same.
-  void judge(const TradeoffPoint &point) {
+  void find_truth(const TradeoffPoint &point) {
     if (!truth_ || truth_->sensor.samples != point.reference_samples) {
       truth_ = true_pixels(point.reference_samples);
       edges_of_samples_ = 0;
@@ -134,19 +132,46 @@ private:
     return truth;
   }
 
-  void measure(TradeoffPoint &point) {
+  Measurement frame(const TradeoffPoint &point, const Sensor &sensor, const std::string &what) {
+    bar_.begin(fmt::format("{}, {}, {}", series_name(point), point_label(point), what), samples_of(sensor));
+    return camera_.measure(interruptible_progress(bar_));
+  }
+
+  // The point's errors, or why it has none.
+  void judge(TradeoffPoint &point) {
+    find_truth(point);
     const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
-    prepare(camera_, sensor, point.accuracy);
-    const Timing timing = time_frames([&](const std::string &what) {
-      bar_.begin(fmt::format("{}, {}, {}", series_name(point), point_label(point), what), samples_of(sensor));
-      Measurement found = camera_.measure(interruptible_progress(bar_));
+    try {
+      prepare(camera_, sensor, point.accuracy);
+      const Measurement found = frame(point, sensor, "comparing");
       const ErrorsByPlace errors = distance_errors(*truth_, edges_, found);
       point.smooth = errors.smooth;
       point.edges = errors.edges;
-      return found;
-    });
-    point.time = {timing.frame_ms.median, timing.frame_ms.min, timing.frame_ms.max};
-    point.report = timing.accuracy;
+      point.report = found.accuracy;
+    } catch (const Error &error) {
+      if (error.code() != ExitCode::accuracy)
+        throw;
+      point.refusal = error.what();
+    }
+  }
+
+  void time(Sweep sweep) {
+    std::vector<std::vector<double>> frames_ms(points_.size());
+    for (int round = 1; round <= rounds; ++round)
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const TradeoffPoint &point = points_[i];
+        if (point.sweep != sweep || !point.refusal.empty())
+          continue;
+        const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
+        prepare(camera_, sensor, point.accuracy);
+        frame(point, sensor, fmt::format("warming up {}/{}", round, rounds));
+        frames_ms[i].push_back(frame(point, sensor, fmt::format("timing {}/{}", round, rounds)).frame_ms);
+      }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (!frames_ms[i].empty()) {
+        const Spread spread = spread_of(frames_ms[i]);
+        points_[i].time = {spread.median, spread.min, spread.max};
+      }
   }
 
   const Setup &setup_;
