@@ -68,11 +68,11 @@ void check_report(const Case &of, const AccuracyReport &report) {
 }
 
 void check(const Case &of) {
+  const Measurement exact = measure(of, {.device = {}, .keep_taps = true}, {.precision = Precision::fp64});
   for (const Variant &variant : variants) {
     INFO(of.name << variant.name);
     const SimulatorOptions options{
         .device = {}, .keep_taps = true, .precision = variant.precision, .loop = variant.loop};
-    const Measurement exact = measure(of, options, {.precision = Precision::fp64});
     const Measurement automatic = measure(of, options, within(of));
     const FrameDifference apart = difference(automatic, exact, of.sensor);
     const AccuracyReport &report = automatic.accuracy;
