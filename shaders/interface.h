@@ -221,6 +221,11 @@ struct LightRun {
   float heights;     // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
                      // I / r^3, m
   float diagrams;    // likewise of measured diagrams, times r^2
+  float rims;        // likewise of cosines to the diodes' axes beyond 45 degrees, over I / r^2 * cos^rim_power,
+  float rim_power;   // and over the cosine where none is 0
+  vec4 axis;         // the mean of the axes, camera frame; how far they are from it at most
+  vec2 heights_m;    // of the diodes over the reference point, each along its axis: their middle, and how far
+                     // one is from it at most
   uint padding_1, padding_2;
 };
 
@@ -445,7 +450,7 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
+static_assert(sizeof(LightRun) == 96 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
 static_assert(sizeof(AccumulateConstants) == 112);
 static_assert(sizeof(ResolveConstants) == 124);

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pmdsim {
 namespace {
@@ -125,7 +126,50 @@ Precision sum_precision(const Signal &signal, Precision wanted) {
   return signal.by_moments ? wanted : Precision::fp32;
 }
 
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms_per_weight_error) {
+namespace {
+
+// By what, times cos^power, rounding of a cosine grows, at most, in cos^n; n cos^(n - 1). Down to 10^-3: there a
+// beam of an order below 1 ends as a step.
+struct Steepness {
+  double factor = 0.0, power = largest_rim_power;
+
+  void add(double order) {
+    if (order <= 0.0) // a half-space; not a cosine
+      return;
+    factor = std::max(factor, order < 1.0 ? steepest_step : order);
+    power = std::min(power, std::max(0.0, order - 1.0));
+  }
+
+  static constexpr double steepest_step = 54.0, largest_rim_power = 1e3;
+};
+
+// The diodes first ... last - 1 at the rims of their beams.
+void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const Promise &promise,
+              shader::LightRun &record) {
+  std::vector<shader::GroupDiode> diodes;
+  for (std::size_t i = first; i < last; ++i)
+    if (groups.places[i].number != no_id)
+      diodes.push_back(groups.diodes[i]);
+  glm::dvec3 mean(0.0);
+  for (const shader::GroupDiode &diode : diodes)
+    mean += glm::dvec3(diode.axis) / static_cast<double>(diodes.size());
+  double apart = 0.0, lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
+  Steepness steepness;
+  for (const shader::GroupDiode &diode : diodes) {
+    apart = std::max(apart, glm::distance(glm::dvec3(diode.axis), mean));
+    lowest_m = std::min(lowest_m, static_cast<double>(diode.axis.w));
+    highest_m = std::max(highest_m, static_cast<double>(diode.axis.w));
+    steepness.add(static_cast<double>(diode.order));
+  }
+  record.rims = static_cast<float>(promise.terms_of_rims * steepness.factor);
+  record.rim_power = static_cast<float>(steepness.power);
+  record.axis = glm::vec4(glm::vec3(mean), static_cast<float>(apart));
+  record.heights_m = {0.5 * (lowest_m + highest_m), 0.5 * (highest_m - lowest_m)};
+}
+
+} // namespace
+
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
@@ -144,8 +188,10 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
     record.radius_m = static_cast<float>(run.radius_m);
     record.intensity = static_cast<float>(intensity);
-    record.heights = static_cast<float>(terms_per_weight_error * height_rounding * rounding * size_m);
-    record.diagrams = static_cast<float>(terms_per_weight_error * diagrams);
+    record.heights =
+        static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
+    record.diagrams = static_cast<float>(promise.terms_per_weight_error * diagrams);
+    set_rims(groups, run.first, run.first + run_diodes, promise, record);
     result.push_back(record);
   }
   return result;
@@ -155,8 +201,7 @@ namespace {
 
 vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups,
                            const std::optional<Promise> &promise) {
-  const std::vector<shader::LightRun> runs =
-      light_runs(groups, promise ? promise->terms_per_weight_error : 0.0);
+  const std::vector<shader::LightRun> runs = light_runs(groups, promise.value_or(Promise{}));
   return vulkan::upload(device, std::as_bytes(std::span(runs)));
 }
 

@@ -70,8 +70,8 @@ private:
 };
 
 // What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
-// promise's bound counts as light; of a relative error, `terms_per_weight_error` times as much (promise.h).
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, double terms_per_weight_error);
+// promise's bound counts as light.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise);
 
 // Of the moments' forms and what they share with other sums: specialization constants, and the tones that
 // they read.

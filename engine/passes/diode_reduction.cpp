@@ -233,28 +233,30 @@ double path_spread_m(const std::vector<VisibleBox> &pieces, const VisibleBox &li
 
 // Bound of sin(phase) / (2 k) where the total's phase differs from that of a path.
 double distance_per_re_m(const std::vector<CameraIlluminator> &illuminators, double spread_m,
-                         const Wavenumbers &wavenumbers) {
+                         double smallest_wavenumber_rad_m) {
   double least_rad = std::numeric_limits<double>::infinity(), largest_rad = -least_rad;
   for (const CameraIlluminator &illuminator : illuminators) {
     least_rad = std::min(least_rad, illuminator.modulation_phase_rad);
     largest_rad = std::max(largest_rad, illuminator.modulation_phase_rad);
   }
-  const double phase_rad = wavenumbers.smallest_rad_m * spread_m + (largest_rad - least_rad);
-  return std::sin(std::min(phase_rad, 0.5 * std::numbers::pi)) / (2.0 * wavenumbers.smallest_rad_m);
+  const double phase_rad = smallest_wavenumber_rad_m * spread_m + (largest_rad - least_rad);
+  return std::sin(std::min(phase_rad, 0.5 * std::numbers::pi)) / (2.0 * smallest_wavenumber_rad_m);
 }
 
 } // namespace
 
 ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
-                           const Wavenumbers &wavenumbers, double max_error_m, double max_amplitude_error) {
+                           std::vector<double> wavenumbers_rad_m, double max_error_m, double max_amplitude_error) {
   ReducedLight result{illuminators, box_of(illuminators)};
   if (visible.empty() || !(max_error_m > 0.0) || !(max_amplitude_error > 0.0))
     return result;
   std::vector<VisibleBox> pieces = pieces_of(visible, result.lights);
-  ErrorScale scale{wavenumbers.largest_rad_m,
-                   distance_per_re_m(illuminators, path_spread_m(pieces, result.lights), wavenumbers),
-                   0.5 / wavenumbers.largest_rad_m,
+  std::ranges::sort(wavenumbers_rad_m);
+  const double smallest = wavenumbers_rad_m.front(), largest = wavenumbers_rad_m.back();
+  ErrorScale scale{std::move(wavenumbers_rad_m),
+                   distance_per_re_m(illuminators, path_spread_m(pieces, result.lights), smallest),
+                   0.5 / largest,
                    (1.0 - largest_amplitude_error) * max_error_m,
                    std::min(max_amplitude_error, largest_amplitude_error),
                    backscatter == Backscatter::lambert};

@@ -9,10 +9,6 @@
 
 namespace pmdsim {
 
-struct Wavenumbers { // 2 pi f / c, of all modulation frequencies
-  double smallest_rad_m, largest_rad_m;
-};
-
 // The bound holds for every sum of returns from visible points whose surfaces have all of `lights` in front
 // of them and that all diodes reach: with condition = sum|terms| / |sum| over all samples and diodes and
 // relative = amplitude_error_per_condition * condition < 1, the wrapped distance is off by at most
@@ -26,9 +22,9 @@ struct ReducedLight {
 
 // As few diodes as keep the errors within the two at condition 1 (amplitude also within 10^-3, so that
 // `relative` is small). Diodes stay as they are where that gains nothing or visible points are too near.
-// `visible` bounds the points, camera frame. The same input gives the same result.
+// `visible` bounds the points, camera frame; wavenumbers are 2 pi f / c of all modulation frequencies. The same input gives the same result.
 ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
-                           const Wavenumbers &wavenumbers, double max_error_m, double max_amplitude_error);
+                           std::vector<double> wavenumbers_rad_m, double max_error_m, double max_amplitude_error);
 
 } // namespace pmdsim

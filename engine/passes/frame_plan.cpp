@@ -21,13 +21,18 @@ constexpr double share_of_stand_ins[frame_plans] = {0.5, 0.02, 0.0};
 // Of paint, texture and vignetting, relative.
 constexpr double painted_backscatter_error = 0x1p-21;
 
-double wavenumber_rad_m(double modulation_hz) {
-  return 2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s;
+std::vector<double> wavenumbers_rad_m(const Signal &signal) {
+  std::vector<double> result;
+  for (const double modulation_hz : signal.modulation_hz)
+    result.push_back(2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s);
+  return result;
 }
 
-Wavenumbers wavenumbers_of(const Signal &signal) {
-  const auto [smallest, largest] = std::ranges::minmax(signal.modulation_hz);
-  return {wavenumber_rad_m(smallest), wavenumber_rad_m(largest)};
+// Of a pixel, seen from the lens; at most.
+double pixel_rad(const Sensor &sensor) {
+  if (sensor.has_distortion() || !sensor.chip.is_nominal())
+    return std::numeric_limits<double>::infinity();
+  return glm::length(sensor.pixel_pitch_m * sensor.fill_factor) / sensor.image_distance_m();
 }
 
 std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision,
@@ -37,8 +42,10 @@ std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &gr
   scope.sample_spread_m = sample_spread_m;
   scope.precision = precision;
   scope.samples = samples;
+  scope.pixel_rad = pixel_rad(view.sensor);
   scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
+  scope.rims_are_terms = scope.emission_cosine < beam_cosine;
   scope.backscatter_error = painted_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.signal, scope);
 }
@@ -70,7 +77,8 @@ Promise worse_of(const Promise &a, const Promise &b) {
           a.amplitude_limit,
           std::max(a.amplitude_fixed, b.amplitude_fixed),
           std::max(a.amplitude_per_condition, b.amplitude_per_condition),
-          std::max(a.terms_per_weight_error, b.terms_per_weight_error)};
+          std::max(a.terms_per_weight_error, b.terms_per_weight_error),
+          std::max(a.terms_of_rims, b.terms_of_rims)};
 }
 
 DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
@@ -110,12 +118,14 @@ Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, cons
                   accuracy.max_amplitude_error,
                   rounding.amplitude_fixed,
                   rounding.amplitude_per_condition + light.amplitude_error_per_condition,
+                  0.0,
                   0.0};
   if (rounding.per_weight_m > 0.0)
     promise.terms_per_weight_error = rounding.per_weight_m / promise.per_condition_m;
   if (std::isfinite(promise.amplitude_limit))
     promise.terms_per_weight_error = std::max(
         promise.terms_per_weight_error, rounding.amplitude_per_weight / promise.amplitude_per_condition);
+  promise.terms_of_rims = promise.terms_per_weight_error * rounding.rim_error;
   return promise;
 }
 
@@ -140,7 +150,7 @@ struct SureBound {
 // As errors_of in shaders/resolve.glsl.
 std::optional<SureBound> sure_bound(const LitView &view, const Promise &bound, const FramePlan &plan) {
   const auto condition = largest_condition(view, plan);
-  if (!condition)
+  if (!condition || bound.terms_of_rims > 0.0)
     return std::nullopt;
   const double relative = bound.amplitude_per_condition * *condition;
   if (!(relative < 1.0))
@@ -173,7 +183,7 @@ ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const R
                           double share) {
   if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
     return whole_light(view);
-  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_of(view.signal),
+  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.signal),
                        share * (accuracy.max_error_m - rounding.distance_m(1.0)),
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }

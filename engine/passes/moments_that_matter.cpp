@@ -15,6 +15,7 @@ constexpr std::size_t largest_degree = 40;   // in x
 // More take too long; more than the square of the diodes, and there would be as many diodes after as before.
 constexpr std::size_t most_moments = 12000;
 constexpr std::size_t fewest_sampled_diodes = 100; // of a cluster
+constexpr std::size_t most_sampled_frequencies = 4;
 constexpr double bearable_rest = 0.05;             // of the error that is bearable, for all that is left out
 
 using Series = std::vector<double>; // coefficients
@@ -98,7 +99,7 @@ std::optional<SightSeries> series_of(const DiodeCluster &cluster, const Sight &s
     if (!(sight.beam_cosine > 0.0) || !(z <= largest_beam_step) || order * z > largest_beam_change)
       return std::nullopt;
   }
-  SightSeries series{majorant(scale.wavenumber_rad_m * sight.range_m, x, s),
+  SightSeries series{majorant(scale.largest_wavenumber_rad_m() * sight.range_m, x, s),
                      beam_series(order, z),
                      {},
                      std::pow(1.0 + x, -0.5 * s) * std::pow(1.0 - z, order)};
@@ -340,7 +341,8 @@ std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, con
   for (Eigen::Index sight = 0; sight < bounds.rest_re.size(); ++sight)
     if (!(scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) <= bearable_rest))
       return std::nullopt;
-  if (cluster.offsets_m.size() >= fewest_sampled_diodes && cluster.radius_m > 0.0)
+  if (cluster.offsets_m.size() >= fewest_sampled_diodes && cluster.radius_m > 0.0 &&
+      scale.wavenumbers_rad_m.size() <= most_sampled_frequencies)
     for (std::size_t i = 0; i < sights.size(); ++i)
       bounds.samples.emplace_back(cluster, sights[i], scale, bounds.moments, series[i].least_terms);
   return bounds;

@@ -73,7 +73,8 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
   const VisibleBox box = box_around(places_m);
   const double about_middle_m = excess_of(0.5 * (box.low_m + box.high_m), places_m, visible).excess_m;
   const double about_lens_m = excess_of(glm::dvec3(0.0), places_m, visible).excess_m;
-  result.spread_m = 2.0 * std::min(about_middle_m, about_lens_m) + groups.excess_m;
+  const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
+  result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.excess_m;
   if (scope.samples > 1)
     result.sample_spread_m = scope.sample_spread_m.value_or(std::max(0.0, result.range_m - nearest));
   return result;
@@ -88,6 +89,9 @@ double squared_range_error(double t) {
 // An inner product with a unit vector, `count` roundings of the length rho, as a cosine: over r.
 double cosine_error(double count, double t) { return count / (1.0 - t); }
 
+// Of the cosine to a diode's axis.
+double along_error(double t) { return cosine_error(6.0 + 2.0 * t, t); }
+
 // cos^n = exp(n / 2 log(1 - sin^2)), u.
 double real_power_error(double order, double t, double least_cosine) {
   const double c = std::max(least_cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
@@ -95,23 +99,28 @@ double real_power_error(double order, double t, double least_cosine) {
   const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
   double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);
   if (c * c < 0.5)
-    log_error = std::max(log_error, 2.0 * cosine_error(6.0 + 2.0 * t, t) / c + r2 + 9.0);
+    log_error = std::max(log_error, 2.0 * along_error(t) / c + r2 + 9.0);
   const double exponent = -order * std::log(c);
   return 0.5 * order * log_error + 14.0 * exponent + 6.0;
 }
 
+// Beyond beam_cosine a power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14 /
+// (e cos): over the order, times the cosine.
+double rim_error(double t) { return along_error(t) + 14.0 / std::numbers::e; }
+
 double pattern_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range;
+  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
   if (model.pattern == shader::pattern_isotropic)
     return 0.0;
   if (model.pattern == shader::pattern_power) {
-    const double cosine = cosine_error(6.0 + 2.0 * t, t) / scope.emission_cosine;
+    const double cosine = along_error(t) / least_cosine;
     return model.order * (cosine + 0.5 * squared_range_error(t) + root + division + 5.0);
   }
   double largest = 0.0;
   for (const shader::GroupDiode &diode : groups.diodes)
     largest = std::max(largest, static_cast<double>(diode.order));
-  return real_power_error(largest, t, scope.emission_cosine);
+  return real_power_error(largest, t, least_cosine);
 }
 
 // a of I J cos / r^2, u.
@@ -208,6 +217,8 @@ private:
     bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
+    if (scope_.rims_are_terms)
+      bound.rim_error = u_ * rim_error(groups_.radius_over_range);
     return bound;
   }
 
@@ -300,6 +311,7 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
         std::max(largest.amplitude_per_condition, of_frequency.amplitude_per_condition);
     largest.per_weight_m = std::max(largest.per_weight_m, of_frequency.per_weight_m);
     largest.amplitude_per_weight = std::max(largest.amplitude_per_weight, of_frequency.amplitude_per_weight);
+    largest.rim_error = of_frequency.rim_error;
   }
   return largest;
 }

@@ -6,6 +6,8 @@
 #include "engine/passes/accumulate.h"
 #include "engine/passes/camera_scene.h"
 
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -18,12 +20,16 @@ struct RoundingBound {
   double amplitude_fixed, amplitude_per_condition;
   // Included above: what a relative error of every weight does, over that error.
   double per_weight_m, amplitude_per_weight;
+  // Not included where RoundingScope::rims_are_terms: the relative error of J, times the cosine to the diode's
+  // axis and over the order.
+  double rim_error;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
 };
 
 inline constexpr double grazing_cosine = 0.01;
+inline constexpr double beam_cosine = std::numbers::sqrt2 / 2.0; // beside it a beam's rim begins
 
 // The pixels that the bound is for, and how they are summed.
 struct RoundingScope {
@@ -32,9 +38,13 @@ struct RoundingScope {
   // How much the ranges of a pixel's samples may differ; nothing: as much as the boxes allow. Not asked for
   // with one sample.
   std::optional<double> sample_spread_m = std::nullopt;
+  // How far apart a pixel's samples are across the view, over their range; likewise.
+  double pixel_rad = std::numeric_limits<double>::infinity();
   // Every diode that lights the pixel does so at these cosines at least: to the surface's normal, which
   // matters to Lambert's law, and to its own axis.
   double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
+  // What is more than 45 degrees off a diode's axis is in the pixel's terms instead (shaders/sum.glsl).
+  bool rims_are_terms = false;
   // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
   double backscatter_error = 0x1p-24;
 };

@@ -120,7 +120,7 @@ SeriesSamples::SeriesSamples(const DiodeCluster &cluster, const Sight &sight, co
     slants_[static_cast<std::size_t>(i)] = cluster.slant(i);
   const Domain domain = domain_of(cluster, sight, moments);
   const auto [degree, count] = resolutions[domain.variables];
-  hold(moments, degree);
+  hold(moments, degree, scale.lambert);
   std::vector<Term> terms;
   for (const Index moment : held_)
     terms.emplace_back(moments[static_cast<std::size_t>(moment)], cluster);
@@ -130,20 +130,25 @@ SeriesSamples::SeriesSamples(const DiodeCluster &cluster, const Sight &sight, co
   const double s = 2.0 + cluster.order.value_or(0.0) + (scale.lambert ? 1.0 : 0.0);
   const std::vector<glm::dvec3> directions = directions_of(domain, count);
   const std::vector<double> sizes = chebyshev_points(0.0, domain.largest_size, count);
-  re_.resize(static_cast<Index>(terms.size()), static_cast<Index>(sizes.size() * directions.size()));
+  const std::size_t columns = scale.wavenumbers_rad_m.size() * sizes.size() * directions.size();
+  re_.resize(static_cast<Index>(terms.size()), static_cast<Index>(columns));
   im_.resizeLike(re_);
+  distance_per_im_m_.resize(static_cast<Index>(columns));
   Index column = 0;
-  for (const double size : sizes) {
-    const auto in_x = series(scale.wavenumber_rad_m * cluster.radius_m / size, s, degree);
-    const std::vector<double> of_size = powers_of(size, degree);
-    std::vector<std::complex<double>> of_terms;
-    of_terms.reserve(terms.size());
-    for (const Term &term : terms)
-      of_terms.push_back(between_points / least_terms * term.factor * of_size[term.degree] *
-                         in_x[term.degree_in_x]);
-    for (const glm::dvec3 &direction : directions)
-      set_column(column++, terms, of_terms, direction, degree);
-  }
+  for (const double wavenumber_rad_m : scale.wavenumbers_rad_m)
+    for (const double size : sizes) {
+      const auto in_x = series(wavenumber_rad_m * cluster.radius_m / size, s, degree);
+      const std::vector<double> of_size = powers_of(size, degree);
+      std::vector<std::complex<double>> of_terms;
+      of_terms.reserve(terms.size());
+      for (const Term &term : terms)
+        of_terms.push_back(between_points / least_terms * term.factor * of_size[term.degree] *
+                           in_x[term.degree_in_x]);
+      for (const glm::dvec3 &direction : directions) {
+        distance_per_im_m_[column] = 0.5 / wavenumber_rad_m;
+        set_column(column++, terms, of_terms, direction, degree);
+      }
+    }
 }
 
 void SeriesSamples::set_column(Index column, const std::vector<Term> &terms,
@@ -159,13 +164,25 @@ void SeriesSamples::set_column(Index column, const std::vector<Term> &terms,
   }
 }
 
-void SeriesSamples::hold(const std::vector<Powers> &moments, int degree) {
-  std::map<Powers, Index> held;
+// With Lambert's law a slant adds a part of a moment's coefficient to the moment with one power more. Nothing
+// is lost if that one is held only where the other is.
+void SeriesSamples::hold(const std::vector<Powers> &moments, int degree, bool lambert) {
+  std::vector<std::size_t> low;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    if (is_low(moments[i], degree)) {
-      held_.push_back(static_cast<Index>(i));
-      held[moments[i]] = static_cast<Index>(i);
-    }
+    if (is_low(moments[i], degree))
+      low.push_back(i);
+  const auto power = [&](std::size_t i) { return moments[i][1] + moments[i][2] + moments[i][3]; };
+  std::ranges::stable_sort(low, {}, power);
+  std::map<Powers, Index> held;
+  const auto lacks_lower = [&](Powers powers, std::size_t slant) {
+    return slants_[slant] > 0.0 && powers[slant + 1]-- > 0 && !held.contains(powers);
+  };
+  for (const std::size_t i : low) {
+    if (lambert && (lacks_lower(moments[i], 0) || lacks_lower(moments[i], 1) || lacks_lower(moments[i], 2)))
+      continue;
+    held_.push_back(static_cast<Index>(i));
+    held[moments[i]] = static_cast<Index>(i);
+  }
   for (std::size_t i = 0; i < 3; ++i)
     for (const Index moment : held_) {
       Powers powers = moments[static_cast<std::size_t>(moment)];
@@ -195,7 +212,7 @@ SumError SeriesSamples::largest_error(const Eigen::VectorXd &changes, const Erro
       all_im += im.col(slant);
     }
     largest.distance_m = std::max(
-        largest.distance_m, (scale.distance_per_re_m * all_re + scale.distance_per_im_m * all_im).maxCoeff());
+        largest.distance_m, (scale.distance_per_re_m * all_re + distance_per_im_m_ * all_im).maxCoeff());
     largest.amplitude = std::max(largest.amplitude, (all_re.square() + all_im.square()).maxCoeff());
   }
   largest.amplitude = std::sqrt(largest.amplitude);

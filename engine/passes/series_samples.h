@@ -1,6 +1,6 @@
 #pragma once
 // The lowest powers of a sight's series (moments_that_matter.h), not by bounds of each, but all together at
-// many points: where they cancel, the bound is smaller.
+// many points and at each frequency: where they cancel, the bound is smaller.
 //
 // With tau = R / rho, R the cluster's radius, and P's direction u a coefficient is a polynomial in tau and
 // u's components. A polynomial of degree n is nowhere on an interval more than 1 / cos(pi n / 2 N) times what
@@ -30,7 +30,7 @@ public:
 private:
   struct Term;
 
-  void hold(const std::vector<Powers> &moments, int degree);
+  void hold(const std::vector<Powers> &moments, int degree, bool lambert);
   void set_column(Eigen::Index column, const std::vector<Term> &terms,
                   const std::vector<std::complex<double>> &of_size, const glm::dvec3 &direction, int degree);
 
@@ -38,7 +38,8 @@ private:
   // Beside held_: the moment with one power more of each coordinate, or no_moment.
   std::array<std::vector<Eigen::Index>, 3> raised_;
   std::array<double, 3> slants_;
-  Eigen::MatrixXd re_, im_; // a row each moment held, a column each point
+  Eigen::MatrixXd re_, im_; // a row each moment held, a column each point of each frequency
+  Eigen::ArrayXd distance_per_im_m_; // beside the columns
 };
 
 } // namespace pmdsim

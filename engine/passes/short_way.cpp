@@ -96,7 +96,7 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
     std::ranges::copy(signal.all_tones(), light.tones);
     std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
   }
-  light_ = upload_light(device, light, light_runs(groups, promise.terms_per_weight_error));
+  light_ = upload_light(device, light, light_runs(groups, promise));
   shader::ShortWayWork work{};
   work.lit_channel = signal.lit_channel();
   work.diodes = groups.diode_count;

@@ -2,6 +2,7 @@
 // How an error of the sum over the diodes becomes one of distance and of amplitude.
 
 #include <algorithm>
+#include <vector>
 
 namespace pmdsim {
 
@@ -13,11 +14,13 @@ struct SumError {
 // `re` is an error along the phase of a path from where the diodes are, `im` one across it, both over
 // sum|terms|.
 struct ErrorScale {
-  double wavenumber_rad_m;  // the largest
+  std::vector<double> wavenumbers_rad_m; // ascending, of all modulation frequencies
   double distance_per_re_m; // because the sum's phase is not that path's
-  double distance_per_im_m;
+  double distance_per_im_m; // at the largest wavenumber
   double max_error_m, max_amplitude_error; // bearable
   bool lambert;
+
+  double largest_wavenumber_rad_m() const { return wavenumbers_rad_m.back(); }
 
   double distance_m(double re, double im) const { return distance_per_re_m * re + distance_per_im_m * im; }
   // Over what is bearable; at most 1 is good.

@@ -58,14 +58,16 @@ std::vector<TradeoffPoint> planned_points(const Sensor &sensor) {
   return points;
 }
 
-// In a device's samples.
+// In a device's samples. Modes share the frame that tells where edges are.
 double work_of(const std::vector<TradeoffPoint> &points, const Sensor &sensor) {
   const auto samples = [](std::uint64_t pixels, std::uint32_t each) {
     return static_cast<double>(pixels) * each * each;
   };
   double work = 0.0;
-  for (const TradeoffPoint &point : points)
-    work += (1 + frames_of_a_point) * samples(sensor.pixel_count(), point.samples);
+  for (const TradeoffPoint &point : points) {
+    const bool looks_for_edges = point.sweep == Sweep::samples || &point == &points.front();
+    work += (frames_of_a_point + looks_for_edges) * samples(sensor.pixel_count(), point.samples);
+  }
   for (const std::uint32_t each : {sensor.samples, finest_samples})
     work +=
         reference_slowness * samples(std::min<std::uint64_t>(sensor.pixel_count(), compared_pixels), each);
@@ -147,7 +149,6 @@ private:
       const ErrorsByPlace errors = distance_errors(*truth_, edges_, found);
       point.smooth = errors.smooth;
       point.edges = errors.edges;
-      point.report = found.accuracy;
     } catch (const Error &error) {
       if (error.code() != ExitCode::accuracy)
         throw;
@@ -159,13 +160,15 @@ private:
     std::vector<std::vector<double>> frames_ms(points_.size());
     for (int round = 1; round <= rounds; ++round)
       for (std::size_t i = 0; i < points_.size(); ++i) {
-        const TradeoffPoint &point = points_[i];
+        TradeoffPoint &point = points_[i];
         if (point.sweep != sweep || !point.refusal.empty())
           continue;
         const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
         prepare(camera_, sensor, point.accuracy);
         frame(point, sensor, fmt::format("warming up {}/{}", round, rounds));
-        frames_ms[i].push_back(frame(point, sensor, fmt::format("timing {}/{}", round, rounds)).frame_ms);
+        const Measurement timed = frame(point, sensor, fmt::format("timing {}/{}", round, rounds));
+        frames_ms[i].push_back(timed.frame_ms);
+        point.report = timed.accuracy;
       }
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (!frames_ms[i].empty()) {
