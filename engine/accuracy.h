@@ -30,7 +30,7 @@ struct Accuracy {
 // What a frame came to. Errors are of distance, wrapped, and of amplitude, relative; the largest of all
 // pixels.
 struct AccuracyReport {
-  Precision precision = Precision::fp32;
+  Precision precision = Precision::fp32; // of pixels that few places did not do for in float
   std::uint32_t diodes = 0; // summed where all reach a point: those that stand in for all
   // A bound from theory, known before the frame or kept by every pixel; nothing where theory has none.
   std::optional<double> claimed_m, claimed_amplitude;
