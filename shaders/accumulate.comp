@@ -34,7 +34,7 @@ void main() {
 #endif
 
   float backscatter = Floats(constants.backscatter).at[i];
-  add_terms(i, backscatter, terms_of(total[0], point.position, point.rho, point.height, run));
+  add_terms(i, backscatter, terms_of(total[0], point.rho, point.height, run));
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)
       add_tone(t, i, total, path, run, backscatter);

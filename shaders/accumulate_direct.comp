@@ -87,7 +87,7 @@ void main() {
 
   float backscatter = Floats(constants.backscatter).at[i];
   if (waveform == waveform_square) {
-    add_terms(i, backscatter, terms_of(total[distinct_taps], point.position, point.rho, point.height, run));
+    add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
     add_taps(i, total, backscatter);
   } else {
     Real detour = add(path.rho, negate(path.range));

@@ -59,7 +59,7 @@ void main() {
 
   Real detour = add(path.rho, negate(path.range));
   float backscatter = Floats(constants.backscatter).at[i];
-  add_terms(i, backscatter, terms_of(high(total[0]), high3(point.position), high(point.rho), high(point.height), run));
+  add_terms(i, backscatter, terms_of(high(total[0]), high(point.rho), high(point.height), run));
   for (uint t = 0; t < tones; ++t)
     add_tone(t, i, total, detour, run, backscatter);
 }

@@ -68,10 +68,10 @@ PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a 
 // after the other, then its own.
 PMDSIM_CONSTANT short_way_resolve = 14;
 PMDSIM_CONSTANT short_way_points = 24;
-PMDSIM_CONSTANT constant_runs = 30;         // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_samples = 31;      // S
-PMDSIM_CONSTANT constant_places = 32;       // at which a pixel of several samples is evaluated: 1, its centre; 4, only
-                                            // pixels of list_few; 0: at its samples, elsewhere
+PMDSIM_CONSTANT constant_runs = 30;    // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 31; // S
+PMDSIM_CONSTANT constant_places = 32;  // at which a pixel of several samples is evaluated: 1, its centre; 4,
+                                      // only pixels of list_few; 0: at its samples, elsewhere
 PMDSIM_CONSTANT constant_lists_pixels = 33; // 0: all pixels go the short way and none can break the promise
 PMDSIM_CONSTANT constant_few_follow = 34;   // 1: list_few is for pixels that one place does not do for
 
@@ -218,15 +218,12 @@ struct LightRun {
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   float radius_m;    // at most, of its diodes about the reference point
   float intensity;   // of all its diodes, relative
-  float heights;     // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
-                     // I / r^3, m
-  float diagrams;    // likewise of measured diagrams, times r^2
-  float rims;        // likewise of cosines to the diodes' axes beyond 45 degrees, over I / r^2 * cos^rim_power,
-  float rim_power;   // and over the cosine where none is 0
-  vec4 axis;         // the mean of the axes, camera frame; how far they are from it at most
-  vec2 heights_m;    // of the diodes over the reference point, each along its axis: their middle, and how far
-                     // one is from it at most
-  uint padding_1, padding_2;
+  float heights;  // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
+                  // I / r^3, m
+  float diagrams; // likewise of measured diagrams, times r^2
+  float
+      rims; // likewise of cosines to the diodes' axes beyond 45 degrees: over the weights times W^-rim_root,
+  float rim_root; // W = sum of weights / (I / r^2)
 };
 
 // A harmonic of a modulation frequency.
@@ -394,7 +391,7 @@ struct ShortWayLight {
   float pattern_slope; // at most, of ln J, per radian
   float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
                     // theirs do
-  float wavenumber;      // of the highest frequency, rad/m
+  float wavenumber; // of the highest frequency, rad/m
   float place_spread_m; // at most, how much the ranges of the places of a pixel may differ
   uint padding_1, padding_2;
   Tone tones[short_way_tones];
@@ -450,7 +447,7 @@ static_assert(sizeof(VisibilityConstants) == 80);
 static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 96 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
+static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
 static_assert(sizeof(AccumulateConstants) == 112);
 static_assert(sizeof(ResolveConstants) == 124);

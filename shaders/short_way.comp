@@ -105,7 +105,7 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
 #endif
     for (uint block = 0; block < unrolled_blocks; ++block)
       add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
-    terms += backscatter * terms_of(total[0], point.position, point.rho, point.height, run);
+    terms += backscatter * terms_of(total[0], point.rho, point.height, run);
     [[unroll]] for (uint t = 0; t < tones; ++t)
       z[t] = compensated_add(z[t], backscatter * tone_return(total, path, run, Lights(constants.light).at.tones[t]));
   }

@@ -71,18 +71,17 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
   return path;
 }
 
-// What rounding does to cosines to the diodes' axes where beams end, as terms.
-float rim_terms(float weights, vec3 position, float rho, float inverse, LightRun run) {
-  float along = dot(run.axis.xyz, position) - run.heights_m.x; // of the point over the diodes
-  float reach = run.heights_m.y + (run.axis.w + 1e-6) * rho, lowest = along - reach;
-  float highest = clamp((along + reach) * inverse, 1e-6, 1.0); // cosine
-  float any = run.rims * run.intensity * inverse * inverse * pow(highest, run.rim_power);
-  return lowest > 0.0 ? min(any, run.rims * weights * (rho + run.radius_m) / lowest) : any;
+// What rounding does to cosines to the diodes' axes beyond 45 degrees, as terms. Of cos^n it is n / cos times as much as of the
+// cosine: for any c, at most n weights / c where the cosine is above c and n I / r^2 c^(n - 1) where it is below. Both are the
+// same for c = W^(1 / n). Where less than 1e-4 is left of the cosine a beam ends: an edge as any other.
+float rim_terms(float weights, float inverse, LightRun run) {
+  float lit = clamp(weights / (run.intensity * inverse * inverse), 1e-37, 1.0); // W
+  return run.rims * weights * min(pow(lit, -run.rim_root), 1e4);
 }
 
 // What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, to the
-// rims of beams and to steep diagrams, counts as if it were light. `position` and `height` as in Point.
-float terms_of(float weights, vec3 position, float rho, float height, LightRun run) {
+// rims of beams and to steep diagrams, counts as if it were light.
+float terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
   float terms = weights;
   if (backscatter_model == backscatter_lambert) {
@@ -94,7 +93,7 @@ float terms_of(float weights, vec3 position, float rho, float height, LightRun r
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;
   if (pattern_model != pattern_isotropic && pattern_model != pattern_axial)
-    terms += rim_terms(weights, position, rho, inverse, run);
+    terms += rim_terms(weights, inverse, run);
   return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
 }
 

@@ -128,43 +128,23 @@ Precision sum_precision(const Signal &signal, Precision wanted) {
 
 namespace {
 
-// By what, times cos^power, rounding of a cosine grows, at most, in cos^n; n cos^(n - 1). Down to 10^-3: there a
-// beam of an order below 1 ends as a step.
-struct Steepness {
-  double factor = 0.0, power = largest_rim_power;
+// At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
+// as a step.
+double steepness(double order) { return order < 1.0 ? 54.0 : order; }
 
-  void add(double order) {
-    if (order <= 0.0) // a half-space; not a cosine
-      return;
-    factor = std::max(factor, order < 1.0 ? steepest_step : order);
-    power = std::min(power, std::max(0.0, order - 1.0));
-  }
-
-  static constexpr double steepest_step = 54.0, largest_rim_power = 1e3;
-};
-
-// The diodes first ... last - 1 at the rims of their beams.
+// What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in shaders/sum.glsl).
 void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const Promise &promise,
               shader::LightRun &record) {
-  std::vector<shader::GroupDiode> diodes;
-  for (std::size_t i = first; i < last; ++i)
-    if (groups.places[i].number != no_id)
-      diodes.push_back(groups.diodes[i]);
-  glm::dvec3 mean(0.0);
-  for (const shader::GroupDiode &diode : diodes)
-    mean += glm::dvec3(diode.axis) / static_cast<double>(diodes.size());
-  double apart = 0.0, lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
-  Steepness steepness;
-  for (const shader::GroupDiode &diode : diodes) {
-    apart = std::max(apart, glm::distance(glm::dvec3(diode.axis), mean));
-    lowest_m = std::min(lowest_m, static_cast<double>(diode.axis.w));
-    highest_m = std::max(highest_m, static_cast<double>(diode.axis.w));
-    steepness.add(static_cast<double>(diode.order));
+  double steepest = 0.0, least_order = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first; i < last; ++i) {
+    const auto order = static_cast<double>(groups.diodes[i].order);
+    if (order <= 0.0) // no cosine, or a half-space
+      continue;
+    steepest = std::max(steepest, steepness(order));
+    least_order = std::min(least_order, std::max(order, 1.0));
   }
-  record.rims = static_cast<float>(promise.terms_of_rims * steepness.factor);
-  record.rim_power = static_cast<float>(steepness.power);
-  record.axis = glm::vec4(glm::vec3(mean), static_cast<float>(apart));
-  record.heights_m = {0.5 * (lowest_m + highest_m), 0.5 * (highest_m - lowest_m)};
+  record.rims = static_cast<float>(2.0 * promise.terms_of_rims * steepest);
+  record.rim_root = static_cast<float>(1.0 / least_order);
 }
 
 } // namespace
@@ -188,8 +168,7 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
     record.radius_m = static_cast<float>(run.radius_m);
     record.intensity = static_cast<float>(intensity);
-    record.heights =
-        static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
+    record.heights = static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(promise.terms_per_weight_error * diagrams);
     set_rims(groups, run.first, run.first + run_diodes, promise, record);
     result.push_back(record);

@@ -52,24 +52,33 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
 }
 
 TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
-  // Heights along the axes: -0.3 and 0.3 m of the diodes' middle, times the axes' x.
   DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
-  const shader::LightRun straight = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(straight.rims == 30.0f);
-  CHECK(straight.rim_power == 2.0f);
-  CHECK(straight.axis == glm::vec4(0, 0, 1, 0)); // of the dark ones that pad the run nothing
-  CHECK(straight.heights_m == glm::vec2(0.0f));
+  const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
+  CHECK(alike.rims == 60.0f); // twice, above and below a cosine
+  CHECK(alike.rim_root == Approx(1.0 / 3.0));
   CHECK(light_runs(groups, Promise{})[0].rims == 0.0f);
-
-  groups.diodes[0].axis = {0.6f, 0.0f, 0.8f, 0.2f};
   groups.diodes[0].order = 1.5f;
   const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(mixed.rims == 30.0f);
-  CHECK(mixed.rim_power == 0.5f);
-  CHECK(mixed.axis.x == Approx(0.3));
-  CHECK(mixed.axis.z == Approx(0.9));
-  CHECK(mixed.axis.w == Approx(std::hypot(0.3, 0.1)));
-  CHECK(mixed.heights_m == glm::vec2(0.1f));
+  CHECK(mixed.rims == 60.0f);
+  CHECK(mixed.rim_root == Approx(1.0 / 1.5));
+}
+
+TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") {
+  for (const auto &orders : {std::vector{3.0, 3.0}, std::vector{1.0, 8.0}, std::vector{40.0, 60.0}}) {
+    DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
+    for (std::size_t i = 0; i < 2; ++i)
+      groups.diodes[i].order = static_cast<float>(orders[i]);
+    const shader::LightRun run = light_runs(groups, counting(0.0, 1.0))[0];
+    for (const double first : {1e-6, 1e-3, 0.1, 0.7})
+      for (const double second : {1e-6, 1e-3, 0.1, 0.7}) {
+        const double of_first = std::pow(first, orders[0]), of_second = 0.5 * std::pow(second, orders[1]);
+        const double weights = of_first + of_second;
+        const double rounding = orders[0] * of_first / first + orders[1] * of_second / second;
+        const double terms = static_cast<double>(run.rims) * weights *
+                             std::pow(weights / 1.5, -static_cast<double>(run.rim_root));
+        CHECK(rounding <= terms * 1.0001);
+      }
+  }
 }
 
 TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
@@ -79,7 +88,7 @@ TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
     steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));
   const auto rims = [](double order) {
     const Pattern pattern{Pattern::Kind::cosine, order};
-    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].rims);
+    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 0.5))[0].rims);
   };
   CHECK(rims(0.0) == 0.0);
   CHECK(rims(0.5) >= steepest);
