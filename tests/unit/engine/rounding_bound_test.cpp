@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace pmdsim;
@@ -99,6 +100,17 @@ TEST_CASE("samples of one pixel at different ranges") {
   const double smooth_m = bound_of(room, {.samples = 4, .sample_spread_m = 0.001})->per_condition_m;
   CHECK(any_m > smooth_m);
   CHECK(smooth_m > bound_of(room)->per_condition_m);
+}
+
+TEST_CASE("samples of one pixel at one range, apart across the view of a lamp beside the lens") {
+  // All are 2 m from the lens, but of a pixel of 0.2 rad some are 0.4 m nearer to the lamp than others.
+  const Light beside{diodes_at({{3.0, 0.0, 0.0}, {3.001, 0.0, 0.0}})};
+  const auto of_pixel_m = [&](double pixel_rad) {
+    return bound_of(beside, {.samples = 4, .sample_spread_m = 0.0, .pixel_rad = pixel_rad})->per_weight_m;
+  };
+  CHECK(of_pixel_m(0.2) - of_pixel_m(0.0) == Approx(0.5 * 0.4));
+  // What is not known of the pixel is bounded by how far the lamp is from the lens.
+  CHECK(of_pixel_m(std::numeric_limits<double>::infinity()) > of_pixel_m(0.2));
 }
 
 TEST_CASE("the worst of several frequencies, and lights that differ in phase") {
