@@ -143,7 +143,7 @@ void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, co
     steepest = std::max(steepest, steepness(order));
     least_order = std::min(least_order, std::max(order, 1.0));
   }
-  record.rims = static_cast<float>(2.0 * promise.terms_of_rims * steepest);
+  record.rims = static_cast<float>(promise.terms_of_rims * steepest);
   record.rim_root = static_cast<float>(1.0 / least_order);
 }
 

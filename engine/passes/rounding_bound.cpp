@@ -104,9 +104,11 @@ double real_power_error(double order, double t, double least_cosine) {
   return 0.5 * order * log_error + 14.0 * exponent + 6.0;
 }
 
-// Beyond beam_cosine a power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14 /
-// (e cos): over the order, times the cosine.
-double rim_error(double t) { return along_error(t) + 14.0 / std::numbers::e; }
+// Beyond beam_cosine a power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14
+// / (e cos): over the order, times the cosine.
+double rim_error(const SumModel &model, double t) {
+  return along_error(t) + (model.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
+}
 
 double pattern_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range;
@@ -153,7 +155,8 @@ class Bound {
 public:
   Bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
         const Signal &signal, const RoundingScope &scope)
-      : groups_(groups), signal_(signal), scope_(scope), lengths_(lengths_of(groups, visible, scope)),
+      : groups_(groups), model_(model), signal_(signal), scope_(scope),
+        lengths_(lengths_of(groups, visible, scope)),
         u_(scope.precision == Precision::fp64 ? precise_rounding : float_rounding),
         // One sample's backscatter is common to all its terms.
         weight_(u_ * weight_error(groups, model, scope) +
@@ -218,7 +221,7 @@ private:
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
     if (scope_.rims_are_terms)
-      bound.rim_error = u_ * rim_error(groups_.radius_over_range);
+      bound.rim_error = u_ * rim_error(model_, groups_.radius_over_range);
     return bound;
   }
 
@@ -264,6 +267,7 @@ private:
   }
 
   const DiodeGroups &groups_;
+  const SumModel &model_;
   const Signal &signal_;
   const RoundingScope &scope_;
   Lengths lengths_;

@@ -54,12 +54,12 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
 TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
   DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
   const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(alike.rims == 60.0f); // twice, above and below a cosine
+  CHECK(alike.rims == 30.0f);
   CHECK(alike.rim_root == Approx(1.0 / 3.0));
   CHECK(light_runs(groups, Promise{})[0].rims == 0.0f);
   groups.diodes[0].order = 1.5f;
   const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(mixed.rims == 60.0f);
+  CHECK(mixed.rims == 30.0f);
   CHECK(mixed.rim_root == Approx(1.0 / 1.5));
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
     steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));
   const auto rims = [](double order) {
     const Pattern pattern{Pattern::Kind::cosine, order};
-    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 0.5))[0].rims);
+    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].rims);
   };
   CHECK(rims(0.0) == 0.0);
   CHECK(rims(0.5) >= steepest);
