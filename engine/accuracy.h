@@ -31,7 +31,7 @@ struct Accuracy {
 // pixels.
 struct AccuracyReport {
   Precision precision = Precision::fp32; // of pixels that few places did not do for in float
-  std::uint32_t diodes = 0; // summed where all reach a point: those that stand in for all
+  std::uint32_t diodes = 0;              // summed where all reach a point: those that stand in for all
   // A bound from theory, known before the frame or kept by every pixel; nothing where theory has none.
   std::optional<double> claimed_m, claimed_amplitude;
   // Of pixels chosen at random (fixed seed) and evaluated exactly; nothing where that was not asked for.

@@ -221,8 +221,7 @@ struct LightRun {
   float heights;  // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
                   // I / r^3, m
   float diagrams; // likewise of measured diagrams, times r^2
-  float
-      rims; // likewise of cosines to the diodes' axes beyond 45 degrees: over the weights times W^-rim_root,
+  float rims;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-rim_root
   float rim_root; // W = sum of weights / (I / r^2)
 };
 

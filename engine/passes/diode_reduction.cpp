@@ -247,7 +247,8 @@ double distance_per_re_m(const std::vector<CameraIlluminator> &illuminators, dou
 
 ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
-                           std::vector<double> wavenumbers_rad_m, double max_error_m, double max_amplitude_error) {
+                           std::vector<double> wavenumbers_rad_m, double max_error_m,
+                           double max_amplitude_error) {
   ReducedLight result{illuminators, box_of(illuminators)};
   if (visible.empty() || !(max_error_m > 0.0) || !(max_amplitude_error > 0.0))
     return result;

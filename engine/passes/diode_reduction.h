@@ -22,9 +22,11 @@ struct ReducedLight {
 
 // As few diodes as keep the errors within the two at condition 1 (amplitude also within 10^-3, so that
 // `relative` is small). Diodes stay as they are where that gains nothing or visible points are too near.
-// `visible` bounds the points, camera frame; wavenumbers are 2 pi f / c of all modulation frequencies. The same input gives the same result.
+// `visible` bounds the points, camera frame; wavenumbers are 2 pi f / c of all modulation frequencies. The
+// same input gives the same result.
 ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
-                           std::vector<double> wavenumbers_rad_m, double max_error_m, double max_amplitude_error);
+                           std::vector<double> wavenumbers_rad_m, double max_error_m,
+                           double max_amplitude_error);
 
 } // namespace pmdsim

@@ -16,7 +16,7 @@ constexpr std::size_t largest_degree = 40;   // in x
 constexpr std::size_t most_moments = 12000;
 constexpr std::size_t fewest_sampled_diodes = 100; // of a cluster
 constexpr std::size_t most_sampled_frequencies = 4;
-constexpr double bearable_rest = 0.05;             // of the error that is bearable, for all that is left out
+constexpr double bearable_rest = 0.05; // of the error that is bearable, for all that is left out
 
 using Series = std::vector<double>; // coefficients
 

@@ -20,8 +20,8 @@ struct RoundingBound {
   double amplitude_fixed, amplitude_per_condition;
   // Included above: what a relative error of every weight does, over that error.
   double per_weight_m, amplitude_per_weight;
-  // Not included where RoundingScope::rims_are_terms: the relative error of J, times the cosine to the diode's
-  // axis and over the order.
+  // Not included where RoundingScope::rims_are_terms: the relative error of J, times the cosine to the
+  // diode's axis and over the order.
   double rim_error;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }

@@ -38,7 +38,7 @@ private:
   // Beside held_: the moment with one power more of each coordinate, or no_moment.
   std::array<std::vector<Eigen::Index>, 3> raised_;
   std::array<double, 3> slants_;
-  Eigen::MatrixXd re_, im_; // a row each moment held, a column each point of each frequency
+  Eigen::MatrixXd re_, im_;          // a row each moment held, a column each point of each frequency
   Eigen::ArrayXd distance_per_im_m_; // beside the columns
 };
 

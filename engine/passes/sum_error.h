@@ -14,9 +14,9 @@ struct SumError {
 // `re` is an error along the phase of a path from where the diodes are, `im` one across it, both over
 // sum|terms|.
 struct ErrorScale {
-  std::vector<double> wavenumbers_rad_m; // ascending, of all modulation frequencies
-  double distance_per_re_m; // because the sum's phase is not that path's
-  double distance_per_im_m; // at the largest wavenumber
+  std::vector<double> wavenumbers_rad_m;   // ascending, of all modulation frequencies
+  double distance_per_re_m;                // because the sum's phase is not that path's
+  double distance_per_im_m;                // at the largest wavenumber
   double max_error_m, max_amplitude_error; // bearable
   bool lambert;
 
