@@ -2,6 +2,7 @@
 #include "host/commands/exposure.h"
 #include "host/commands/frame_sequence.h"
 #include "host/commands/frame_writer.h"
+#include "host/commands/interruption.h"
 #include "host/commands/loaded_setup.h"
 #include "host/commands/progress_bar.h"
 #include "host/commands/report.h"
@@ -10,7 +11,9 @@
 #include "host/output/profile.h"
 
 #include <algorithm>
+#include <deque>
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -40,7 +43,7 @@ struct Monostatic {
 };
 
 Monostatic take_monostatic(Exposures &exposures, const SensorFrame &at, const Progress &progress) {
-  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress);
+  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress, at.time_s);
   Monostatic monostatic{{}, frame.measurement.accuracy};
   for (Return &of_frequency : frame.measurement.returns)
     monostatic.distances_m.push_back(std::move(of_frequency.distance_m));
@@ -61,33 +64,6 @@ AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyRepor
   return difference;
 }
 
-void write_profile_plot(OutputSet &outputs, const FrameToWrite &frame, const Channel &deformation) {
-  const glm::uvec2 &resolution = frame.channels.resolution;
-  const std::string quantity = fmt::format("deformation along row {}", profile_row(resolution));
-  const std::string title = picture_title(quantity, frame, deformation.frequency);
-  const std::string stem = frame_file_stem(frame.sensor, frame.frame);
-  const std::string name = channel_name("deformation_profile", deformation.frequency);
-  outputs.add(fmt::format("{}.{}.png", stem, name), [&](OutputFile &file) {
-    draw_profile(std::get<std::span<const float>>(deformation.values), resolution, "deformation", "mm", title)
-        .write_png(file);
-  });
-}
-
-void write_files(OutputSet &outputs, const Sensor &sensor, std::uint32_t frame_number,
-                 const Measurement &bistatic, const Maps &deformations, const std::set<Format> &formats) {
-  ChannelSet set{bistatic.resolution, {}};
-  for (std::size_t i = 0; i < deformations.size(); ++i)
-    set.channels.push_back(
-        {"deformation_mm", "mm", std::span(deformations[i]), frequency_of(i, deformations.size())});
-  const ChannelSet measured = channels_of(bistatic);
-  set.channels.insert(set.channels.end(), measured.channels.begin(), measured.channels.end());
-  const FrameToWrite frame{sensor, frame_number, set, {"deformation_mm"}};
-  write_frame(outputs, frame, formats);
-  if (formats.contains(Format::png))
-    for (std::size_t i = 0; i < deformations.size(); ++i)
-      write_profile_plot(outputs, frame, set.channels[i]);
-}
-
 // Wrapped, a map each frequency.
 Maps deformations_mm(const TakenFrame &bistatic, const Maps &monostatic_m) {
   Maps deformations;
@@ -97,33 +73,97 @@ Maps deformations_mm(const TakenFrame &bistatic, const Maps &monostatic_m) {
   return deformations;
 }
 
-std::vector<DeformedFrame> deform(const Setup &setup, const FrameRange &frames,
-                                  const std::set<Format> &formats, Exposures &exposures,
-                                  FrameSequence &sequence) {
-  ProgressBar bar(2.0 * frames.count() * samples_of_frame(setup));
+// One sensor's frame, taken both ways.
+struct TakenPair {
+  TakenFrame bistatic;
+  Maps monostatic_m;
+  Maps deformations_mm{}; // once it is written
+};
+
+FileToWrite profile_plot(const std::shared_ptr<const FrameToWrite> &frame, const Channel &deformation) {
+  const std::string stem = frame_file_stem(frame->sensor, frame->frame);
+  const std::string name = channel_name("deformation_profile", deformation.frequency);
+  return {fmt::format("{}.{}.png", stem, name), [frame, &deformation](OutputFile &file) {
+            throw_if_interrupted();
+            const glm::uvec2 &resolution = frame->channels.resolution;
+            const std::string quantity = fmt::format("deformation along row {}", profile_row(resolution));
+            draw_profile(std::get<std::span<const float>>(deformation.values), resolution, "deformation",
+                         "mm", picture_title(quantity, *frame, deformation.frequency))
+                .write_png(file);
+          }};
+}
+
+std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair> &pair,
+                                           std::uint32_t frame_number, const std::set<Format> &formats) {
+  const Measurement &bistatic = pair->bistatic.measurement;
+  const Maps &deformations = pair->deformations_mm;
+  ChannelSet set{bistatic.resolution, {}};
+  for (std::size_t i = 0; i < deformations.size(); ++i)
+    set.channels.push_back(
+        {"deformation_mm", "mm", std::span(deformations[i]), frequency_of(i, deformations.size())});
+  const ChannelSet measured = channels_of(bistatic);
+  set.channels.insert(set.channels.end(), measured.channels.begin(), measured.channels.end());
+  const auto frame = std::make_shared<const FrameToWrite>(
+      FrameToWrite{pair->bistatic.sensor, frame_number, std::move(set), {"deformation_mm"}, pair});
+  std::vector<FileToWrite> files = files_of(frame, formats);
+  if (formats.contains(Format::png))
+    for (std::size_t i = 0; i < deformations.size(); ++i)
+      files.push_back(profile_plot(frame, frame->channels.channels[i]));
+  return files;
+}
+
+// The bistatic frame after the monostatic one, as the next frame's begins.
+std::shared_ptr<TakenPair> take_pair(Exposures &exposures, const SensorFrame &at, ProgressBar &bar,
+                                     double work, DeformedFrame &told) {
   const auto progress = interruptible_progress(bar);
-  std::vector<DeformedFrame> deformed;
-  sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
+  bar.begin(at.label + ", monostatic", work);
+  Monostatic monostatic = take_monostatic(exposures, at, progress);
+  bar.begin(at.label + ", bistatic", work);
+  auto pair = std::make_shared<TakenPair>(
+      TakenPair{exposures.take(at.sensor, at.time_s, Light::beside_lens, progress, at.next_s),
+                std::move(monostatic.distances_m)});
+  const auto &[sensor, measurement, mode] = pair->bistatic;
+  told = {at.frame,
+          at.time_s,
+          sensor.name,
+          sensor.modulation_hz,
+          {},
+          mode,
+          of_difference(measurement.accuracy, monostatic.accuracy)};
+  return pair;
+}
+
+// Of the setup's largest frame.
+std::size_t bytes_of_pair(const Setup &setup) {
+  std::size_t most = 0;
+  for (const Sensor &sensor : setup.start.sensors) {
+    const std::size_t maps = 2 * sensor.modulation_hz.size();
+    most = std::max(most, bytes_of_frame(sensor, false) + maps * sizeof(float) * sensor.pixel_count());
+  }
+  return most;
+}
+
+// Deformations and their statistics are computed where the frame is written, while the next is measured.
+std::deque<DeformedFrame> deform(const Setup &setup, const FrameRange &frames,
+                                 const std::set<Format> &formats, Exposures &exposures,
+                                 FrameSequence &sequence) {
+  ProgressBar bar(2.0 * frames.count() * samples_of_frame(setup));
+  std::deque<DeformedFrame> deformed; // its elements stay where they are, as writers fill them in
+  const auto measure = [&](const SensorFrame &at) -> MeasuredPart {
     const double work = samples_of_frame(setup, setup.start.sensors[at.sensor]);
-    bar.begin(at.label + ", monostatic", work);
-    const Monostatic monostatic = take_monostatic(exposures, at, progress);
-    bar.begin(at.label + ", bistatic", work);
-    const TakenFrame bistatic = exposures.take(at.sensor, at.time_s, Light::beside_lens, progress);
-    const auto &[sensor, measurement, mode] = bistatic;
-    const Maps deformations = deformations_mm(bistatic, monostatic.distances_m);
-    write_files(files, sensor, at.frame, measurement, deformations, formats);
-    deformed.push_back({at.frame,
-                        at.time_s,
-                        sensor.name,
-                        sensor.modulation_hz,
-                        {},
-                        mode,
-                        of_difference(measurement.accuracy, monostatic.accuracy)});
-    for (const std::vector<float> &deformation : deformations)
-      deformed.back().statistics.push_back(statistics_of(deformation, measurement.resolution));
+    DeformedFrame &told = deformed.emplace_back();
+    const std::shared_ptr<TakenPair> pair = take_pair(exposures, at, bar, work, told);
+    const auto &[sensor, measurement, mode] = pair->bistatic;
     return {
-        sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
-  });
+        {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy},
+        [pair, &told, &formats] {
+          pair->deformations_mm = deformations_mm(pair->bistatic, pair->monostatic_m);
+          for (const std::vector<float> &deformation : pair->deformations_mm)
+            told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
+          return deformation_files(pair, told.frame, formats);
+        }};
+  };
+  sequence.write(measure, bytes_of_pair(setup));
   return deformed;
 }
 
@@ -135,7 +175,7 @@ ordered_json statistics_json(const DeformationStatistics &statistics) {
           {"rms", statistics.rms_mm}};
 }
 
-ordered_json report_json(const std::vector<DeformedFrame> &frames, const FrameSequence &sequence) {
+ordered_json report_json(const std::deque<DeformedFrame> &frames, const FrameSequence &sequence) {
   ordered_json list = ordered_json::array();
   for (const DeformedFrame &frame : frames) {
     ordered_json deformations = ordered_json::array();
@@ -155,7 +195,7 @@ ordered_json report_json(const std::vector<DeformedFrame> &frames, const FrameSe
 }
 
 // Of the first frame, one row a sensor and frequency.
-std::string table_text(const std::vector<DeformedFrame> &frames) {
+std::string table_text(const std::deque<DeformedFrame> &frames) {
   std::size_t width = 0;
   std::vector<std::pair<std::string, DeformationStatistics>> rows;
   for (const DeformedFrame &frame : frames)
@@ -177,7 +217,7 @@ std::string table_text(const std::vector<DeformedFrame> &frames) {
 }
 
 // Of the first frame's deformations, sensor by sensor.
-std::string accuracies_text(const std::vector<DeformedFrame> &frames) {
+std::string accuracies_text(const std::deque<DeformedFrame> &frames) {
   std::string text;
   for (const DeformedFrame &frame : frames)
     if (const std::string said = accuracy_text(frame.mode, frame.accuracy);
@@ -186,7 +226,7 @@ std::string accuracies_text(const std::vector<DeformedFrame> &frames) {
   return text;
 }
 
-std::string report_text(const std::vector<DeformedFrame> &frames, const FrameSequence &sequence) {
+std::string report_text(const std::deque<DeformedFrame> &frames, const FrameSequence &sequence) {
   std::string text = fmt::format("device    {} ({})\n\n", sequence.run().device, sequence.run().driver);
   text += "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
   if (frames.back().frame != frames.front().frame)
@@ -204,7 +244,7 @@ void run_deform(const Options &options) {
   const Camera &camera = exposures.camera();
   FrameSequence sequence(setup, frames, options.output_directory,
                          {"deform", camera.device(), camera.driver(), options.accuracy, setup.as_used, {}});
-  const std::vector<DeformedFrame> deformed = deform(setup, frames, options.formats, exposures, sequence);
+  const std::deque<DeformedFrame> deformed = deform(setup, frames, options.formats, exposures, sequence);
   if (options.json)
     print(report_json(deformed, sequence));
   else

@@ -12,6 +12,15 @@ std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
   return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
 }
 
+// In the order in which they are taken.
+std::vector<double> exposure_times_s(const Sensor &sensor, double frame_s) {
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    for (std::size_t k = 0; k < sensor.taps; ++k)
+      times_s.push_back(tap_time_s(sensor, frame_s, i, k));
+  return times_s;
+}
+
 void add_times(Measurement &sum, const Measurement &exposure) {
   sum.frame_ms += exposure.frame_ms;
   for (const PassTime &pass : exposure.passes) {
@@ -46,6 +55,11 @@ double samples_of_frame(const Setup &setup) {
   return samples;
 }
 
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps) {
+  const std::size_t of_frequency = 3 + (keep_taps ? sensor.taps : 0), of_geometry = 6;
+  return (sensor.modulation_hz.size() * of_frequency + of_geometry) * sizeof(float) * sensor.pixel_count();
+}
+
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
@@ -69,16 +83,12 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy)
     : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
-      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}) {}
+      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}), instants_(setup) {}
 
 const Instant &Exposures::instant_at(double time_s) {
-  if (!setup_.motion)
-    return setup_.start;
-  if (!moved_ || moved_->time_s != time_s) {
+  if (!instants_.holds(time_s))
     prepared_.reset(); // it looks at the scene that goes
-    moved_ = {time_s, setup_.at(time_s)};
-  }
-  return moved_->instant;
+  return instants_.at(time_s);
 }
 
 void Exposures::prepare(View view, const Accuracy &accuracy) {
@@ -100,27 +110,43 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   prepared_ = view;
 }
 
-TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress) {
+TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                           std::optional<double> next_s) {
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
   if (exposes_tap_by_tap(setup_, frame.sensor)) {
-    const auto count = static_cast<double>(exposures_of_frame(setup_, frame.sensor));
-    double done = 0.0;
-    frame.mode = Mode::exact;
-    const auto expose = [&](std::size_t frequency, double exposure_s) {
-      prepare({sensor, frequency, exposure_s, light},
-              {.mode = Mode::exact, .precision = accuracy_.precision});
-      Measurement exposure = camera_.measure([&](double fraction) { progress((done + fraction) / count); });
-      done += 1.0;
-      return exposure;
-    };
-    frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
+    frame = take_tap_by_tap(sensor, time_s, light, progress, next_s);
   } else {
     prepare({sensor, std::nullopt, time_s, light}, accuracy_);
+    if (next_s)
+      instants_.expect(*next_s);
     frame.measurement = camera_.measure(progress);
   }
   if (!keep_taps_)
     for (Return &of_frequency : frame.measurement.returns)
       of_frequency.taps.clear();
+  return frame;
+}
+
+TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, double time_s, Light light,
+                                      const Progress &progress, const std::optional<double> &next_s) {
+  TakenFrame frame{instant_at(time_s).sensors[sensor], {}, Mode::exact};
+  const Sensor &taken = frame.sensor;
+  const std::vector<double> times_s = exposure_times_s(taken, time_s);
+  std::size_t done = 0;
+  const auto expose = [&](std::size_t frequency, double exposure_s) {
+    prepare({sensor, frequency, exposure_s, light}, {.mode = Mode::exact, .precision = accuracy_.precision});
+    if (done + 1 < times_s.size())
+      instants_.expect(times_s[done + 1]);
+    else if (next_s)
+      instants_.expect(*next_s);
+    const auto of_exposure = [&](double fraction) {
+      progress((static_cast<double>(done) + fraction) / static_cast<double>(times_s.size()));
+    };
+    Measurement exposure = camera_.measure(of_exposure);
+    ++done;
+    return exposure;
+  };
+  frame.measurement = measure_tap_by_tap(taken, time_s, expose);
   return frame;
 }
 

@@ -3,6 +3,7 @@
 // and something moves meanwhile, in one for each frequency and tap.
 
 #include "host/commands/camera.h"
+#include "host/commands/instants.h"
 #include "host/input/setup.h"
 
 #include <cstddef>
@@ -23,6 +24,9 @@ bool exposes_any_tap_by_tap(const Setup &setup);
 // Samples that are measured for one frame, in all its exposures; of one sensor, and of all.
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);
+
+// Bytes of all channels of one frame, with or without its taps; shadows included, whether or not there are.
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps);
 
 // Measures one frequency alone at a time, its taps kept.
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
@@ -48,9 +52,11 @@ public:
 
   const Camera &camera() const { return camera_; }
 
-  // The frame that begins at `time_s`, of the sensor with the index `sensor`. Throws Error, interrupted among
-  // others.
-  TakenFrame take(std::size_t sensor, double time_s, Light light, const Progress &progress);
+  // The frame that begins at `time_s`, of the sensor with the index `sensor`. `next_s`, where it is known, is
+  // when the next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error,
+  // interrupted among others.
+  TakenFrame take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                  std::optional<double> next_s = std::nullopt);
 
 private:
   // What the camera is prepared for; a frequency alone, or all of them.
@@ -63,12 +69,9 @@ private:
     bool operator==(const View &) const = default;
   };
 
-  struct Moved {
-    double time_s;
-    Instant instant;
-  };
-
   const Instant &instant_at(double time_s);
+  TakenFrame take_tap_by_tap(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                             const std::optional<double> &next_s);
   void prepare(View view, const Accuracy &accuracy);
 
   const Setup &setup_;
@@ -76,7 +79,7 @@ private:
   Accuracy accuracy_;
   Camera camera_;
   std::optional<View> prepared_;
-  std::optional<Moved> moved_; // the last instant; nothing where nothing moves
+  Instants instants_;
 };
 
 } // namespace pmdsim

@@ -2,13 +2,18 @@
 
 #include "engine/error.h"
 #include "host/commands/interruption.h"
+#include "host/commands/pipeline.h"
 #include "host/commands/report.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <tbb/info.h>
 #include <utility>
 
 namespace pmdsim {
 namespace {
+
+constexpr std::size_t waiting_bytes = std::size_t{1} << 30;
 
 void add_manifest(OutputSet &files, const RunRecord &run) {
   files.add(manifest_name, [&](OutputFile &file) { write_manifest(file, run); });
@@ -31,18 +36,19 @@ FrameRange frames_of(const Options &options, const Setup &setup) {
   return frames;
 }
 
+std::size_t parts_waiting(std::size_t part_bytes) {
+  const auto busy = static_cast<std::size_t>(tbb::info::default_concurrency());
+  return std::min(busy, waiting_bytes / std::max(part_bytes, std::size_t{1}));
+}
+
 FrameSequence::FrameSequence(const Setup &setup, const FrameRange &frames,
                              const std::filesystem::path &directory, RunRecord run)
     : setup_(setup), frames_(frames), files_(std::make_unique<OutputSet>(directory)),
       directory_(files_->directory()), run_(std::move(run)) {}
 
-void FrameSequence::write(const Write &write_sensor) {
-  const auto write_frames = [&] {
-    for (std::uint32_t frame = frames_.first; frame < frames_.end; ++frame)
-      write_frame(frame, write_sensor);
-  };
+void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
   try {
-    write_frames();
+    write_all(measure, part_bytes);
   } catch (const Error &error) {
     const bool has_manifest = keep_whole_frames();
     if (run_.frames.empty())
@@ -55,14 +61,31 @@ void FrameSequence::write(const Write &write_sensor) {
   }
 }
 
-void FrameSequence::write_frame(std::uint32_t frame, const Write &write_sensor) {
+// A part, not a frame, goes through the pipeline: frames of several large sensors would not fit side by side.
+void FrameSequence::write_all(const Measure &measure, std::size_t part_bytes) {
+  run_pipeline(
+      frames_.count() * setup_.start.sensors.size(), parts_waiting(part_bytes),
+      [&](std::size_t i) { return measure(part(i)); },
+      [&](std::size_t, const MeasuredPart &measured) {
+        return WrittenPart{measured.record, write_files(directory_, measured.files())};
+      },
+      [&](std::size_t i, WrittenPart written) {
+        add(std::move(written));
+        if (const SensorFrame at = part(i); at.sensor + 1 == setup_.start.sensors.size())
+          publish(at.frame);
+      });
+}
+
+void FrameSequence::add(WrittenPart part) {
   if (!files_)
     files_ = std::make_unique<OutputSet>(directory_);
-  for (const SensorFrame &at : sensors_of(frame)) {
-    const std::size_t first_output = files_->names().size();
-    run_.frames.push_back(write_sensor(at, *files_));
-    run_.frames.back().outputs = files_->names_from(first_output);
-  }
+  const std::size_t first_output = files_->names().size();
+  files_->add(std::move(part.files));
+  run_.frames.push_back(std::move(part.record));
+  run_.frames.back().outputs = files_->names_from(first_output);
+}
+
+void FrameSequence::publish(std::uint32_t frame) {
   if (frame + 1 == frames_.end)
     add_manifest(*files_, run_);
   throw_if_interrupted();
@@ -89,14 +112,16 @@ bool FrameSequence::keep_whole_frames() noexcept {
   }
 }
 
-std::vector<SensorFrame> FrameSequence::sensors_of(std::uint32_t frame) const {
+SensorFrame FrameSequence::part(std::size_t index) const {
+  const std::size_t sensors = setup_.start.sensors.size(), sensor = index % sensors;
+  const auto frame = frames_.first + static_cast<std::uint32_t>(index / sensors);
   const std::string label = frames_.count() > 1
                                 ? fmt::format("frame {}/{}, ", frame - frames_.first + 1, frames_.count())
                                 : "measuring ";
-  std::vector<SensorFrame> sensors;
-  for (std::size_t i = 0; i < setup_.start.sensors.size(); ++i)
-    sensors.push_back({frame, setup_.frames.time_s(frame), i, label + setup_.start.sensors[i].name});
-  return sensors;
+  SensorFrame part{frame, setup_.frames.time_s(frame), sensor, label + setup_.start.sensors[sensor].name};
+  if (const std::uint32_t next = sensor + 1 < sensors ? frame : frame + 1; next < frames_.end)
+    part.next_s = setup_.frames.time_s(next);
+  return part;
 }
 
 std::vector<std::string> FrameSequence::paths() const {

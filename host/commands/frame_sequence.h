@@ -1,15 +1,17 @@
 #pragma once
-// The frames that a command leaves in a directory: each whole, all its sensors' files at once, as soon as it
-// is measured, and a manifest of those that are there.
+// The frames that a command leaves in a directory: each whole, all its sensors' files at once, in order, and
+// a manifest of those that are there. While frames are written the next are measured.
 
 #include "host/input/setup.h"
 #include "host/options.h"
 #include "host/output/manifest.h"
 #include "host/output/output_set.h"
+#include "host/output/written_files.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,21 @@ FrameRange frames_of(const Options &options, const Setup &setup);
 struct SensorFrame {
   std::uint32_t frame; // its number in the setup
   double time_s;
-  std::size_t sensor; // its index in the setup
-  std::string label;  // for people: "frame 3/20, pmd"
+  std::size_t sensor;             // its index in the setup
+  std::string label;              // for people: "frame 3/20, pmd"
+  std::optional<double> next_s{}; // when the frame of the part after this one begins, if there is one
 };
+
+// That part, measured.
+struct MeasuredPart {
+  FrameRecord record; // `outputs` aside
+  // What is to be written, asked for once; holds the measurement, or shares it.
+  std::function<std::vector<FileToWrite>()> files;
+};
+
+// How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
+// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not.
+std::size_t parts_waiting(std::size_t part_bytes);
 
 class FrameSequence {
 public:
@@ -36,11 +50,12 @@ public:
   FrameSequence(const Setup &setup, const FrameRange &frames, const std::filesystem::path &directory,
                 RunRecord run);
 
-  // Writes one sensor's files into the set and tells what it wrote, `outputs` aside.
-  using Write = std::function<FrameRecord(const SensorFrame &, OutputSet &)>;
-  // Frame by frame, and sensor by sensor in each. Where that fails, Error (interrupted) among others, whole
-  // frames stay with a manifest that lists just these; without any, nothing stays.
-  void write(const Write &write_sensor);
+  using Measure = std::function<MeasuredPart(const SensorFrame &)>;
+  // Frame by frame, and sensor by sensor in each, one at a time though not always on the same thread; and
+  // writes what is measured on threads of its own, `part_bytes` being what the largest part holds. Where that
+  // fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these; without
+  // any, nothing stays.
+  void write(const Measure &measure, std::size_t part_bytes);
 
   const RunRecord &run() const { return run_; }
   // A name with the directory in front.
@@ -51,13 +66,21 @@ public:
   std::string written_text() const;
 
 private:
-  void write_frame(std::uint32_t frame, const Write &write_sensor);
-  std::vector<SensorFrame> sensors_of(std::uint32_t frame) const;
+  // Written under temporary names.
+  struct WrittenPart {
+    FrameRecord record;
+    WrittenFiles files;
+  };
+
+  void write_all(const Measure &measure, std::size_t part_bytes);
+  SensorFrame part(std::size_t index) const;
+  void add(WrittenPart part);
+  void publish(std::uint32_t frame);
   bool keep_whole_frames() noexcept;
 
   const Setup &setup_;
   FrameRange frames_;
-  std::unique_ptr<OutputSet> files_; // of the frame at hand
+  std::unique_ptr<OutputSet> files_; // of the frame that is published next
   std::filesystem::path directory_;
   RunRecord run_;
   std::size_t whole_ = 0; // of the run's frames, those that are published

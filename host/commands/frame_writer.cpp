@@ -64,24 +64,30 @@ std::string picture_title(const std::string &quantity, const FrameToWrite &frame
   return fmt::format("{}, {}, frame {}", title, frame.sensor.name, frame.frame);
 }
 
-void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats) {
-  const std::string stem = frame_file_stem(frame.sensor, frame.frame);
+std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &frame,
+                                  const std::set<Format> &formats) {
+  const std::string stem = frame_file_stem(frame->sensor, frame->frame);
+  const ChannelSet &set = frame->channels;
+  std::vector<FileToWrite> files;
   const auto add = [&](const std::string &name, const auto &write) {
-    throw_if_interrupted();
-    outputs.add(name, write);
+    files.push_back({name, [frame, write](OutputFile &file) {
+                       throw_if_interrupted();
+                       write(file);
+                     }});
   };
   if (formats.contains(Format::exr))
-    add(stem + ".exr", [&](OutputFile &file) { write_exr(file, frame.channels); });
+    add(stem + ".exr", [&set](OutputFile &file) { write_exr(file, set); });
   if (formats.contains(Format::csv))
     add(stem + ".profile.csv",
-        [&](OutputFile &file) { write_profile_csv(file, frame.channels, frame.sensor); });
-  for (const Channel &channel : frame.channels.channels) {
+        [&at = *frame](OutputFile &file) { write_profile_csv(file, at.channels, at.sensor); });
+  for (const Channel &channel : set.channels) {
     const std::string name = fmt::format("{}.{}", stem, channel.name());
     if (formats.contains(Format::npy))
-      add(name + ".npy", [&](OutputFile &file) { write_npy(file, channel, frame.channels.resolution); });
-    if (formats.contains(Format::png) && std::ranges::count(frame.previewed, channel.quantity) != 0)
-      add(name + ".png", [&](OutputFile &file) { write_preview(file, frame, channel); });
+      add(name + ".npy", [&set, &channel](OutputFile &file) { write_npy(file, channel, set.resolution); });
+    if (formats.contains(Format::png) && std::ranges::count(frame->previewed, channel.quantity) != 0)
+      add(name + ".png", [&at = *frame, &channel](OutputFile &file) { write_preview(file, at, channel); });
   }
+  return files;
 }
 
 } // namespace pmdsim

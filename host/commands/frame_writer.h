@@ -5,9 +5,10 @@
 #include "engine/sensor.h"
 #include "host/options.h"
 #include "host/output/channel.h"
-#include "host/output/output_set.h"
+#include "host/output/written_files.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,17 +23,20 @@ void require_names_for_files(const std::vector<Sensor> &sensors);
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame);
 
 struct FrameToWrite {
-  const Sensor &sensor;
+  Sensor sensor;
   std::uint32_t frame;
-  const ChannelSet &channels;
-  std::vector<std::string> previewed; // quantities of the channels that get a picture
+  ChannelSet channels;
+  std::vector<std::string> previewed;   // quantities of the channels that get a picture
+  std::shared_ptr<const void> measured; // what the channels look at
 };
 
 // "distance, pmd, frame 0"; of several frequencies "distance, 20 MHz, pmd, frame 0".
 std::string picture_title(const std::string &quantity, const FrameToWrite &frame,
                           const std::optional<std::size_t> &frequency);
 
-// Adds the files to `outputs`. Throws Error, interrupted among others.
-void write_frame(OutputSet &outputs, const FrameToWrite &frame, const std::set<Format> &formats);
+// They share the frame, which lives as long as one of them does, and can be written on several threads at
+// once; each throws Error, interrupted among others.
+std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &frame,
+                                  const std::set<Format> &formats);
 
 } // namespace pmdsim

@@ -4,10 +4,12 @@
 #include "host/commands/frame_writer.h"
 #include "host/commands/loaded_setup.h"
 #include "host/commands/progress_bar.h"
+#include "host/commands/rendered_frame.h"
 #include "host/commands/report.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 #include <numeric>
 
 namespace pmdsim {
@@ -75,20 +77,15 @@ std::string render(const Setup &setup, const FrameRange &frames, const std::set<
                    Exposures &exposures, FrameSequence &sequence) {
   ProgressBar bar(frames.count() * samples_of_frame(setup));
   std::string text;
-  // The measurement lives no longer than its files need it: frames of several large sensors would not fit
-  // side by side.
-  sequence.write([&](const SensorFrame &at, OutputSet &files) -> FrameRecord {
+  const auto measure = [&](const SensorFrame &at) {
     bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
-    const TakenFrame taken =
-        exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar));
-    const auto &[sensor, measurement, mode] = taken;
-    const std::vector<std::string> previewed{"amplitude", "phase_rad", "distance_m", "lit"};
-    write_frame(files, {sensor, at.frame, channels_of(measurement), previewed}, formats);
+    const auto taken = std::make_shared<const TakenFrame>(
+        exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar), at.next_s));
     if (at.frame == frames.first)
-      text += frame_text(taken, at.frame);
-    return {
-        sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
-  });
+      text += frame_text(*taken, at.frame);
+    return rendered_frame(taken, at, formats);
+  };
+  sequence.write(measure, bytes_of_rendered_frame(setup));
   return text;
 }
 

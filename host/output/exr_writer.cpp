@@ -31,6 +31,17 @@ private:
 Imf::PixelType pixel_type(std::span<const float>) { return Imf::FLOAT; }
 Imf::PixelType pixel_type(std::span<const std::uint32_t>) { return Imf::UINT; }
 
+// Compression takes longest, and OpenEXR's own threads share out the lines of one file: all of them work on
+// the file that is begun first, so that no more frames than two need be held at once. Its lines come in
+// order, whatever the threads.
+void start_compressing_threads() {
+  static const bool started = [] {
+    Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
 // OpenEXR's slices are writable for its reader's sake; its writer only reads them.
 template <typename T>
 char *base_address(std::span<const T> values) {
@@ -54,8 +65,7 @@ void write_exr(OutputFile &file, const ChannelSet &channels) {
                                                   value_bytes * channels.resolution.x));
         },
         channel.values);
-  Imf::setGlobalThreadCount(
-      static_cast<int>(std::thread::hardware_concurrency())); // compression takes longest
+  start_compressing_threads();
   try {
     StreamOntoOutputFile stream(file);
     Imf::OutputFile exr(stream, header);

@@ -6,7 +6,8 @@
 
 namespace pmdsim {
 
-// Reads the channels where they lie; memory beyond them is a few scan lines. Throws Error (output).
+// Reads the channels where they lie; memory beyond them is a few scan lines. May be called from several
+// threads at once. Throws Error (output).
 void write_exr(OutputFile &file, const ChannelSet &channels);
 
 } // namespace pmdsim

@@ -76,8 +76,6 @@ std::uint64_t OutputFile::tell() const {
 void OutputFile::close() {
   if (std::fflush(stream_) != 0 && first_error_ == 0)
     first_error_ = errno;
-  if (first_error_ == 0 && ::fsync(::fileno(stream_)) != 0)
-    first_error_ = errno;
   if (std::fclose(std::exchange(stream_, nullptr)) != 0 && first_error_ == 0)
     first_error_ = errno;
   if (first_error_ != 0)
@@ -101,18 +99,6 @@ void OutputFile::withdraw() noexcept { ::unlink(path_.c_str()); }
 void remove_file(const std::filesystem::path &path) {
   if (::unlink(path.c_str()) != 0 && errno != ENOENT)
     throw write_error(path, errno);
-}
-
-void sync_directory(const std::filesystem::path &directory) {
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int error_number = errno;
-  if (descriptor >= 0)
-    ::close(descriptor);
-  // EINVAL: a file system that cannot sync directories, where there is nothing left to do.
-  if (!synced && error_number != EINVAL)
-    throw Error(ExitCode::output,
-                fmt::format("{}: cannot be synced: {}", directory.string(), reason(error_number)));
 }
 
 } // namespace pmdsim

@@ -8,9 +8,14 @@
 
 namespace pmdsim {
 
-// Life: construct, write, close (flushed and synced to disk), publish (renamed; an existing file is
+// Life: construct, write, close (flushed to the operating system), publish (renamed; an existing file is
 // replaced). The temporary is removed when an OutputFile dies unpublished. Every failure throws Error
 // (output) that names the final path and the operating system's reason.
+//
+// Whole or not at all holds against every failure, and against a program that is killed. It does not hold
+// against a power cut: nothing is synced to the disk, which takes longer than many a frame's measurement.
+//
+// Each is one thread's at a time.
 class OutputFile {
 public:
   // Creates the temporary beside `path`; the directory must exist.
@@ -44,8 +49,5 @@ private:
 
 // Whatever is no directory; nothing is done where there is none. Throws Error (output) as an OutputFile does.
 void remove_file(const std::filesystem::path &path);
-
-// Makes renames and removals in a directory last through a power cut. Throws Error (output).
-void sync_directory(const std::filesystem::path &directory);
 
 } // namespace pmdsim

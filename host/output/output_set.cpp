@@ -60,13 +60,15 @@ OutputSet::~OutputSet() {
 }
 
 void OutputSet::add(const std::string &name, const std::function<void(OutputFile &)> &write) {
-  if (name.find('/') != std::string::npos)
-    throw Error(ExitCode::output, fmt::format("{}: expected a file name without '/'", name));
-  auto file = std::make_unique<OutputFile>(directory_ / name);
-  write(*file);
-  file->close();
-  files_.push_back(std::move(file));
+  files_.push_back(write_file(directory_, {name, write}));
   names_.push_back(name);
+}
+
+void OutputSet::add(WrittenFiles files) {
+  for (std::unique_ptr<OutputFile> &file : files) {
+    names_.push_back(file->path().filename().string());
+    files_.push_back(std::move(file));
+  }
 }
 
 std::vector<std::string> OutputSet::names_from(std::size_t first) const {
@@ -83,7 +85,6 @@ void OutputSet::publish(const std::vector<std::string> &obsolete) {
   try {
     for (; renamed < files_.size(); ++renamed)
       files_[renamed]->publish();
-    sync_directory(directory_);
   } catch (const Error &) {
     for (std::size_t i = 0; i < renamed; ++i)
       files_[i]->withdraw();

@@ -1,11 +1,10 @@
 #pragma once
 // Files that get their names in a directory together: all of them, or none.
 
-#include "host/output/output_file.h"
+#include "host/output/written_files.h"
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,8 @@ public:
 
   // Writes one file by calling `write`; it gets its name only by publish(). `name` is a plain file name.
   void add(const std::string &name, const std::function<void(OutputFile &)> &write);
+  // Files of this directory that are written.
+  void add(WrittenFiles files);
 
   // Names of the files added so far, in order.
   const std::vector<std::string> &names() const { return names_; }
@@ -39,7 +40,7 @@ public:
 private:
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> created_; // outermost first
-  std::vector<std::unique_ptr<OutputFile>> files_;
+  WrittenFiles files_;
   std::vector<std::string> names_;
   bool published_ = false;
 };

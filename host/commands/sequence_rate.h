@@ -1,0 +1,24 @@
+#pragma once
+// How many frames a second a sequence comes to, with writing and without.
+
+#include "host/input/setup.h"
+#include "host/options.h"
+
+#include <cstdint>
+
+namespace pmdsim {
+
+// Whole frames, all sensors of each, by the clock: from the first's measurement to the last's publication.
+struct SequenceRate {
+  double measured_per_s, npy_per_s, exr_per_s; // nothing written; NPY; EXR
+  std::uint32_t frames;                        // that each is the rate of
+};
+
+// Runs that many frames of the setup, at its rate and from its start whatever its own count is, three times
+// as `render` does, on the options' device and in their mode; after one frame that is not timed, which
+// compiles what is not compiled yet. The files go to a temporary directory that is removed, however this
+// ends; what they cost is the way to the operating system, not to the disk behind it. Throws Error,
+// interrupted among others.
+SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, std::uint32_t frames);
+
+} // namespace pmdsim
