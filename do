@@ -25,7 +25,7 @@ usage: ./do COMMAND
   demo       install what is missing, build, compute the paper's figures 11 and 13
   run ARGS   run pmdsim with ARGS, e.g. ./do run deform scenes/paper_ring.json
   test       build and run all tests; prints the accuracy tables
-  bench      measure the throughput of scenes/paper_ring.json; ./do bench SETUP for another
+  bench      measure the throughput of the paper's ring and how time grows; ./do bench SETUP for a setup alone
   build      install what is missing and build
   lint       check the formatting and run the static analysis
 END
@@ -108,7 +108,6 @@ test)
   ;;
 bench)
   build_target pmdsim
-  [ $# -gt 0 ] || set -- "$root/scenes/paper_ring.json"
   exec "$program" bench "$@"
   ;;
 build) build_target all ;;

@@ -100,8 +100,12 @@ void add_commands(CLI::App &app, Written &written) {
   CLI::App *check = app.add_subcommand("check", "validate a setup and print what follows from it");
   add_setup(*check, written);
 
-  CLI::App *bench = app.add_subcommand("bench", "time a setup: frames/s, interactions/s, time per pass");
-  bench->add_option("SETUP", written.setup, "setup file (JSON); running without one is not supported yet");
+  CLI::App *bench =
+      app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");
+  bench->add_option(
+      "SETUP", written.setup,
+      "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
+      "and frequencies: some minutes]");
   add_measuring(*bench, written);
 
   CLI::App *tradeoff = app.add_subcommand(
@@ -173,8 +177,18 @@ SampleChoice sample_choice_of(const std::string &text) {
   return {.samples = *samples};
 }
 
+void check_sweeping(const Written &written) {
+  if (names_the_reference(written.device))
+    throw Error(ExitCode::usage, "--device reference: bench without a setup compares a device with it; "
+                                 "expected a device, or a setup");
+  if (written.samples)
+    throw Error(ExitCode::usage,
+                "--samples: bench without a setup sweeps them itself; expected a setup beside it");
+}
+
 Options checked(const Written &written, const std::string &command) {
-  refuse(command == "bench" && written.setup.empty(), "bench without a setup");
+  if (command == "bench" && written.setup.empty())
+    check_sweeping(written);
   refuse(written.no_wide_vectors, "--no-wide-vectors");
   check_importing(written);
   if (command == "tradeoff" && names_the_reference(written.device))

@@ -89,7 +89,8 @@ NativeWork ring_and_wall() {
     work.points_m.emplace_back(0.4 * place, 2.0);
   }
   for (std::size_t i = 0; i < diodes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i / rings) + 0.5) * rings / diodes;
+    const std::size_t k = i / rings;
+    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) * rings / diodes;
     const double radius_m = 0.126 + 0.010 * static_cast<double>(i % rings);
     work.diodes.push_back({{radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0}, 1.0});
   }

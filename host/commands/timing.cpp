@@ -1,22 +1,10 @@
 #include "host/commands/timing.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <map>
-#include <optional>
+#include <limits>
 
 namespace pmdsim {
 namespace {
-
-void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes) {
-  for (const PassTime &pass : passes) {
-    const auto known = std::ranges::find(sum, pass.name, &PassTime::name);
-    if (known == sum.end())
-      sum.push_back(pass);
-    else
-      known->ms += pass.ms;
-  }
-}
 
 std::optional<double> larger(const std::optional<double> &a, const std::optional<double> &b) {
   return a && b ? std::optional(std::max(*a, *b)) : std::nullopt;
@@ -33,37 +21,51 @@ void add(AccuracyReport &sum, const AccuracyReport &report) {
   sum.check_ms += report.check_ms;
 }
 
-} // namespace
-
-Timing time_frames(const std::function<Measurement(const std::string &label)> &measure) {
-  std::vector<double> frames_ms;
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<double>> passes_ms;
-  Timing timing;
-  measure("warming up");
-  for (int i = 0; i < measured_frames; ++i) {
-    // Only times are kept: frames of the largest sensors would not fit side by side.
-    const Measurement measurement = measure(fmt::format("timing {}/{}", i + 1, measured_frames));
-    frames_ms.push_back(measurement.frame_ms);
-    timing.accuracy = measurement.accuracy;
-    for (const PassTime &pass : measurement.passes) {
-      if (!passes_ms.contains(pass.name))
-        order.push_back(pass.name);
-      passes_ms[pass.name].push_back(pass.ms);
-    }
-  }
-  timing.frame_ms = spread_of(frames_ms);
-  for (const std::string &name : order)
-    timing.passes.push_back({name, spread_of(passes_ms[name]).median});
-  return timing;
+double explained(const TimedFrame &frame) {
+  double sum_ms = 0.0;
+  for (const PassTime &pass : frame.passes)
+    sum_ms += pass.ms;
+  return sum_ms / frame.frame_ms;
 }
 
-void add(Timing &sum, const Timing &timing) {
-  sum.frame_ms.min += timing.frame_ms.min;
-  sum.frame_ms.median += timing.frame_ms.median;
-  sum.frame_ms.max += timing.frame_ms.max;
-  add_passes(sum.passes, timing.passes);
-  add(sum.accuracy, timing.accuracy);
+} // namespace
+
+void add(TimedFrame &sum, const Measurement &measurement) {
+  sum.frame_ms += measurement.frame_ms;
+  for (const PassTime &pass : measurement.passes) {
+    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
+    if (known == sum.passes.end())
+      sum.passes.push_back(pass);
+    else
+      known->ms += pass.ms;
+  }
+  if (sum.accuracy)
+    add(*sum.accuracy, measurement.accuracy);
+  else
+    sum.accuracy = measurement.accuracy;
+}
+
+double pass_ms(const TimedFrame &frame, std::string_view name) {
+  const auto pass = std::ranges::find(frame.passes, name, &PassTime::name);
+  return pass == frame.passes.end() ? std::numeric_limits<double>::quiet_NaN() : pass->ms;
+}
+
+Timing timing_of(std::span<const TimedFrame> frames) {
+  std::vector<double> frames_ms, explains;
+  for (const TimedFrame &frame : frames) {
+    frames_ms.push_back(frame.frame_ms);
+    explains.push_back(explained(frame));
+  }
+  Timing timing{spread_of(frames_ms), {}, spread_of(explains).median, {}};
+  for (const PassTime &pass : frames.front().passes) {
+    std::vector<double> times_ms;
+    for (const TimedFrame &frame : frames)
+      times_ms.push_back(pass_ms(frame, pass.name));
+    timing.passes.push_back({pass.name, spread_of(times_ms).median});
+  }
+  if (frames.back().accuracy)
+    timing.accuracy = *frames.back().accuracy;
+  return timing;
 }
 
 } // namespace pmdsim

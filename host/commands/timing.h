@@ -4,25 +4,35 @@
 #include "engine/measurement.h"
 #include "host/commands/report.h"
 
-#include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
 
-inline constexpr int measured_frames = 7;
+// What one frame took; of several sensors all their frames together.
+struct TimedFrame {
+  double frame_ms = 0.0;
+  std::vector<PassTime> passes;
+  std::optional<AccuracyReport> accuracy;
+};
 
-// Of one sensor's frames or, summed, of all sensors' frames.
+// Times add up, and the larger error counts; nothing is known of it where nothing is of either's.
+void add(TimedFrame &sum, const Measurement &measurement);
+
+// Of the pass `name`; NaN where the frame has none.
+double pass_ms(const TimedFrame &frame, std::string_view name);
+
 struct Timing {
   Spread frame_ms{0.0, 0.0, 0.0};
   std::vector<PassTime> passes; // medians, in the order of the frame
+  double passes_explain = 0.0;  // the passes' sum over the frame's time, median
   AccuracyReport accuracy;      // of the last frame
 };
 
-// Calls `measure` with what it does, for people: once to warm up and measured_frames times to be timed.
-Timing time_frames(const std::function<Measurement(const std::string &label)> &measure);
-
-// Times add up, and the larger error counts; nothing is known of it where nothing is of either's.
-void add(Timing &sum, const Timing &timing);
+// Of at least one frame.
+Timing timing_of(std::span<const TimedFrame> frames);
 
 } // namespace pmdsim

@@ -229,7 +229,9 @@ TEST_CASE("wrong command lines") {
                                                     {"render", "a.json", "--mode", "fast"},
                                                     {"render", "a.json", "--no-wide-vectors"},
                                                     {"check", "a.json", "--mode", "exact"},
-                                                    {"bench"},
+                                                    {"bench", "--samples", "2"},
+                                                    {"bench", "--device", "reference"},
+                                                    {"bench", "--sweep", "diodes"},
                                                     {"tradeoff"},
                                                     {"tradeoff", "a.json", "--device", "Reference"}}) {
     const Run run = run_pmdsim(arguments);

@@ -230,7 +230,7 @@ TEST_CASE("check and bench tell of all sensors") {
   CHECK(check["ambiguity_m"] == check["sensors"][0]["ambiguity_m"][0]);
   CHECK(run_pmdsim({"check", two.setup}).output.find(" m at 50 MHz\n") != std::string::npos);
   CHECK(run_pmdsim({"bench", two.setup, "--device", "reference"})
-            .output.find("warm frames of each of 2 sensors)") != std::string::npos);
+            .output.find("warm frames of each of 2 sensors") != std::string::npos);
 }
 
 TEST_CASE("interrupted, a run ends with 130 and leaves nothing half-written") {

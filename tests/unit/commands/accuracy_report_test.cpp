@@ -5,6 +5,7 @@
 #include "host/output/accuracy_record.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace pmdsim;
 
@@ -57,36 +58,44 @@ TEST_CASE("JSON has every figure of the report") {
 }
 
 TEST_CASE("of several sensors times add up and the larger error counts") {
-  Timing sum{{1.0, 2.0, 3.0}, {{"points", 0.5}}, full_report()};
-  Timing other{{10.0, 20.0, 30.0}, {{"points", 1.0}, {"accumulate", 4.0}}, full_report()};
+  Measurement one, other;
+  one.frame_ms = 2.0;
+  one.passes = {{"points", 0.5}};
+  one.accuracy = other.accuracy = full_report();
+  other.frame_ms = 20.0;
+  other.passes = {{"points", 1.0}, {"accumulate", 4.0}};
   other.accuracy.claimed_m = 7e-6;
   other.accuracy.found_m = std::nullopt;
   other.accuracy.diodes = 10;
+  TimedFrame sum;
+  add(sum, one);
   add(sum, other);
-  CHECK(sum.frame_ms.median == 22.0);
+  CHECK(sum.frame_ms == 22.0);
   REQUIRE(sum.passes.size() == 2);
-  CHECK(sum.passes[0].ms == 1.5);
-  CHECK(sum.accuracy.claimed_m == 7e-6);
-  CHECK_FALSE(sum.accuracy.found_m); // nothing is known of one of them
-  CHECK(sum.accuracy.diodes == 15);
-  CHECK(sum.accuracy.checked_pixels == 2048);
-  CHECK(sum.accuracy.check_ms == 4.0);
+  CHECK(pass_ms(sum, "points") == 1.5);
+  CHECK(pass_ms(sum, "accumulate") == 4.0);
+  CHECK(std::isnan(pass_ms(sum, "resolve")));
+  CHECK(sum.accuracy->claimed_m == 7e-6);
+  CHECK_FALSE(sum.accuracy->found_m); // nothing is known of one of them
+  CHECK(sum.accuracy->diodes == 15);
+  CHECK(sum.accuracy->checked_pixels == 2048);
+  CHECK(sum.accuracy->check_ms == 4.0);
 }
 
-TEST_CASE("frames are timed after one that is not") {
-  int frames = 0;
-  const Timing timing = time_frames([&](const std::string &label) {
-    CHECK((label == "warming up") == (frames == 0));
-    Measurement measurement;
-    measurement.frame_ms = ++frames == 1 ? 1000.0 : frames;
-    measurement.passes = {{"points", 0.5 * frames}};
-    measurement.accuracy.diodes = static_cast<std::uint32_t>(frames);
-    return measurement;
-  });
-  CHECK(frames == 1 + measured_frames);
-  CHECK(timing.frame_ms.min == 2.0);
-  CHECK(timing.frame_ms.max == 1.0 + measured_frames);
-  CHECK(timing.frame_ms.median == 2.0 + (measured_frames - 1) / 2);
-  CHECK(timing.passes.at(0).ms == 0.5 * timing.frame_ms.median);
-  CHECK(timing.accuracy.diodes == 1 + measured_frames);
+TEST_CASE("a timing is the frames' medians, and of their accuracy the last") {
+  std::vector<TimedFrame> frames;
+  for (const double ms : {7.0, 1.0, 100.0}) {
+    frames.push_back({ms, {{"points", ms / 4}, {"accumulate", ms / 2}}, AccuracyReport()});
+    frames.back().accuracy->diodes = static_cast<std::uint32_t>(frames.size());
+  }
+  const Timing timing = timing_of(frames);
+  CHECK(timing.frame_ms.min == 1.0);
+  CHECK(timing.frame_ms.median == 7.0);
+  CHECK(timing.frame_ms.max == 100.0);
+  REQUIRE(timing.passes.size() == 2);
+  CHECK(timing.passes[0].name == "points");
+  CHECK(timing.passes[0].ms == 1.75);
+  CHECK(timing.passes[1].ms == 3.5);
+  CHECK(timing.passes_explain == 0.75);
+  CHECK(timing.accuracy.diodes == 3);
 }

@@ -1,0 +1,20 @@
+#include "host/commands/peak_memory.h"
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace pmdsim {
+
+// Linux: see proc(5).
+void restart_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5\n"; }
+
+std::optional<std::int64_t> peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key; status.ignore(std::numeric_limits<std::streamsize>::max(), '\n'))
+    if (std::int64_t kib = 0; key == "VmHWM:" && status >> kib)
+      return 1024 * kib;
+  return std::nullopt;
+}
+
+} // namespace pmdsim
