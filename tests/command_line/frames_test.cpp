@@ -73,6 +73,19 @@ std::string bytes_of(const std::string &file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+// What moves in scenes/motion.json, seen by its sensor, tap by tap, and by another in one exposure.
+std::string moving_setup_of_two_sensors() {
+  const std::string setup =
+      with(bytes_of(scene("motion.json")), "\"moving.gltf\"", "\"" + scene("moving.gltf") + "\"");
+  return with(with(setup, "[160, 120]", "[40, 30]"), "\"sensors\": [{", R"("sensors": [{
+    "name": "beside",
+    "resolution": [30, 40],
+    "pixel_pitch_m": [45e-6, 45e-6],
+    "focal_length_m": 2e-3,
+    "modulation_hz": [20e6, 30e6]
+  }, {)");
+}
+
 } // namespace
 
 TEST_CASE("all frames of a setup are rendered, each at its time") {
@@ -147,6 +160,55 @@ TEST_CASE("what fails midway leaves the whole frames before it") {
   const Run run = run_pmdsim(five.arguments("render"));
   check_refusal(run, 7, {"pmd_0002.exr: cannot be written: Is a directory; frames 0 to 1 are whole"});
   CHECK(five.check_consistent() == 2);
+}
+
+TEST_CASE("interrupted while writers are busy, whole frames stay and the manifest lists just these") {
+  const Frames endless(100000);
+  const std::string large =
+      endless.work.write("large.json", with(bytes_of(endless.setup), "[8, 8]", "[512, 512]"));
+  const Run run = run_pmdsim({"render", large, "--format", "exr,npy,png", "-o", endless.work / "out"},
+                             {.interrupt_when = endless.work / "out/pmd_0001.exr"});
+  CHECK(run.exit_code == 130);
+  CHECK(run.errors.starts_with("pmdsim: error: interrupted; frames 0 to "));
+  CHECK(std::ranges::count(run.errors, '\n') == 1);
+  CHECK(endless.check_consistent() >= 2);
+}
+
+TEST_CASE("a directory in the way of a file of frame 3 leaves frames 0 to 2, of every format") {
+  const Frames eight(8);
+  const std::string command = GENERATE("render", "deform");
+  std::filesystem::create_directories(eight.work / "out/pmd_0003.z_m.npy");
+  const Run run = run_pmdsim({command, eight.setup, "--format", "exr,npy,png,csv", "-o", eight.work / "out"});
+  check_refusal(run, 7, {"pmd_0003.z_m.npy: cannot be written: Is a directory; frames 0 to 2 are whole"});
+  CHECK(eight.check_consistent() == 3);
+}
+
+TEST_CASE("the frames of a sequence are those that are rendered one by one, bit by bit") {
+  const std::string command = GENERATE("render", "deform");
+  const Workspace work;
+  const std::string setup = work.write("setup.json", moving_setup_of_two_sensors());
+  const auto run = [&](const std::string &frames, const std::string &directory) {
+    const Run ended = run_pmdsim(
+        {command, setup, "--frames", frames, "--format", "exr,npy,png,csv", "-o", work / directory});
+    INFO(ended.errors);
+    REQUIRE(ended.exit_code == 0);
+  };
+  run("2:6", "together");
+  for (const char *frame : {"2:3", "3:4", "4:5", "5:6"})
+    run(frame, "alone");
+  const std::vector<std::string> files = work.files("together");
+  CHECK(files.size() > 100);
+  CHECK(files == work.files("alone"));
+  for (const std::string &file : files)
+    if (file != "manifest.json") {
+      INFO(file);
+      CHECK((bytes_of(work / ("together/" + file)) == bytes_of(work / ("alone/" + file))));
+    }
+  for (const char *sensor : {"pmd", "beside"}) {
+    INFO(sensor);
+    const std::string range = std::string("together/") + sensor + "_000";
+    CHECK((bytes_of(work / (range + "2.range_m.npy")) != bytes_of(work / (range + "3.range_m.npy"))));
+  }
 }
 
 TEST_CASE("an earlier run's manifest goes before the first frame comes, even if the run is killed") {
