@@ -175,7 +175,7 @@ void Simulator::State::sum_listed(const PlannedStrip &planned, const Progress &p
                               &listed.lists.of(shader::list_few));
     listed.lists.record_count(recorder.commands(), side * side);
   }
-  recorder.end_pass("short_way");
+  recorder.end_pass(listed.sums_all ? "accumulate" : "short_way");
   if (listed.has_lit)
     sum_list(planned, {0, listed.accumulate.runs(), 0}, shader::list_lit, listed.accumulate, listed.resolve,
              progress);

@@ -9,8 +9,8 @@
 #include "accumulate.glsl"
 #include "moments.glsl"
 
-void add_tone(uint t, uint i, float total[moments], ReferencePath path, LightRun run, float backscatter) {
-  add_to_plane(t, i, backscatter, tone_return(total, path, run, Tones(constants.tones).at[t]));
+void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run, float backscatter) {
+  add_to_plane(t, i, backscatter, tone_return(moment, path, run, Tones(constants.tones).at[t]));
 }
 
 // More of them would take long to compile, and are seldom.
@@ -21,8 +21,8 @@ void main() {
   LightRun run = LightRuns(constants.run).at;
   Point point;
   ReferencePath path = load_point(i, run, point);
-  float total[moments];
-  [[unroll]] for (uint k = 0; k < moments; ++k)
+  float total[sums];
+  [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] = 0.0;
   Diodes diodes = Diodes(constants.diodes);
 #ifdef STRAIGHT_LINE
@@ -32,14 +32,16 @@ void main() {
   for (uint block = 0; block < constants.blocks; ++block)
     add_block(total, point, diodes, block, reached_of_block(i, block));
 #endif
+  float moment[moments];
+  find_moments(total, point, run, moment);
 
   float backscatter = Floats(constants.backscatter).at[i];
-  add_terms(i, backscatter, terms_of(total[0], point.rho, point.height, run));
+  add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)
-      add_tone(t, i, total, path, run, backscatter);
+      add_tone(t, i, moment, path, run, backscatter);
   } else {
     for (uint t = 0; t < tones; ++t)
-      add_tone(t, i, total, path, run, backscatter);
+      add_tone(t, i, moment, path, run, backscatter);
   }
 }

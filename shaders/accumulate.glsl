@@ -5,6 +5,7 @@
 #include "buffers.glsl"
 #include "compensated.glsl"
 #include "pixel_list.glsl"
+#include "position.glsl"
 
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
 layout(constant_id = constant_first) const uint is_first = 0;
@@ -27,12 +28,8 @@ uint reached_of_block(uint i, uint block) {
   return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
-Real3 load_position(uint i) {
-  return real3(load_vec3(constants.position_hi, i), load_vec3(constants.position_lo, i));
-}
-
 ReferencePath load_point(uint i, LightRun run, out Point point) {
-  return see_point(load_position(i), Vec4s(constants.surface).at[i], run, point);
+  return see_point(load_position(constants.position, i), load_vec4(constants.surface, i), run, point);
 }
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
@@ -48,12 +45,11 @@ void add_terms(uint i, float backscatter, float terms) {
 // NaN.
 void add_to_plane(uint plane, uint i, float backscatter, vec2 value) {
   vec2 term = backscatter > 0.0 ? backscatter * value : vec2(0.0);
-  Vec4s sums = Vec4s(constants.sum);
   uint at = plane * constants.plane + i;
   if (is_first != 0)
-    sums.at[at] = vec4(term, 0.0, 0.0);
+    store_vec4(constants.sum, at, vec4(term, 0.0, 0.0));
   else
-    sums.at[at] = compensated_add(sums.at[at], term);
+    store_vec4(constants.sum, at, compensated_add(load_vec4(constants.sum, at), term));
 }
 
 #endif

@@ -18,11 +18,11 @@ struct PrecisePoint {
 };
 
 ReferencePath load_point(uint i, LightRun run, out PrecisePoint point) {
-  ReferencePath path = see_path(load_position(i), run, point.position);
+  ReferencePath path = see_path(load_position(constants.position, i), run, point.position);
   point.rho = path.rho;
   point.rho2 = multiply(path.rho, path.rho);
   // Whole vectors: lavapipe has been seen to load a wrong .w alone.
-  vec4 surface_hi = Vec4s(constants.surface).at[2 * i], surface_lo = Vec4s(constants.surface).at[2 * i + 1];
+  vec4 surface_hi = load_vec4(constants.surface, 2 * i), surface_lo = load_vec4(constants.surface, 2 * i + 1);
   point.normal = real3(surface_hi.xyz, surface_lo.xyz);
   // By the shorter way, as in sum.glsl.
   Real3 reference = real3(run.reference_hi.xyz, run.reference_lo.xyz);
@@ -108,13 +108,13 @@ void add_to_plane(uint plane, uint i, float backscatter, RealComplex value) {
   bool hit = backscatter > 0.0;
   Real re = hit ? multiply(real(backscatter), value.re) : real(0.0);
   Real im = hit ? multiply(real(backscatter), value.im) : real(0.0);
-  Vec4s sums = Vec4s(constants.sum);
   uint at = plane * constants.plane + i;
   if (is_first == 0) {
-    re = add(real(sums.at[at].x, sums.at[at].z), re);
-    im = add(real(sums.at[at].y, sums.at[at].w), im);
+    vec4 sum = load_vec4(constants.sum, at);
+    re = add(real(sum.x, sum.z), re);
+    im = add(real(sum.y, sum.w), im);
   }
-  sums.at[at] = vec4(high(re), high(im), rest(re), rest(im));
+  store_vec4(constants.sum, at, vec4(high(re), high(im), rest(re), rest(im)));
 }
 
 #endif

@@ -28,15 +28,28 @@ uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool ti
   return at.y * extent.x * samples + at.x;
 }
 
-vec3 load_vec3(uvec2 address, uint i) {
-  Floats from = Floats(address);
-  return vec3(from.at[3 * i], from.at[3 * i + 1], from.at[3 * i + 2]);
+// Lavapipe fetches and stores lane by lane, a double as fast as a float: two floats at a time.
+#ifdef REAL_DOUBLE_FLOAT
+vec4 load_vec4(uvec2 address, uint i) { return Vec4s(address).at[i]; }
+void store_vec4(uvec2 address, uint i, vec4 value) { Vec4s(address).at[i] = value; }
+uvec2 load_tag(uvec2 address, uint i) { return Tags(address).at[i]; }
+#else
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer DoubleWords { double at[]; };
+vec2 two_floats(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
+vec4 load_vec4(uvec2 address, uint i) {
+  DoubleWords from = DoubleWords(address);
+  return vec4(two_floats(from.at[2 * i]), two_floats(from.at[2 * i + 1]));
 }
-void store_vec3(uvec2 address, uint i, vec3 value) {
-  Floats to = Floats(address);
-  to.at[3 * i] = value.x;
-  to.at[3 * i + 1] = value.y;
-  to.at[3 * i + 2] = value.z;
+void store_vec4(uvec2 address, uint i, vec4 value) {
+  DoubleWords to = DoubleWords(address);
+  to.at[2 * i] = packDouble2x32(floatBitsToUint(value.xy));
+  to.at[2 * i + 1] = packDouble2x32(floatBitsToUint(value.zw));
+}
+uvec2 load_tag(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
+#endif
+TrianglePlane load_plane(uvec2 address, uint i) {
+  vec4 rest = load_vec4(address, 3 * i + 2);
+  return TrianglePlane(load_vec4(address, 3 * i), load_vec4(address, 3 * i + 1), rest.x, floatBitsToUint(rest.y), rest.z, rest.w);
 }
 
 #endif

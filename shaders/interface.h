@@ -41,6 +41,9 @@ PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation 
 PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sample
 PMDSIM_CONSTANT constant_listed = 12;     // 1: only the samples of a list of pixels
 PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to without their phases
+PMDSIM_CONSTANT constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
+PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
+PMDSIM_CONSTANT constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -66,14 +69,14 @@ PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a 
 
 // Specialization constants of the short way: those of the accumulate, the resolve and the points pass, one
 // after the other, then its own.
-PMDSIM_CONSTANT short_way_resolve = 14;
-PMDSIM_CONSTANT short_way_points = 24;
-PMDSIM_CONSTANT constant_runs = 30;    // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_samples = 31; // S
-PMDSIM_CONSTANT constant_places = 32;  // at which a pixel of several samples is evaluated: 1, its centre; 4,
+PMDSIM_CONSTANT short_way_resolve = 17;
+PMDSIM_CONSTANT short_way_points = 27;
+PMDSIM_CONSTANT constant_runs = 33;    // of diodes; 0: no pixel goes the short way, they are only listed
+PMDSIM_CONSTANT constant_samples = 34; // S
+PMDSIM_CONSTANT constant_places = 35;  // at which a pixel of several samples is evaluated: 1, its centre; 4,
                                       // only pixels of list_few; 0: at its samples, elsewhere
-PMDSIM_CONSTANT constant_lists_pixels = 33; // 0: all pixels go the short way and none can break the promise
-PMDSIM_CONSTANT constant_few_follow = 34;   // 1: list_few is for pixels that one place does not do for
+PMDSIM_CONSTANT constant_lists_pixels = 36; // 0: all pixels go the short way and none can break the promise
+PMDSIM_CONSTANT constant_few_follow = 37;   // 1: list_few is for pixels that one place does not do for
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -223,7 +226,11 @@ struct LightRun {
   float diagrams; // likewise of measured diagrams, times r^2
   float rims;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-rim_root
   float rim_root; // W = sum of weights / (I / r^2)
+  // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i) (power_sums.h).
+  vec4 moments_of_powers[27];
 };
+PMDSIM_CONSTANT largest_powers = 12; // of q
+PMDSIM_CONSTANT largest_moments = 9;
 
 // A harmonic of a modulation frequency.
 struct Tone {
@@ -269,8 +276,7 @@ struct PointsConstants {
   uvec2 chip;   // in, else: ChipPlace
   uvec2 tags;   // in: tags
   uvec2 planes; // in: TrianglePlane[]
-  uvec2 position_hi; // out: float[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
-  uvec2 position_lo; // out: float[3] a sample, their rests
+  uvec2 position; // out: Real[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
   uvec2 surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
                  // it; where it is precise each followed by its rest
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
@@ -287,8 +293,7 @@ struct SearchConstants {
   uvec2 planes;      // in: TrianglePlane[]
   uvec2 corners;     // in: TriangleCorners[]
   uvec2 tags;        // out: tags of the samples
-  uvec2 position_hi; // out, as in PointsConstants
-  uvec2 position_lo;
+  uvec2 position;    // out, as in PointsConstants
   uvec2 surface;
   uvec2 backscatter;
   uvec2 shapes;
@@ -300,8 +305,7 @@ struct SearchConstants {
 // square light, of each frequency, plane p holds the taps 2 p and 2 p + 1. An even N makes do with the taps
 // below N / 2: the triangle wave half a turn on is its negative.
 struct AccumulateConstants {
-  uvec2 position_hi; // in, as the points pass left them
-  uvec2 position_lo;
+  uvec2 position; // in, as the points pass left them
   uvec2 surface;
   uvec2 backscatter;
   uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
@@ -333,8 +337,7 @@ struct Frequency {
 };
 
 struct ResolveConstants {
-  uvec2 position_hi;
-  uvec2 position_lo;
+  uvec2 position;
   uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
   uvec2 planes;
@@ -443,13 +446,13 @@ static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
 static_assert(sizeof(VisibilityConstants) == 80);
-static_assert(sizeof(PointsConstants) == 128 && offsetof(PointsConstants, slope) == 32);
-static_assert(sizeof(SearchConstants) == 128 && offsetof(SearchConstants, lens) == 32);
+static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
+static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 64 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
+static_assert(sizeof(LightRun) == 496 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
-static_assert(sizeof(AccumulateConstants) == 112);
-static_assert(sizeof(ResolveConstants) == 124);
+static_assert(sizeof(AccumulateConstants) == 104);
+static_assert(sizeof(ResolveConstants) == 116);
 static_assert(sizeof(ShortWayConstants) == 128 && offsetof(ShortWayConstants, slope) == 32);
 } // namespace pmdsim::shader
 #endif

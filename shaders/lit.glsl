@@ -4,6 +4,7 @@
 
 #include "buffers.glsl"
 #include "lit_interface.h"
+#include "position.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LitScenes { LitScene at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Parts { TilePart at[]; };

@@ -20,7 +20,8 @@ struct PartSample {
 PartSample part_sample(uint part_index, uint within, DiodeFrame frame) {
   Strip strip = constants.strip;
   TileSample at = tile_sample(strip, part_index / parts_per_tile, within);
-  vec3 hi = load_vec3(constants.position_hi, at.i), lo = load_vec3(constants.position_lo, at.i);
+  Real3 position = load_position(constants.position, at.i);
+  vec3 hi = high3(position), lo = rest3(position);
   Parts parts = Parts(constants.parts);
   bool is_there = at.is_there && hi != vec3(0.0) && hi.z >= parts.at[part_index].nearest_m &&
                   hi.z < parts.at[part_index].farthest_m;

@@ -116,7 +116,7 @@ struct LitScene {
 
 struct LitTilesConstants {
   Strip strip;
-  uvec2 position_hi;
+  uvec2 position;
   uvec2 tags;
   uvec2 scene; // in: LitScene
   uvec2 parts; // out: TilePart[]
@@ -124,7 +124,7 @@ struct LitTilesConstants {
 
 struct LitGatherConstants {
   Strip strip;
-  uvec2 position_hi;
+  uvec2 position;
   uvec2 tags;
   uvec2 parts;      // in: TilePart[]
   uvec2 scene;      // in: LitScene
@@ -138,8 +138,7 @@ struct LitGatherConstants {
 
 struct LitDecideConstants {
   Strip strip;
-  uvec2 position_hi;
-  uvec2 position_lo;
+  uvec2 position;
   uvec2 tags;
   uvec2 parts;
   uvec2 scene;
@@ -166,7 +165,7 @@ static_assert(sizeof(Occluder) == 144 && sizeof(TreeNode) == 32 && sizeof(DiodeB
               sizeof(TilePart) == 112);
 static_assert(sizeof(LitWork) == 16 * lists && sizeof(LitScene) == 56 &&
               sizeof(BundleDiodes) == 16 * (2 + diodes_per_bundle));
-static_assert(sizeof(LitDecideConstants) == 124 && offsetof(LitDecideConstants, position_hi) == 32);
+static_assert(sizeof(LitDecideConstants) == 116 && offsetof(LitDecideConstants, position) == 32);
 } // namespace pmdsim::shader
 #endif
 

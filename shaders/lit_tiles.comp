@@ -15,7 +15,7 @@ const float infinity = 1.0 / 0.0, far_m = 1e37; // farther than anything
 // Its point, or the lens where it sees nothing.
 vec3 point_of(uint tile, uint within) {
   TileSample at = tile_sample(constants.strip, tile, within);
-  vec3 point = load_vec3(constants.position_hi, at.i);
+  vec3 point = high3(load_position(constants.position, at.i));
   return at.is_there ? point : vec3(0.0);
 }
 

@@ -10,38 +10,64 @@
 layout(constant_id = constant_moments) const uint moments = 4;
 layout(constant_id = constant_tones) const uint tones = 1;
 
-void add_block(inout float total[moments], Point point, Diodes diodes, uint block, uint reached) {
-  float part[moments];
-  [[unroll]] for (uint k = 0; k < moments; ++k)
+// What is summed over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
+const uint sums = powers > 0 ? powers : moments;
+
+void add_block(inout float total[sums], Point point, Diodes diodes, uint block, uint reached) {
+  float part[sums];
+  [[unroll]] for (uint k = 0; k < sums; ++k)
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
-    vec2 we = weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u);
-    float term = we.x;
+    GroupDiode diode = diodes.at[block * diodes_per_block + d];
+    bool is_reached = (reached & 1u << d) != 0u;
+    vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_excess(point, diode, is_reached);
+    float term = factors.x;
     part[0] += term;
-    [[unroll]] for (uint k = 1; k < moments; ++k) {
-      term *= we.y;
+    [[unroll]] for (uint k = 1; k < sums; ++k) {
+      term = k == 1 && alike != 0 ? factors.y : term * factors.y;
       part[k] += term;
     }
   }
-  [[unroll]] for (uint k = 0; k < moments; ++k)
+  [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] += part[k];
 }
 
-// sum_k (j kappa)^k / k! * total[k], by Horner's rule.
-vec2 return_of(float total[moments], float kappa) {
+// With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
+// polynomials (power_sums.h): one step a sample in place of a root and a division for each diode.
+void find_moments(float total[sums], Point point, LightRun run, out float moment[moments]) {
+  float inverse_rho2 = 1.0 / (point.rho * point.rho), scale = inverse_rho2;
+  uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? power : 0);
+  if (powers > 0)
+    [[unroll]] for (uint i = 0; i < lengths; ++i)
+      scale /= point.rho;
+  if (alike != 0)
+    total[0] = run.intensity; // those that pad a run have none, and q = 0
+  [[unroll]] for (uint k = 0; k < moments; ++k) {
+    float sum = 0.0;
+    [[unroll]] for (uint down = 0; down < powers; ++down) {
+      uint i = powers - 1 - down;
+      sum = sum * inverse_rho2 + run.moments_of_powers[largest_powers / 4 * k + i / 4][i % 4] * total[i];
+    }
+    moment[k] = powers > 0 ? scale * sum : total[k];
+    scale *= point.rho;
+  }
+}
+
+// sum_k (j kappa)^k / k! * moment[k], by Horner's rule.
+vec2 return_of(float moment[moments], float kappa) {
   vec2 z = vec2(0.0);
   [[unroll]] for (uint down = 0; down < moments; ++down) {
     uint k = moments - 1 - down;
-    z = vec2(total[k], 0.0) + vec2(-z.y, z.x) * (kappa / float(k + 1));
+    z = vec2(moment[k], 0.0) + vec2(-z.y, z.x) * (kappa / float(k + 1));
   }
   return z;
 }
 
 // The return relative to twice the sample's own range, which the resolve pass turns back. The way over the reference point is
 // longer than that by rho - range.
-vec2 tone_return(float total[moments], ReferencePath path, LightRun run, Tone tone) {
+vec2 tone_return(float moment[moments], ReferencePath path, LightRun run, Tone tone) {
   Real detour = add(path.rho, negate(path.range));
-  return complex_multiply(return_of(total, tone.wavenumber), unit_phasor(turn_fraction(phase_turns(detour, run, tone))));
+  return complex_multiply(return_of(moment, tone.wavenumber), unit_phasor(turn_fraction(phase_turns(detour, run, tone))));
 }
 
 #endif

@@ -27,7 +27,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (listed != 0)
     i = listed_sample(PixelLists(constants.list), i, strip.padded_pixels);
-  PointBuffers to = PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter,
+  PointBuffers to = PointBuffers(constants.position, constants.surface, constants.backscatter,
                                  constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
   Real3 ray = sample_ray(at); // before anything branches, so that lavapipe reads the chip once for all lanes
@@ -36,11 +36,11 @@ void main() {
     return;
   }
   uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
-  uvec2 tag = Tags(constants.tags).at[tag_at];
+  uvec2 tag = load_tag(constants.tags, tag_at);
   if (tag.x == 0u) {
     store_miss(to, i);
     return;
   }
-  TrianglePlane plane = Planes(constants.planes).at[tag.y];
+  TrianglePlane plane = load_plane(constants.planes, tag.y);
   store_point(to, i, high3(ray), point_on_plane(ray, plane), tag.y, plane);
 }

@@ -4,6 +4,7 @@
 
 #include "buffers.glsl"
 #include "paint.glsl"
+#include "position.glsl"
 #include "real.glsl"
 
 #ifndef POINTS_BASE // the first specialization constant's number
@@ -32,13 +33,13 @@ Sample sample_of(uint i, Strip strip) {
 
 // Buffers of what is left, as in PointsConstants.
 struct PointBuffers {
-  uvec2 position_hi, position_lo, surface, backscatter;
+  uvec2 position, surface, backscatter;
   uvec2 shapes, surfaces; // in: paint
 };
 
 // A sample that sees nothing: no backscatter, the point in the lens itself.
 void store_miss(PointBuffers to, uint i) {
-  store_vec3(to.position_hi, i, vec3(0.0));
+  store_position(to.position, i, Real3(real(0.0), real(0.0), real(0.0)));
   Floats(to.backscatter).at[i] = 0.0;
 }
 
@@ -68,13 +69,12 @@ float backscatter_of(uvec2 shapes, uvec2 surfaces_at, vec3 ray, Real3 point, uin
 
 // A sample whose ray, of any length, meets the shape `id` at `point` of its plane.
 void store_point(PointBuffers to, uint i, vec3 ray, Real3 point, uint id, TrianglePlane plane) {
-  store_vec3(to.position_hi, i, high3(point));
-  store_vec3(to.position_lo, i, rest3(point));
+  store_position(to.position, i, point);
   Floats(to.backscatter).at[i] = backscatter_of(to.shapes, to.surfaces, ray, point, id, plane);
   if (surface_vectors > 0)
-    Vec4s(to.surface).at[surface_vectors * i] = vec4(plane.plane_hi.xyz, -plane.plane_hi.w);
+    store_vec4(to.surface, surface_vectors * i, vec4(plane.plane_hi.xyz, -plane.plane_hi.w));
   if (surface_vectors > 1)
-    Vec4s(to.surface).at[surface_vectors * i + 1] = vec4(plane.plane_lo.xyz, -plane.plane_lo.w);
+    store_vec4(to.surface, surface_vectors * i + 1, vec4(plane.plane_lo.xyz, -plane.plane_lo.w));
 }
 
 #endif

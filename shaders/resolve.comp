@@ -5,6 +5,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "pixel_list.glsl"
+#include "position.glsl"
 #include "real_elementary.glsl"
 #include "resolve.glsl"
 
@@ -23,7 +24,7 @@ vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
 
 void add_return(inout PixelSum sum, Frequency frequency, uint i, Real excess_m) {
   [[unroll]] for (uint p = 0; p < planes; ++p) {
-    vec4 pair = Vec4s(constants.sum).at[p * constants.plane + i];
+    vec4 pair = load_vec4(constants.sum, p * constants.plane + i);
     if (precise_sum != 0) {
       sum.z[p] = add_precisely(sum.z[p], pair, multiply(excess_m, turns_per_m(frequency, p)));
       continue;
@@ -40,10 +41,9 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
   uint count = constants.samples * constants.samples;
   for (uint s = 0; s < count; ++s) {
     uint i = s * constants.padded_pixels + pixel;
-    vec3 hi = load_vec3(constants.position_hi, i);
-    if (hi == vec3(0.0))
+    Real3 position = load_position(constants.position, i);
+    if (high(position.z) == 0.0)
       continue;
-    Real3 position = real3(hi, load_vec3(constants.position_lo, i));
     Real range = length3(position);
     if (sum.hits == 0u)
       sum.reference_m = range;
@@ -63,7 +63,7 @@ uvec2 central_tag(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
   uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
-  return Tags(constants.tags).at[tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0)];
+  return load_tag(constants.tags, tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
 }
 
 void main() {

@@ -120,7 +120,7 @@ Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
 void main() {
   Strip strip = constants.strip;
   uint i = gl_GlobalInvocationID.x;
-  PointBuffers to = PointBuffers(constants.position_hi, constants.position_lo, constants.surface, constants.backscatter,
+  PointBuffers to = PointBuffers(constants.position, constants.surface, constants.backscatter,
                                  constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
   // Before anything branches, so that lavapipe reads the lens once for all lanes.

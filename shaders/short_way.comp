@@ -52,12 +52,12 @@ Seen see(uint pixel, ShortWayLight light) {
   uint diodes = Works(constants.work).at.diodes;
   Seen seen = Seen(uvec2(0), true, true);
   for (uint s = 0; s < side * side; ++s) {
-    uvec2 tag = Tags(constants.tags).at[tag_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0)];
+    uvec2 tag = load_tag(constants.tags, tag_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0));
     if (s == 0)
       seen.tag = tag;
     seen.alike = seen.alike && tag == seen.tag;
     if (backscatter_model != backscatter_flat)
-      seen.lit = seen.lit && (tag.x == 0u || faces(Planes(constants.planes).at[tag.x != 0u ? tag.y : 0u], light));
+      seen.lit = seen.lit && (tag.x == 0u || faces(load_plane(constants.planes, tag.x != 0u ? tag.y : 0u), light));
     if (lit_is_kept != 0)
       seen.lit = seen.lit && (tag.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
   }
@@ -96,8 +96,8 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
     LightRun run = Lights(constants.light).runs[r];
     Point point;
     ReferencePath path = see_point(position, surface, run, point);
-    float total[moments];
-    [[unroll]] for (uint k = 0; k < moments; ++k)
+    float total[sums];
+    [[unroll]] for (uint k = 0; k < sums; ++k)
       total[k] = 0.0;
     Diodes diodes = Diodes(constants.diodes);
 #ifdef STRAIGHT_LINE
@@ -105,9 +105,11 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
 #endif
     for (uint block = 0; block < unrolled_blocks; ++block)
       add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
-    terms += backscatter * terms_of(total[0], point.rho, point.height, run);
+    float moment[moments];
+    find_moments(total, point, run, moment);
+    terms += backscatter * terms_of(moment[0], point.rho, point.height, run);
     [[unroll]] for (uint t = 0; t < tones; ++t)
-      z[t] = compensated_add(z[t], backscatter * tone_return(total, path, run, Lights(constants.light).at.tones[t]));
+      z[t] = compensated_add(z[t], backscatter * tone_return(moment, path, run, Lights(constants.light).at.tones[t]));
   }
 }
 
@@ -234,7 +236,7 @@ void main() {
   if (runs > 0) {
     bool hits = seen.tag.x != 0u;
     uint triangle = hits ? seen.tag.y : 0u;
-    TrianglePlane plane = Planes(constants.planes).at[triangle];
+    TrianglePlane plane = load_plane(constants.planes, triangle);
     vec4 z[tones];
     Places places_seen = sum_places(light, plane, triangle, pixel, z);
     Errors added = errors_of_pixel(light, plane, pixel, hits, places_seen);

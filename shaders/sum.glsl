@@ -14,6 +14,9 @@ layout(constant_id = constant_order) const uint power = 1;
 layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
 layout(constant_id = constant_shadowed) const uint shadowed = 0;
+layout(constant_id = constant_powers) const uint powers = 0;
+layout(constant_id = constant_alike) const uint alike = 0;
+layout(constant_id = constant_planar) const uint planar = 0;
 
 // A sample's point as the group sees it.
 struct Point {
@@ -44,6 +47,25 @@ vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
   if (shadowed != 0)
     weight = reached ? weight : 0.0;
   return vec2(weight, q * r2 * inverse);
+}
+
+// The same by powers: the weight times r^p, p the powers of 1 / r in it, and q = r^2 - rho^2.
+vec2 strength_and_detour(Point point, GroupDiode diode, bool reached) {
+  float q = dot(point.position.xy, diode.position.xy) + diode.position.w;
+  if (planar == 0)
+    q += point.position.z * diode.position.z;
+  if (alike != 0)
+    return vec2(1.0, q);
+  float strength = diode.intensity;
+  if (backscatter_model != backscatter_flat) {
+    float height = point.height - 0.5 * dot(point.normal, diode.position.xyz); // of the diode over the surface
+    strength *= backscatter_model == backscatter_lambert ? max(0.0, height) : (height > 0.0 ? 1.0 : 0.0);
+  }
+  if (pattern_model == pattern_power)
+    strength *= whole_power(max(0.0, dot(diode.axis.xyz, point.position) - diode.axis.w));
+  if (shadowed != 0)
+    strength = reached ? strength : 0.0;
+  return vec2(strength, q);
 }
 
 // The paths from a sample over the reference point, in double.

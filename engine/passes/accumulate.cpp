@@ -55,6 +55,18 @@ vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) 
   return vulkan::upload(device, std::as_bytes(std::span(tones)));
 }
 
+namespace {
+
+// Whether all weights but for the distance are those of the strongest diode, or none.
+bool is_alike(const DiodeGroups &groups, const SumModel &model, const AccumulatePass::Scope &scope) {
+  return model.backscatter == shader::backscatter_flat && model.pattern == shader::pattern_isotropic &&
+         !scope.shadowed && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+           return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
+         });
+}
+
+} // namespace
+
 vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
                                      const AccumulatePass::Scope &scope, bool first) {
   return {groups.moments,
@@ -70,7 +82,10 @@ vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &
           groups.phased ? 1u : 0u,
           scope.shadowed ? 1u : 0u,
           scope.listed ? 1u : 0u,
-          signal.promised ? 1u : 0u};
+          signal.promised ? 1u : 0u,
+          groups.power_sums.powers,
+          is_alike(groups, model, scope) ? 1u : 0u,
+          groups.power_sums.planar ? 1u : 0u};
 }
 
 namespace {
@@ -122,6 +137,22 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
   return model;
 }
 
+std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
+  if (model.pattern > shader::pattern_power)
+    return std::nullopt;
+  return 2 + (model.backscatter == shader::backscatter_lambert ? 1 : 0) + model.order;
+}
+
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m) {
+  std::vector<Excess> reaches;
+  for (const DiodeRun &run : groups.runs)
+    reaches.push_back(run.reach);
+  if (const auto powers = inverse_powers(model))
+    groups.power_sums = power_sums(reaches, *powers, groups.moments, wavenumber_rad_m);
+  groups.power_sums.planar = std::ranges::all_of(
+      groups.diodes, [](const shader::GroupDiode &diode) { return diode.position.z == 0.0f; });
+}
+
 Precision sum_precision(const Signal &signal, Precision wanted) {
   return signal.by_moments ? wanted : Precision::fp32;
 }
@@ -161,16 +192,18 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
     }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);
-    const double size_m = glm::length(run.reference_m) + run.radius_m;
+    const double size_m = glm::length(run.reference_m) + run.reach.radius_m;
     shader::LightRun record{};
     record.reference_hi = reference.hi;
     record.reference_lo = reference.lo;
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
-    record.radius_m = static_cast<float>(run.radius_m);
+    record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.heights = static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(promise.terms_per_weight_error * diagrams);
     set_rims(groups, run.first, run.first + run_diodes, promise, record);
+    if (groups.power_sums.powers > 0)
+      std::ranges::copy(groups.power_sums.tables[result.size()], record.moments_of_powers);
     result.push_back(record);
   }
   return result;
@@ -213,8 +246,7 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
     const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
-          words(buffers.position_hi.address()),
-          words(buffers.position_lo.address()),
+          words(buffers.position.address()),
           words(buffers.surface.address()),
           words(buffers.backscatter.address()),
           words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),

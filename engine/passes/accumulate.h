@@ -28,6 +28,12 @@ struct SumModel {
   }
 };
 
+// The powers of 1 / r in a diode's weight; nothing where it is no product of such a power and of lengths.
+std::optional<std::uint32_t> inverse_powers(const SumModel &model);
+
+// Has the moments of `groups` summed by powers where the model allows and it is worth it (power_sums.h).
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m);
+
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 

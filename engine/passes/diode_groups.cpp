@@ -214,7 +214,7 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
-                           group.phase_turns, group.reach.radius_m});
+                           group.phase_turns, group.reach});
     for (std::size_t i = first; i < first + run_diodes; ++i) {
       const bool dark = i >= group.diodes.size();
       const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];
@@ -231,12 +231,6 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
 }
 
 } // namespace
-
-double largest_remainder(Precision precision) { return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26; }
-
-double largest_term(double phase_rad, double remainder) {
-  return remainder * std::min(1.0, 16.0 * phase_rad);
-}
 
 std::uint32_t moments_needed(double phase_rad, double remainder) {
   std::uint32_t k = 1;

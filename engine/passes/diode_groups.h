@@ -4,7 +4,10 @@
 
 #include "engine/accuracy.h"
 #include "engine/passes/camera_scene.h"
+#include "engine/passes/excess.h"
+#include "engine/passes/power_sums.h"
 #include "engine/passes/projection.h"
+#include "engine/passes/remainder.h"
 #include "shaders/interface.h"
 
 #include <vector>
@@ -16,8 +19,7 @@ struct DiodeRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into DiodeGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
-  double radius_m =
-      0.0; // of its group about the reference point, at most half of the range to what it lights
+  Excess reach; // of its group; the radius is at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.
@@ -42,6 +44,7 @@ struct DiodeGroups {
   double excess_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
   double radius_m = 0.0; // of the largest group
   double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
+  PowerSums power_sums;           // what the moments are summed by, run by run
 };
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
@@ -49,13 +52,6 @@ struct DiodeGroups {
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                          Precision precision = Precision::fp32);
-
-// (kappa * e)^K / K! that the moments left out may come to, of the sum of the weights (DESIGN section 4).
-double largest_remainder(Precision precision);
-
-// What the remainder may come to where kappa * e is `phase_rad`: where a wavelength is long, that much of a
-// turn would be a long way, so it is no more than 16 times as much of e, too.
-double largest_term(double phase_rad, double remainder);
 
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);

@@ -28,14 +28,24 @@ double largest_product(const glm::dvec3 &p, const Reach &reach) {
 }
 
 // |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
-// across the view; it is never more than |I|.
-double excess_at_most_m(const glm::dvec3 &reference_m, double radius_m, const Reach &reach,
-                        const VisibleBox &box, double rho_m) {
-  const glm::dvec3 farthest_m =
-      glm::max(glm::abs(box.low_m - reference_m), glm::abs(box.high_m - reference_m));
-  const double q_m2 = radius_m * radius_m + 2.0 * largest_product(farthest_m, reach);
+// across the view (`product_m2` bounds |P.I|); it is never more than |I|.
+double excess_at_most_m(double radius_m, double product_m2, double rho_m) {
+  const double q_m2 = radius_m * radius_m + 2.0 * product_m2;
   const double sum_m = rho_m + std::max(0.0, rho_m - radius_m);
   return sum_m > 0.0 ? std::min(radius_m, q_m2 / sum_m) : radius_m;
+}
+
+// q / rho^2; r is between rho - |I| and rho + |I|.
+void widen_stretch(double radius_m, double product_m2, double rho_m, Excess &result) {
+  const double rho2 = rho_m * rho_m, t = radius_m / rho_m;
+  if (!(t < 1.0)) {
+    result.most_stretch = std::numeric_limits<double>::infinity();
+    return;
+  }
+  result.least_stretch =
+      std::min(result.least_stretch, -std::min(2.0 * product_m2 / rho2, t * (2.0 - t)));
+  result.most_stretch = std::max(
+      result.most_stretch, std::min((radius_m * radius_m + 2.0 * product_m2) / rho2, t * (2.0 + t)));
 }
 
 } // namespace
@@ -50,9 +60,13 @@ Excess excess_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diod
   }
   for (const VisibleBox &seen : visible) {
     const double rho_m = glm::distance(reference_m, glm::clamp(reference_m, seen.low_m, seen.high_m));
+    const glm::dvec3 farthest_m =
+        glm::max(glm::abs(seen.low_m - reference_m), glm::abs(seen.high_m - reference_m));
+    const double product_m2 = largest_product(farthest_m, reach);
     result.range_m = std::min(result.range_m, rho_m);
-    result.excess_m =
-        std::max(result.excess_m, excess_at_most_m(reference_m, result.radius_m, reach, seen, rho_m));
+    result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
+    result.excess_m = std::max(result.excess_m, excess_at_most_m(result.radius_m, product_m2, rho_m));
+    widen_stretch(result.radius_m, product_m2, rho_m, result);
   }
   return result;
 }

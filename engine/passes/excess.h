@@ -14,6 +14,11 @@ struct Excess {
   double range_m =
       std::numeric_limits<double>::infinity(); // at least, from the reference point to what is visible
   double excess_m = 0.0; // at most, |r_nm - rho| over the diodes and all that is visible; <= radius_m
+  // Bounds of u = r_nm^2 / rho^2 - 1, likewise; infinite where a point may be as near as the radius.
+  double least_stretch = 0.0, most_stretch = 0.0;
+  double farthest_m = 0.0; // at most, from the reference point to what is visible
+
+  bool operator==(const Excess &) const = default;
 };
 
 // Camera frame.

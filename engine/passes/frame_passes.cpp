@@ -69,7 +69,7 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
   // summed.
   const bool one_window = !view.signal.lit || windows == 1;
   Ways ways{};
-  ways.rest = view.signal.lit || view.model.backscatter != shader::backscatter_flat;
+  ways.rest = view.signal.lit || (view.model.backscatter != shader::backscatter_flat && !plan.short_sums_all);
   const bool can =
       plan.short_promise && one_window && ShortWay::can_sum(plan.short_groups, view.signal, sensor);
   // Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
@@ -78,6 +78,8 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
   ways.thin_out = can && sensor.samples > 1 && is_smooth &&
                   (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
+  if (plan.short_sums_all && !ways.short_way)
+    ways.rest = true;
   ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
   ways.all_points = !ways.listed || view.signal.lit || sensor.has_distortion();
   return ways;
@@ -123,7 +125,8 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
                          const Ways &ways, const std::vector<PlannedStrip> &strips,
                          const SceneBuffers &scene) {
   // Of one sample a pixel, the short way takes all that every diode lights and that surely keep the promise.
-  const bool has_lit = !ways.short_way || request.sensor.samples > 1 || !plan.surely_kept;
+  const bool has_lit = !plan.short_sums_all &&
+                       (!ways.short_way || request.sensor.samples > 1 || !plan.surely_kept);
   const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
   const auto make_short_way = [&](const Promise &promise, const ShortWayOptions &of) {
@@ -145,6 +148,7 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
           std::move(short_way),
           std::move(few_places),
           std::move(points),
+          plan.short_sums_all,
           has_lit,
           AccumulatePass(device, plan.stand_ins, view.model, view.signal, options,
                          {false, true, plan.precision, plan.promise}),

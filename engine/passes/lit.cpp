@@ -109,7 +109,7 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
   vulkan::compute_barrier(commands);
-  const shader::LitTilesConstants constants{strip, words(buffers.position_hi.address()),
+  const shader::LitTilesConstants constants{strip, words(buffers.position.address()),
                                             words(buffers.tags.address()), words(scene_.record.address()),
                                             words(parts_.address())};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
@@ -147,7 +147,7 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
 shader::LitGatherConstants LitPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
                                                      std::size_t window) const {
   return {strip,
-          words(buffers.position_hi.address()),
+          words(buffers.position.address()),
           words(buffers.tags.address()),
           words(parts_.address()),
           words(scene_.record.address()),
@@ -163,8 +163,7 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
                             const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const {
   shader::LitDecideConstants constants{
       strip,
-      words(buffers.position_hi.address()),
-      words(buffers.position_lo.address()),
+      words(buffers.position.address()),
       words(buffers.tags.address()),
       words(parts_.address()),
       words(scene_.record.address()),

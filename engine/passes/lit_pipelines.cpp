@@ -7,7 +7,8 @@
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
 #include "spirv/lit_open.h"
-#include "spirv/lit_tiles.h"
+#include "spirv/lit_tiles_double_float.h"
+#include "spirv/lit_tiles_fp64.h"
 #include "spirv/lit_trace_double_float.h"
 #include "spirv/lit_trace_fp64.h"
 #include "spirv/lit_try_double_float.h"
@@ -38,7 +39,7 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
                     {form.tiled ? 1u : 0u, form.masked ? 1u : 0u, again ? 1u : 0u});
   };
   LitPipelines made{
-      pipeline(shader::lit_tiles_spirv, shader::lit_tiles_spirv, sizeof(shader::LitTilesConstants),
+      pipeline(shader::lit_tiles_fp64_spirv, shader::lit_tiles_double_float_spirv, sizeof(shader::LitTilesConstants),
                {form.tiled ? 1u : 0u}),
       pipeline(shader::lit_open_spirv, shader::lit_open_spirv, sizeof(shader::LitGatherConstants), {}),
       pipeline(shader::lit_gather_fp64_spirv, shader::lit_gather_double_float_spirv,

@@ -55,8 +55,7 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
   for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
     const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
     const shader::ResolveConstants constants{
-        words(buffers.position_hi.address()),
-        words(buffers.position_lo.address()),
+        words(buffers.position.address()),
         words(buffers.sum.address() + first_plane * plane * sizeof(shader::vec4)),
         words(buffers.tags.address()),
         words(planes.address()),

@@ -125,9 +125,30 @@ double pattern_error(const DiodeGroups &groups, const SumModel &model, const Rou
   return real_power_error(largest, t, least_cosine);
 }
 
+// What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and two in its
+// smaller; those of 1 / rho^2 are common to all diodes.
+double stretch_error(double t) { return 12.0 * t + 2.0 * t * t + (division + 3.0) * (2.0 * t + t * t); }
+
+// a of I J cos / r^2 by powers of u (power_sums.h): its factors, the polynomial, and u in (1 + u)^(-p/2).
+double power_weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope,
+                          double inverse_powers) {
+  const double t = groups.radius_over_range;
+  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
+  double error = 4.0 + (inverse_powers - 2.0) * (division + 3.0) +
+                 groups.power_sums.growth * (2.0 * groups.power_sums.powers + 3.0) +
+                 0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
+  if (model.pattern == shader::pattern_power)
+    error += model.order * (along_error(t) / least_cosine + 1.0);
+  if (model.backscatter == shader::backscatter_lambert)
+    error += 2.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
+  return error;
+}
+
 // a of I J cos / r^2, u.
 double weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range, r2 = squared_range_error(t);
+  if (groups.power_sums.powers > 0)
+    return power_weight_error(groups, model, scope, inverse_powers(model).value());
   double error = r2 + division + 4.0 + pattern_error(groups, model, scope);
   if (model.backscatter == shader::backscatter_lambert)
     error += 0.5 * r2 + root + division + 6.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
@@ -137,6 +158,10 @@ double weight_error(const DiodeGroups &groups, const SumModel &model, const Roun
 // b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
 double excess_error_m(const DiodeGroups &groups) {
   const double t = groups.radius_over_range;
+  if (groups.power_sums.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
+    return groups.radius_m * (6.0 + t) / (1.0 - t) +
+           groups.excess_m * (groups.power_sums.growth * (2.0 * groups.power_sums.powers + 4.0) +
+                              (division + 3.0) / (1.0 - t));
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
          groups.excess_m * (0.25 * squared_range_error(t) + 0.5 * root + division + 4.5);
 }
@@ -199,9 +224,12 @@ private:
     double left_out = 1.0;
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
-    TermError error{weight_ + summation() * growth + 3.0 * u_, 0.0};
-    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
-                   growth * (summation() * groups_.excess_m + left_out / wavenumber_rad_m);
+    const PowerSums &powers = groups_.power_sums;
+    TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
+    error.path_m =
+        growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
+        growth * (summation() * powers.growth * groups_.excess_m + left_out / wavenumber_rad_m) +
+        powers.angle_error_rad / wavenumber_rad_m;
     const double turned_m = lengths_.detour_m + groups_.excess_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first

@@ -30,8 +30,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
   return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
           storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
-          storage(samples * 3 * sizeof(float)),
-          storage(samples * 3 * sizeof(float)),
+          storage(samples * 3 * sizeof(double)),
           storage(samples * surface_vectors * sizeof(shader::vec4)),
           storage(samples * sizeof(float)),
           storage(reached_bytes, Usage::eTransferDst | Usage::eTransferSrc),

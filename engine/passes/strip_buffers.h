@@ -10,9 +10,7 @@ namespace pmdsim {
 struct StripBuffers {
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer tags;      // uvec2 a sample (shaders/interface.h): pixel id, triangle id
-  vulkan::Buffer
-      position_hi; // float[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
-  vulkan::Buffer position_lo;
+  vulkan::Buffer position; // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
