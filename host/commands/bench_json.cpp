@@ -80,7 +80,7 @@ ordered_json growth_json(const Growth &growth) {
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
     points.push_back({{"size", size},
-                      {"frame_ms", ms},
+                      {"frame_ms_min", ms},
                       {"marginal_ms", growth.marginal_ms[i]},
                       {"over_line", ms / growth.line.at_ms(size)}});
   }

@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "host/commands/camera.h"
 #include "host/commands/distance_errors.h"
+#include "host/commands/interruption.h"
 #include "host/commands/peak_memory.h"
 #include "host/commands/progress_bar.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double checked_interactions = 1e7; // a second of the reference
 constexpr std::size_t fewest_checked = 32, most_checked = 1024;
-constexpr double prompt_frame_ms = 300.0; // frames that take longer are timed in fewer rounds
+constexpr double prompt_frame_ms = 1000.0; // frames that take longer are timed in fewer rounds
 constexpr int rounds_of_prompt = 5, rounds_of_slow = 3;
 constexpr double visit_ms = 60.0; // frames are timed until they have taken this
 constexpr int most_frames_of_visit = 4;
@@ -145,7 +146,8 @@ RandomCheck check_at_random(const Setup &setup, const Measurement &found, const 
       std::clamp(static_cast<std::size_t>(checked_interactions / each), fewest_checked, most_checked);
   const std::vector<std::uint32_t> pixels = random_pixels(sensor.pixel_count(), count);
   const reference::Frame truth = reference::simulate(scene, sensor, illuminators, setup.backscatter,
-                                                     {.shadows = setup.shadows, .pixels = pixels});
+                                                     {.shadows = setup.shadows, .pixels = pixels},
+                                                     [](double) { throw_if_interrupted(); });
   RandomCheck check{0.0, pixels.size()};
   for (std::size_t frequency = 0; frequency < sensor.modulation_hz.size(); ++frequency) {
     const double limit_m = largest_plausible_error_m(sensor, frequency, found);
@@ -191,7 +193,7 @@ std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
   for (const SweepRow &row : rows) {
     if (growths.empty() || growths.back().quantity != row.point.quantity)
       growths.push_back({row.point.quantity, {}, {}, {}});
-    growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.median});
+    growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.min});
   }
   for (Growth &growth : growths) {
     growth.line = straight_line(growth.points);

@@ -39,7 +39,7 @@ std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &swee
 // Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
 double interactions_per_s(const SweepRow &row, Mode mode);
 
-// How one quantity's frame times grow.
+// How one quantity's frame times grow: the least of each point, as what disturbs a frame only adds to it.
 struct Growth {
   SweptQuantity quantity;
   std::vector<SizeAndTime> points;
