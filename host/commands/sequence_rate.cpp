@@ -48,7 +48,7 @@ class TimedSequences {
 public:
   TimedSequences(const Setup &setup, const Options &options)
       : setup_(setup), exposures_(setup, options.device, true, options.accuracy),
-        bar_((3.0 * setup.frames.count + 1.0) * samples_of_frame(setup)), run_{"render",
+        bar_((4.0 * setup.frames.count + 1.0) * samples_of_frame(setup)), run_{"render",
                                                                                exposures_.camera().device(),
                                                                                exposures_.camera().driver(),
                                                                                options.accuracy,
@@ -97,6 +97,7 @@ SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, s
   TimedSequences sequences(several, options);
   sequences.warm_up();
   const double measured_per_s = sequences.rate("not written", {});
+  sequences.rate("warming up NPY", {Format::npy});
   const double npy_per_s = sequences.rate("written as NPY", {Format::npy});
   const double exr_per_s = sequences.rate("written as EXR", {Format::exr});
   return {measured_per_s, npy_per_s, exr_per_s, frames};

@@ -14,11 +14,12 @@ struct SequenceRate {
   std::uint32_t frames;                        // that each is the rate of
 };
 
-// Runs that many frames of the setup, at its rate and from its start whatever its own count is, three times
-// as `render` does, on the options' device and in their mode; after one frame that is not timed, which
-// compiles what is not compiled yet. The files go to a temporary directory that is removed, however this
-// ends; what they cost is the way to the operating system, not to the disk behind it. Throws Error,
-// interrupted among others.
+// Runs that many frames of the setup, at its rate and from its start whatever its own count is, as `render`
+// does, on the options' device and in their mode. One frame goes before, which compiles what is not compiled
+// yet, and NPY is written twice, of which the second time counts: the first makes the operating system find
+// memory for so many files, which in a virtual machine costs more than to write them. The files go to a
+// temporary directory that is removed, however this ends; what they cost is the way to the operating system,
+// not to the disk behind it. Throws Error, interrupted among others.
 SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, std::uint32_t frames);
 
 } // namespace pmdsim
