@@ -31,7 +31,9 @@ const char *type_name(std::span<const std::uint32_t>) { return "<u4"; }
 void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution) {
   std::visit(
       [&](auto values) {
-        file.write(npy_header(type_name(values), resolution));
+        const std::string header = npy_header(type_name(values), resolution);
+        file.reserve(header.size() + values.size_bytes());
+        file.write(header);
         file.write({reinterpret_cast<const char *>(values.data()), values.size_bytes()});
       },
       channel.values);

@@ -50,6 +50,14 @@ OutputFile::~OutputFile() {
 
 void OutputFile::fail(int error_number) const { throw write_error(path_, error_number); }
 
+void OutputFile::reserve(std::uint64_t bytes) {
+  if (::fallocate(::fileno(stream_), 0, 0, static_cast<off_t>(bytes)) == 0)
+    return;
+  // Not every file system can; what else may be wrong, the writing tells.
+  if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
+    fail(first_error_ = errno);
+}
+
 void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
     return;

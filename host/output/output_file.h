@@ -26,6 +26,9 @@ public:
 
   const std::filesystem::path &path() const { return path_; }
 
+  // Reserves the file's whole length, where it is known before anything is written: it is found out at once
+  // whether the disk has room, and the writing takes about half as long.
+  void reserve(std::uint64_t bytes);
   void write(std::string_view bytes);
   void seek(std::uint64_t offset);
   std::uint64_t tell() const;

@@ -188,6 +188,24 @@ TEST_CASE("a full disk is an error even where a library swallowed it") {
   CHECK(names_in(temporary.path()).empty());
 }
 
+TEST_CASE("a disk without room for a file says so before it is written") {
+  const pmdsim::test::TemporaryFolder temporary;
+  OutputSet outputs(temporary.path());
+  const FileSizeLimit limit(1000);
+  const auto reserve_too_much = [](OutputFile &file) {
+    file.reserve(100000);
+    FAIL("there is no room");
+  };
+  CHECK(output_error([&] { outputs.add("large.npy", reserve_too_much); }) ==
+        (temporary.path() / "large.npy").string() + ": cannot be written: File too large");
+  outputs.add("small.npy", [](OutputFile &file) {
+    file.reserve(5);
+    file.write("hello");
+  });
+  outputs.publish();
+  CHECK(content_of(temporary.path() / "small.npy") == "hello");
+}
+
 TEST_CASE("a disk that is full only at the last flush is an error too") {
   const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
