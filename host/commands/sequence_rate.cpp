@@ -26,7 +26,12 @@ namespace fs = std::filesystem;
 class TemporaryDirectory {
 public:
   TemporaryDirectory() {
-    std::string name = (fs::temp_directory_path() / "pmdsim-XXXXXX").string();
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    if (error)
+      throw Error(ExitCode::output,
+                  fmt::format("TMPDIR: expected a directory for temporary files: {}", error.message()));
+    std::string name = (parent / "pmdsim-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
       throw Error(ExitCode::output, fmt::format("{}: temporary directory cannot be made: {}", name,
                                                 std::generic_category().message(errno)));

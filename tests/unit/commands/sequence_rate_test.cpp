@@ -52,3 +52,10 @@ TEST_CASE("a sequence that fails in the middle leaves no file either") {
                     Catch::Contains("File name too long"));
   CHECK(names_in(wall.work / "temporary").empty());
 }
+
+TEST_CASE("a directory for temporary files that is none is told") {
+  const Wall wall;
+  const TemporaryFilesIn nowhere(wall.work / "nowhere");
+  CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.options, 2),
+                    "TMPDIR: expected a directory for temporary files: No such file or directory");
+}
