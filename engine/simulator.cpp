@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -54,6 +55,10 @@ LitWindow few_runs(LitWindow window) {
 
 void nobody(double) {}
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 // What a frame is to be made of; made again where the first plan does not keep what was promised.
 struct Requested {
   const Scene *scene;
@@ -88,6 +93,8 @@ struct Simulator::State {
   void sum_list(const PlannedStrip &planned, const LitWindow &window, std::uint32_t list,
                 const AccumulatePass &accumulate, const ResolvePass &resolve, const Progress &progress);
   void read_back(const PlannedStrip &planned);
+  void store(const PlannedStrip &planned, Measurement &measurement);
+  Measurement spare_memory();
   void check_strip(std::size_t strip, Measurement &measurement);
 
   SimulatorOptions options;
@@ -99,6 +106,8 @@ struct Simulator::State {
   std::optional<Requested> requested;
   std::uint32_t attempt = 0; // of frame_plans
   std::optional<FramePasses> prepared;
+  std::mutex spare_mutex;
+  std::vector<Measurement> spare; // frames that are done with
 };
 
 void Simulator::State::see(const PlannedStrip &planned) {
@@ -254,8 +263,23 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
   }
   read_back(planned);
   recorder.finish();
-  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
+  store(planned, measurement);
   progress(1.0);
+}
+
+void Simulator::State::store(const PlannedStrip &planned, Measurement &measurement) {
+  const auto start = std::chrono::steady_clock::now();
+  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
+  recorder.add("read_back", milliseconds_since(start));
+}
+
+Measurement Simulator::State::spare_memory() {
+  const std::scoped_lock lock(spare_mutex);
+  if (spare.empty())
+    return {};
+  Measurement memory = std::move(spare.back());
+  spare.pop_back();
+  return memory;
 }
 
 void Simulator::State::forget_broken() {
@@ -284,8 +308,7 @@ void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) 
   recorder.finish();
   recorder.reset(times);
   check.compare(strip, planned, prepared->buffers, measurement, measurement.accuracy);
-  measurement.accuracy.check_ms +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  measurement.accuracy.check_ms += milliseconds_since(start);
 }
 
 void Simulator::State::prepare() {
@@ -316,7 +339,7 @@ void Simulator::State::refine(const std::string &breach) {
 Measurement Simulator::State::measure(const Progress &progress) {
   const auto start = std::chrono::steady_clock::now();
   recorder.reset();
-  Measurement measurement = make_measurement(prepared->sensor, prepared->signal, options);
+  Measurement measurement = make_measurement(prepared->sensor, prepared->signal, options, spare_memory());
   measurement.accuracy = prepared->report;
   if (prepared->shadows == Shadows::automatic && options.keep_reached)
     measurement.sample_reached = none_reached(prepared->sensor, prepared->groups);
@@ -334,9 +357,7 @@ Measurement Simulator::State::measure(const Progress &progress) {
   if (prepared->shadows == Shadows::automatic)
     finish_lit(*prepared, measurement);
   measurement.passes = recorder.times();
-  measurement.frame_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() -
-      measurement.accuracy.check_ms;
+  measurement.frame_ms = milliseconds_since(start) - measurement.accuracy.check_ms;
   return measurement;
 }
 
@@ -361,12 +382,20 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   state_->prepare();
 }
 
+void Simulator::reuse(Measurement &&frame) {
+  constexpr std::size_t frames = 2; // no more are measured and written side by side, as a rule
+  const std::scoped_lock lock(state_->spare_mutex);
+  if (state_->spare.size() < frames)
+    state_->spare.push_back(std::move(frame));
+}
+
 Measurement Simulator::measure(const Progress &progress) {
   if (!state_->prepared)
     throw std::logic_error("measure() before prepare()");
   Measurement measurement = state_->measure(progress);
   while (const auto breach = state_->breach_of(measurement)) {
     state_->refine(*breach);
+    reuse(std::move(measurement));
     measurement = state_->measure(progress);
   }
   return measurement;

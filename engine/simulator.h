@@ -36,6 +36,9 @@ public:
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
   // accuracy (the error asked for was not kept), input (more light returns than a float holds).
   Measurement measure(const Progress &progress = {});
+  // Takes the memory of a frame that is done with, for a later one; from any thread. (A large frame's memory
+  // takes longer to come from the operating system than its values.)
+  void reuse(Measurement &&frame);
 
 private:
   struct State;

@@ -2,6 +2,7 @@
 #include "host/commands/commands.h"
 #include "host/commands/interruption.h"
 #include "host/options.h"
+#include "host/vector_width.h"
 
 #include <fmt/format.h>
 #include <new>
@@ -19,8 +20,10 @@ int main(int argument_count, char **arguments) {
   using namespace pmdsim;
   try {
     stop_on_signals();
-    if (const auto options = parse_options(argument_count, arguments))
+    if (const auto options = parse_options(argument_count, arguments)) {
+      settle_vector_width(options->no_wide_vectors);
       run_command(*options);
+    }
     return static_cast<int>(ExitCode::done);
   } catch (const Error &error) {
     return report(error.code(), error.what());

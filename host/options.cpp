@@ -53,7 +53,8 @@ void add_measuring(CLI::App &command, Written &written) {
   command.add_option("--device", written.device,
                      "part of a device's name, its index (see `pmdsim devices`), or `reference`");
   add_accuracy(command, written.accuracy);
-  command.add_flag("--no-wide-vectors", written.no_wide_vectors, "not supported yet");
+  command.add_flag("--no-wide-vectors", written.no_wide_vectors,
+                   "lavapipe: vectors of no more than 256 bits, whatever LP_NATIVE_VECTOR_WIDTH says");
 }
 
 void add_output(CLI::App &command, Written &written) {
@@ -127,11 +128,6 @@ void add_commands(CLI::App &app, Written &written) {
     add_json(*command, written);
 }
 
-void refuse(bool asked_for, const std::string &feature) {
-  if (asked_for)
-    throw Error(ExitCode::usage, feature + " is not supported yet");
-}
-
 std::filesystem::path output_directory(const Written &written, const std::string &command) {
   if (!written.output_directory.empty())
     return written.output_directory;
@@ -189,7 +185,6 @@ void check_sweeping(const Written &written) {
 Options checked(const Written &written, const std::string &command) {
   if (command == "bench" && written.setup.empty())
     check_sweeping(written);
-  refuse(written.no_wide_vectors, "--no-wide-vectors");
   check_importing(written);
   if (command == "tradeoff" && names_the_reference(written.device))
     throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
@@ -201,6 +196,7 @@ Options checked(const Written &written, const std::string &command) {
   options.sensor_name = written.sensor_name;
   options.device = written.device;
   options.json = written.json;
+  options.no_wide_vectors = written.no_wide_vectors;
   options.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
   options.mode_written = written.accuracy.mode.has_value();
   if (written.samples)

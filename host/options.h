@@ -35,11 +35,12 @@ struct Options {
   std::filesystem::path calibration;      // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;    // along the columns, instead of the default
   std::string sensor_name;                // instead of the file's; empty where it is not given
+  bool no_wide_vectors = false;           // vector_width.h
   bool json = false;
 };
 
 // Nothing where --help or --version was asked for and has been answered on stdout. Throws Error (usage) in
-// one line for what is wrong and for what is not supported yet.
+// one line for what is wrong.
 std::optional<Options> parse_options(int argument_count, const char *const *arguments);
 
 } // namespace pmdsim

@@ -33,6 +33,7 @@ uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool ti
 vec4 load_vec4(uvec2 address, uint i) { return Vec4s(address).at[i]; }
 void store_vec4(uvec2 address, uint i, vec4 value) { Vec4s(address).at[i] = value; }
 uvec2 load_tag(uvec2 address, uint i) { return Tags(address).at[i]; }
+void store_tag(uvec2 address, uint i, uvec2 tag) { Tags(address).at[i] = tag; }
 #else
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer DoubleWords { double at[]; };
 vec2 two_floats(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
@@ -46,6 +47,7 @@ void store_vec4(uvec2 address, uint i, vec4 value) {
   to.at[2 * i + 1] = packDouble2x32(floatBitsToUint(value.zw));
 }
 uvec2 load_tag(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
+void store_tag(uvec2 address, uint i, uvec2 tag) { DoubleWords(address).at[i] = packDouble2x32(tag); }
 #endif
 TrianglePlane load_plane(uvec2 address, uint i) {
   vec4 rest = load_vec4(address, 3 * i + 2);

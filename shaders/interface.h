@@ -267,6 +267,23 @@ struct VisibilityConstants {
   uvec2 planes;          // in: TrianglePlane[]
   uvec2 shapes;          // in: ShapePaint[]
   uvec2 surfaces;        // in: SurfacePaint[]
+  // Where fragments leave keys:
+  uvec2 tags;         // in and out: of all of the strip's fragments, row by row
+  uint tag_columns;   // fragments in a row
+  uint padding;
+};
+
+// Turns keys into tags. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
+// depth: the largest is the nearest, and of triangles at one depth the first.
+struct TagsConstants {
+  uvec2 tags;        // in: keys, 0 where nothing was hit; out: tags
+  uint tag_columns;  // fragments in a row
+  uint fragments;    // in all
+  uint tile_columns; // of a tile, fragments: as many as there are where samples are an even grid
+  uint tile_rows;
+  uint column, row;  // of the strip's first pixel
+  uint resolution_x; // of the frame
+  uint fragments_per_pixel_side; // 0: with distortion
 };
 
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
@@ -445,7 +462,7 @@ static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
-static_assert(sizeof(VisibilityConstants) == 80);
+static_assert(sizeof(VisibilityConstants) == 96 && sizeof(TagsConstants) == 40);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);

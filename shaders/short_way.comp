@@ -107,9 +107,11 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
       add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
     float moment[moments];
     find_moments(total, point, run, moment);
-    terms += backscatter * terms_of(moment[0], point.rho, point.height, run);
-    [[unroll]] for (uint t = 0; t < tones; ++t)
-      z[t] = compensated_add(z[t], backscatter * tone_return(moment, path, run, Lights(constants.light).at.tones[t]));
+    terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
+    [[unroll]] for (uint t = 0; t < tones; ++t) {
+      vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
+      z[t] = compensated_add(z[t], backscatter > 0.0 ? backscatter * value : vec2(0.0)); // black may not be a number
+    }
   }
 }
 

@@ -3,12 +3,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
+#ifdef TAG_KEYS
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#endif
 #include "paint.glsl"
 #include "tag.glsl"
 
 layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
 layout(location = 0) flat in uint visible_triangle;
-layout(location = 0) out uvec2 tag;
 
 Real3 term(float factor, vec4 hi, vec4 lo) { return scale3(real3(hi.xyz, lo.xyz), real(factor)); }
 
@@ -28,5 +31,5 @@ void main() {
   Real3 point = scale3(ray, divide(real(plane.plane_hi.w, plane.plane_lo.w), dot3(normal, ray)));
   if (!look_of(constants.shapes, constants.surfaces, visible_triangle, point).is_there)
     discard;
-  tag = tag_of_fragment(constants, uvec2(gl_FragCoord.xy), visible_triangle);
+  leave_tag(constants, uvec2(gl_FragCoord.xy), visible_triangle);
 }

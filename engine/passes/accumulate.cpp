@@ -59,8 +59,9 @@ namespace {
 
 // Whether all weights but for the distance are those of the strongest diode, or none.
 bool is_alike(const DiodeGroups &groups, const SumModel &model, const AccumulatePass::Scope &scope) {
-  return model.backscatter == shader::backscatter_flat && model.pattern == shader::pattern_isotropic &&
-         !scope.shadowed && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+  return groups.power_sums.powers > 0 && model.backscatter == shader::backscatter_flat &&
+         model.pattern == shader::pattern_isotropic && !scope.shadowed &&
+         std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
            return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
          });
 }
@@ -143,14 +144,30 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
   return 2 + (model.backscatter == shader::backscatter_lambert ? 1 : 0) + model.order;
 }
 
+namespace {
+
+// Of a diode that shines, relative to the strongest.
+double least_intensity(const DiodeGroups &groups) {
+  double least = 1.0;
+  for (const shader::GroupDiode &diode : groups.diodes)
+    if (diode.intensity > 0.0f)
+      least = std::min(least, static_cast<double>(diode.intensity));
+  return least;
+}
+
+} // namespace
+
 void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m) {
   std::vector<Excess> reaches;
   for (const DiodeRun &run : groups.runs)
     reaches.push_back(run.reach);
   if (const auto powers = inverse_powers(model))
-    groups.power_sums = power_sums(reaches, *powers, groups.moments, wavenumber_rad_m);
-  groups.power_sums.planar = std::ranges::all_of(
-      groups.diodes, [](const shader::GroupDiode &diode) { return diode.position.z == 0.0f; });
+    groups.power_sums =
+        power_sums(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
+  groups.power_sums.planar =
+      groups.power_sums.powers > 0 && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+        return diode.position.z == 0.0f;
+      });
 }
 
 Precision sum_precision(const Signal &signal, Precision wanted) {

@@ -19,7 +19,7 @@ struct DiodeRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into DiodeGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
-  Excess reach; // of its group; the radius is at most half of the range to what it lights
+  Excess reach;           // of its group; the radius is at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.

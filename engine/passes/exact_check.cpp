@@ -41,7 +41,7 @@ float channel_value(const StripBuffers &buffers, const shader::Strip &strip, std
                     std::uint32_t pixel) {
   float value = 0.0f;
   const std::size_t at = std::size_t{channel} * strip.padded_pixels + pixel;
-  std::memcpy(&value, buffers.channels_read.mapped().data() + at * sizeof(value), sizeof(value));
+  std::memcpy(&value, channels_for_host(buffers).data() + at * sizeof(value), sizeof(value));
   return value;
 }
 

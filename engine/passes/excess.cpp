@@ -42,10 +42,9 @@ void widen_stretch(double radius_m, double product_m2, double rho_m, Excess &res
     result.most_stretch = std::numeric_limits<double>::infinity();
     return;
   }
-  result.least_stretch =
-      std::min(result.least_stretch, -std::min(2.0 * product_m2 / rho2, t * (2.0 - t)));
-  result.most_stretch = std::max(
-      result.most_stretch, std::min((radius_m * radius_m + 2.0 * product_m2) / rho2, t * (2.0 + t)));
+  result.least_stretch = std::min(result.least_stretch, -std::min(2.0 * product_m2 / rho2, t * (2.0 - t)));
+  result.most_stretch =
+      std::max(result.most_stretch, std::min((radius_m * radius_m + 2.0 * product_m2) / rho2, t * (2.0 + t)));
 }
 
 } // namespace

@@ -19,8 +19,10 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
 
 SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
                           const Sensor &sensor, Backscatter backscatter, TextureCache &textures) {
-  const auto planes = triangle_planes(camera, scene, backscatter,
-                                      sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
+  auto planes = triangle_planes(camera, scene, backscatter,
+                                sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
+  if (planes.empty()) // what sees nothing looks the first one up
+    planes.emplace_back();
   return {vulkan::upload(device, std::as_bytes(std::span(planes))),
           upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
 }
@@ -125,8 +127,8 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
                          const Ways &ways, const std::vector<PlannedStrip> &strips,
                          const SceneBuffers &scene) {
   // Of one sample a pixel, the short way takes all that every diode lights and that surely keep the promise.
-  const bool has_lit = !plan.short_sums_all &&
-                       (!ways.short_way || request.sensor.samples > 1 || !plan.surely_kept);
+  const bool has_lit =
+      !plan.short_sums_all && (!ways.short_way || request.sensor.samples > 1 || !plan.surely_kept);
   const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
   const auto make_short_way = [&](const Promise &promise, const ShortWayOptions &of) {
@@ -135,7 +137,7 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
   };
   const bool few = ways.thin_out && plan.few_promise;
   ShortWay short_way =
-      make_short_way(plan.short_promise.value_or(*plan.promise),
+      make_short_way(plan.short_promise ? *plan.short_promise : *plan.promise,
                      {scene.paint.painted, ways.thin_out ? 1u : 0u, few, ways.short_way, lists_pixels});
   std::optional<ShortWay> few_places;
   if (few)

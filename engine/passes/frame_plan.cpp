@@ -85,7 +85,7 @@ DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> 
                       Precision precision) {
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
   DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision);
-  if (precision == Precision::fp32)
+  if (precision == Precision::fp32 && view.signal.by_moments)
     sum_by_powers(groups, view.model, wavenumber_rad_m);
   return groups;
 }

@@ -39,8 +39,8 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
                     {form.tiled ? 1u : 0u, form.masked ? 1u : 0u, again ? 1u : 0u});
   };
   LitPipelines made{
-      pipeline(shader::lit_tiles_fp64_spirv, shader::lit_tiles_double_float_spirv, sizeof(shader::LitTilesConstants),
-               {form.tiled ? 1u : 0u}),
+      pipeline(shader::lit_tiles_fp64_spirv, shader::lit_tiles_double_float_spirv,
+               sizeof(shader::LitTilesConstants), {form.tiled ? 1u : 0u}),
       pipeline(shader::lit_open_spirv, shader::lit_open_spirv, sizeof(shader::LitGatherConstants), {}),
       pipeline(shader::lit_gather_fp64_spirv, shader::lit_gather_double_float_spirv,
                sizeof(shader::LitGatherConstants), {form.tiled ? 1u : 0u}),

@@ -57,25 +57,28 @@ void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool t
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options) {
-  Measurement measurement;
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+                             Measurement &&memory) {
+  Measurement measurement = std::move(memory);
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
   measurement.returns.resize(signal.frequencies());
   for (Return &of_frequency : measurement.returns) {
     for (auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
       channel->resize(pixels);
-    of_frequency.taps.assign(signal.keep_taps ? signal.taps : 0, std::vector<float>(pixels));
+    of_frequency.taps.resize(signal.keep_taps ? signal.taps : 0);
+    for (std::vector<float> &tap : of_frequency.taps)
+      tap.resize(pixels);
   }
   for (auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
-  if (signal.lit)
-    measurement.lit.resize(pixels);
-  if (options.keep_sample_tags || options.keep_reached)
-    for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
-      ids->resize(pixels * sensor.samples * sensor.samples);
+  measurement.lit.resize(signal.lit ? pixels : 0);
+  const bool keeps_tags = options.keep_sample_tags || options.keep_reached;
+  for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
+    ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
+  measurement.sample_reached.clear();
   return measurement;
 }
 
@@ -87,8 +90,9 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
                          Access::eTransferRead);
   const vk::DeviceSize channel_bytes =
       vk::DeviceSize{strip.padded_pixels} * signal.channels() * sizeof(float);
-  commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
-                      vk::BufferCopy(0, 0, channel_bytes));
+  if (!buffers.channels.is_mapped())
+    commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
+                        vk::BufferCopy(0, 0, channel_bytes));
   if (signal.promised)
     commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
@@ -97,7 +101,9 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
     commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
                         vk::BufferCopy(0, 0, samples * sizeof(shader::uvec2)));
   }
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader,
+                         Access::eTransferWrite | Access::eShaderStorageWrite, Stage::eHost,
+                         Access::eHostRead);
 }
 
 shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
@@ -109,8 +115,7 @@ shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, Measurement &measurement) {
   const auto store = [&](std::uint32_t channel, auto &to) {
-    store_rows(buffers.channels_read.mapped().data() +
-                   std::size_t{channel} * strip.padded_pixels * sizeof(float),
+    store_rows(channels_for_host(buffers).data() + std::size_t{channel} * strip.padded_pixels * sizeof(float),
                strip, strip.resolution_x, to);
   };
   store(shader::channel_range_m, measurement.range_m);

@@ -6,8 +6,9 @@
 
 namespace pmdsim {
 
-// An empty frame of the sensor's size.
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options);
+// A frame of the sensor's size, to be filled, in `memory`, whatever that holds.
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+                             Measurement &&memory);
 
 // Copies what the resolve pass (and, if kept, the visibility pass) left to memory that the host can read.
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

@@ -125,17 +125,22 @@ double pattern_error(const DiodeGroups &groups, const SumModel &model, const Rou
   return real_power_error(largest, t, least_cosine);
 }
 
-// What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and two in its
-// smaller; those of 1 / rho^2 are common to all diodes.
-double stretch_error(double t) { return 12.0 * t + 2.0 * t * t + (division + 3.0) * (2.0 * t + t * t); }
+// What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and three in its
+// smaller; 1 / rho^2 is a product and a division of the rounded rho.
+constexpr double inverse_square = division + 3.0;
+double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
+
+// Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
+// as many sums.
+double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.power_sums.powers; }
 
 // a of I J cos / r^2 by powers of u (power_sums.h): its factors, the polynomial, and u in (1 + u)^(-p/2).
 double power_weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope,
                           double inverse_powers) {
   const double t = groups.radius_over_range;
   const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
-  double error = 4.0 + (inverse_powers - 2.0) * (division + 3.0) +
-                 groups.power_sums.growth * (2.0 * groups.power_sums.powers + 3.0) +
+  double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division + 2.0) +
+                 groups.power_sums.growth * polynomial_error(groups) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
   if (model.pattern == shader::pattern_power)
     error += model.order * (along_error(t) / least_cosine + 1.0);
@@ -159,9 +164,9 @@ double weight_error(const DiodeGroups &groups, const SumModel &model, const Roun
 double excess_error_m(const DiodeGroups &groups) {
   const double t = groups.radius_over_range;
   if (groups.power_sums.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
-    return groups.radius_m * (6.0 + t) / (1.0 - t) +
-           groups.excess_m * (groups.power_sums.growth * (2.0 * groups.power_sums.powers + 4.0) +
-                              (division + 3.0) / (1.0 - t));
+    return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
+           groups.excess_m *
+               (groups.power_sums.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
          groups.excess_m * (0.25 * squared_range_error(t) + 0.5 * root + division + 4.5);
 }
@@ -226,10 +231,9 @@ private:
       left_out *= phase_rad / k;
     const PowerSums &powers = groups_.power_sums;
     TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
-    error.path_m =
-        growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
-        growth * (summation() * powers.growth * groups_.excess_m + left_out / wavenumber_rad_m) +
-        powers.angle_error_rad / wavenumber_rad_m;
+    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
+                   growth * (summation() * powers.growth * groups_.excess_m + left_out / wavenumber_rad_m) +
+                   powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.excess_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first

@@ -3,6 +3,7 @@
 #include "shaders/lit_interface.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pmdsim {
 
@@ -28,6 +29,8 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
+  vulkan::Buffer channels = storage(channel_bytes, Usage::eTransferSrc);
+  vulkan::Buffer channels_read = read(channels.is_mapped() ? 0 : channel_bytes);
   return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
           storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * 3 * sizeof(double)),
@@ -38,11 +41,15 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
           storage(signal.promised ? samples * sizeof(float) : 0),
           storage(broken_bytes, Usage::eTransferDst | Usage::eTransferSrc),
           storage(samples * signal.sum_planes() * sizeof(shader::vec4)),
-          storage(channel_bytes, Usage::eTransferSrc),
-          read(channel_bytes),
+          std::move(channels),
+          std::move(channels_read),
           read(broken_bytes),
           read(options.keep_sample_tags || options.keep_reached ? tag_bytes : 0),
           read(options.keep_reached ? reached_bytes : 0)};
+}
+
+std::span<const std::byte> channels_for_host(const StripBuffers &buffers) {
+  return buffers.channels.is_mapped() ? buffers.channels.mapped() : buffers.channels_read.mapped();
 }
 
 std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel) {

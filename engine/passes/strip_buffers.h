@@ -5,13 +5,17 @@
 #include "engine/passes/strips.h"
 #include "engine/vulkan/buffer.h"
 
+#include <cstddef>
+#include <span>
+
 namespace pmdsim {
 
 struct StripBuffers {
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer tags;      // uvec2 a sample (shaders/interface.h): pixel id, triangle id
-  vulkan::Buffer position; // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
-  vulkan::Buffer surface;     // the vectors a sample that the sum asks for
+  vulkan::Buffer
+      position;           // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
+  vulkan::Buffer surface; // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;      // diodes that reach it, a word a sample; likewise
@@ -19,11 +23,14 @@ struct StripBuffers {
   vulkan::Buffer broken;   // shader::BrokenPromise; likewise
   vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 a sample
   vulkan::Buffer channels; // channel by channel, padded_pixels words each
-  vulkan::Buffer channels_read;
+  vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer broken_read;
   vulkan::Buffer tags_read;    // empty unless the samples' triangles are asked for
   vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
 };
+
+// The channels as the host reads them, once they are read back.
+std::span<const std::byte> channels_for_host(const StripBuffers &buffers);
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,

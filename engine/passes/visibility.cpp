@@ -4,7 +4,12 @@
 #include "engine/passes/sample_precision.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/errors.h"
+#include "spirv/tags_double_float.h"
+#include "spirv/tags_fp64.h"
 #include "spirv/visibility_frag.h"
+#include "spirv/visibility_keys_frag.h"
+#include "spirv/visibility_keys_masked_double_float.h"
+#include "spirv/visibility_keys_masked_fp64.h"
 #include "spirv/visibility_masked_double_float.h"
 #include "spirv/visibility_masked_fp64.h"
 #include "spirv/visibility_vert.h"
@@ -65,6 +70,10 @@ vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<Ras
 // The opaque form runs no arithmetic at all.
 std::span<const std::uint32_t> fragment_shader(const vulkan::Device &device, bool masked,
                                                SamplePrecision precision) {
+  if (!device.has_attachments())
+    return masked ? choose(device, precision, shader::visibility_keys_masked_fp64_spirv,
+                           shader::visibility_keys_masked_double_float_spirv)
+                  : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv);
   if (!masked)
     return shader::visibility_frag_spirv;
   return choose(device, precision, shader::visibility_masked_fp64_spirv,
@@ -94,13 +103,18 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
     raster.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
     // Of triangles at the same depth the one that comes first in the scene stays.
-    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eGreater);
+    const bool attached = device.has_attachments();
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, attached, attached, vk::CompareOp::eGreater);
     vk::PipelineColorBlendAttachmentState write;
     write.setColorWriteMask(vk::ColorComponentFlagBits::eR | vk::ColorComponentFlagBits::eG);
-    const vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
+    vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
+    if (!attached)
+      blend.setAttachments({});
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
-    const vk::PipelineRenderingCreateInfo rendering(0, tag_format, depth_format);
+    vk::PipelineRenderingCreateInfo rendering(0, tag_format, depth_format);
+    if (!attached)
+      rendering.setColorAttachmentFormats({}).setDepthAttachmentFormat(vk::Format::eUndefined);
     return vk::raii::Pipeline(device.get(), nullptr,
                               vk::GraphicsPipelineCreateInfo(
                                   {}, stages, &input, &assembly, nullptr, &viewport, &raster, &multisample,
@@ -131,37 +145,88 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
       planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()),
-      tags_(device, largest_extent(projection.blocks, strips), tag_format,
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
-            vk::ImageAspectFlagBits::eColor),
-      depth_(device, largest_extent(projection.blocks, strips), depth_format,
-             vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      compiled_(compiled(device, half_viewport_, fragment_shader(device, masked, precision))) {}
+      compiled_(compiled(device, half_viewport_, fragment_shader(device, masked, precision))) {
+  if (!device.has_attachments()) {
+    tags_of_keys_ = vulkan::ComputePipeline(
+        device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
+        sizeof(shader::TagsConstants));
+    return;
+  }
+  const vk::Extent2D extent = largest_extent(projection.blocks, strips);
+  attachments_ = {
+      vulkan::Image(device, extent, tag_format,
+                    vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+                    vk::ImageAspectFlagBits::eColor),
+      vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
+                    vk::ImageAspectFlagBits::eDepth)};
+}
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                             const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  if (attachments_)
+    record_attachments(commands, planned, scene, tags);
+  else
+    record_keys(commands, planned, scene, tags);
+}
+
+void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                 const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
-  tags_.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
-                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-  depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
-                    Access::eDepthStencilAttachmentWrite, depth_tests,
-                    Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-  const vk::RenderingAttachmentInfo color(tags_.view(), Layout::eColorAttachmentOptimal,
+  const std::uint32_t fragments = extent.width * extent.height;
+  commands.fillBuffer(tags.get(), 0, vk::DeviceSize{fragments} * sizeof(shader::uvec2), 0);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1));
+  draw(commands, planned, scene, tags);
+  commands.endRendering();
+  vulkan::memory_barrier(commands, Stage::eFragmentShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  const shader::Strip &strip = planned.strip;
+  const bool distorted = blocks_[planned.block].distorted;
+  const std::uint32_t tiles = is_tiled(sensor_) ? strip.samples : 1;
+  const shader::TagsConstants constants{words(tags.address()),
+                                        extent.width,
+                                        fragments,
+                                        extent.width / tiles,
+                                        extent.height / tiles,
+                                        strip.column,
+                                        strip.row,
+                                        strip.resolution_x,
+                                        distorted           ? 0
+                                        : is_tiled(sensor_) ? 1
+                                                            : strip.samples};
+  tags_of_keys_.dispatch(commands, constants, padded(fragments), shader::workgroup_size);
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
+                         Stage::eComputeShader | Stage::eTransfer,
+                         Access::eShaderStorageRead | Access::eTransferRead);
+}
+
+void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                        const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const auto &[tags_image, depth_image] = *attachments_;
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  tags_image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
+                        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+  depth_image.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
+                         Access::eDepthStencilAttachmentWrite, depth_tests,
+                         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+  const vk::RenderingAttachmentInfo color(tags_image.view(), Layout::eColorAttachmentOptimal,
                                           vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
                                           vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
                                           vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
-  const vk::RenderingAttachmentInfo depth(
-      depth_.view(), Layout::eDepthAttachmentOptimal, vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
-      vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0.0f));
+  const vk::RenderingAttachmentInfo depth(depth_image.view(), Layout::eDepthAttachmentOptimal,
+                                          vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
+                                          vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
+                                          vk::ClearDepthStencilValue(0.0f));
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
-  draw(commands, planned, scene);
+  draw(commands, planned, scene, tags);
   commands.endRendering();
   copy_tags(commands, extent, tags);
 }
 
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene) const {
+                          const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
@@ -170,11 +235,12 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
   const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
   for (std::uint32_t row = 0; row < tiles; ++row)
     for (std::uint32_t column = 0; column < tiles; ++column)
-      draw_tile(commands, planned, scene, {column, row});
+      draw_tile(commands, planned, scene, tags, {column, row});
 }
 
 void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                               const SceneBuffers &scene, const glm::uvec2 &tile) const {
+                               const SceneBuffers &scene, const vulkan::Buffer &tags,
+                               const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   const bool tiled = is_tiled(sensor_);
@@ -205,7 +271,10 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       words(planes_of_blocks_.address() + planned.block * sizeof(shader::BlockPlane)),
       words(scene.planes.address()),
       words(scene.paint.shapes.address()),
-      words(scene.paint.surfaces.address())};
+      words(scene.paint.surfaces.address()),
+      words(tags.address()),
+      extent_of(planned, blocks_).width,
+      0};
   commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
                                                       constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
@@ -213,12 +282,13 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
 
 void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                                const vulkan::Buffer &tags) const {
-  tags_.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+  const vulkan::Image &image = attachments_->tags;
+  image.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
                    Access::eTransferRead);
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(tags_.get(), Layout::eTransferSrcOptimal, tags.get(), region);
+  commands.copyImageToBuffer(image.get(), Layout::eTransferSrcOptimal, tags.get(), region);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
                          Stage::eComputeShader | Stage::eTransfer,
                          Access::eShaderStorageRead | Access::eTransferRead);

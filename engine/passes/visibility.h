@@ -7,9 +7,11 @@
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
 #include "engine/vulkan/buffer.h"
+#include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/image.h"
 
 #include <memory>
+#include <optional>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim {
@@ -29,10 +31,14 @@ public:
               const vulkan::Buffer &tags) const;
 
 private:
-  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-            const SceneBuffers &scene) const;
+  void record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                          const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                   const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
+            const vulkan::Buffer &tags) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                 const SceneBuffers &scene, const glm::uvec2 &tile) const;
+                 const SceneBuffers &scene, const vulkan::Buffer &tags, const glm::uvec2 &tile) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                  const vulkan::Buffer &tags) const;
 
@@ -40,8 +46,11 @@ private:
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
   vulkan::Buffer planes_of_blocks_; // BlockPlane of each where shapes may have holes
-  vulkan::Image tags_;
-  vulkan::Image depth_;
+  struct Attachments {
+    vulkan::Image tags, depth;
+  };
+  std::optional<Attachments> attachments_; // nothing where fragments leave keys instead
+  vulkan::ComputePipeline tags_of_keys_;
   float half_viewport_;
   std::shared_ptr<const vulkan::Pipeline> compiled_;
 };

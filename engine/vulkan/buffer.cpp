@@ -48,7 +48,7 @@ Buffer::Buffer(const Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags 
     buffer_.bindMemory(*memory_, 0);
     if (addressed)
       address_ = device.get().getBufferAddress(vk::BufferDeviceAddressInfo(*buffer_));
-    else
+    if (!addressed || device.is_fast_for_the_host(info.memoryTypeIndex))
       mapped_ = static_cast<std::byte *>(memory_.mapMemory(0, bytes));
   });
 }

@@ -29,9 +29,9 @@ public:
   vk::Buffer get() const { return *buffer_; }
   vk::DeviceSize bytes() const { return bytes_; }
   vk::DeviceAddress address() const { return address_; } // Memory::device only
-  std::span<std::byte> mapped() const {
-    return {mapped_, static_cast<std::size_t>(bytes_)};
-  } // upload and read only
+  // Of upload and read; of device, too, where the host reads the device's memory as its own.
+  bool is_mapped() const { return mapped_ != nullptr; }
+  std::span<std::byte> mapped() const { return {mapped_, static_cast<std::size_t>(bytes_)}; }
 
 private:
   vk::DeviceSize bytes_ = 0;

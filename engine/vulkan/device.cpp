@@ -27,14 +27,26 @@ Limits read_limits(const vk::raii::PhysicalDevice &device) {
           static_cast<double>(limits.timestampPeriod)};
 }
 
-vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64) {
+// lavapipe tells the width of its vectors in its name.
+bool is_wide(const vk::raii::PhysicalDevice &device) {
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  return properties.deviceType == vk::PhysicalDeviceType::eCpu &&
+         std::string(properties.deviceName.data()).find("512 bits") != std::string::npos;
+}
+
+vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64,
+                        bool int64_atomics) {
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features vulkan13;
   vulkan13.setDynamicRendering(true).setSynchronization2(true).setMaintenance4(true);
   vk::PhysicalDeviceVulkan12Features vulkan12;
-  vulkan12.setBufferDeviceAddress(true).setPNext(&vulkan13);
-  vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures().setShaderFloat64(fp64), &vulkan12);
+  vulkan12.setBufferDeviceAddress(true).setShaderBufferInt64Atomics(int64_atomics).setPNext(&vulkan13);
+  vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures()
+                                           .setShaderFloat64(fp64)
+                                           .setShaderInt64(int64_atomics)
+                                           .setFragmentStoresAndAtomics(int64_atomics),
+                                       &vulkan12);
   return checked([&] {
     return vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, nullptr, &features));
   });
@@ -53,6 +65,10 @@ std::string what_is_lacking(const vk::raii::PhysicalDevice &device) {
     return "dynamicRendering";
   if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
     return "synchronization2";
+  if (is_wide(device) && !(chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
+                           chain.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics &&
+                           chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics))
+    return "fragments' atomics of 64 bits"; // Device::has_attachments
   if (device.getProperties().limits.subPixelPrecisionBits < 8)
     return "a raster of 1/256 pixel (subPixelPrecisionBits of 8)"; // what the projection snaps to
   if (!find_queue_family(device))
@@ -64,8 +80,10 @@ Device::Device(const Instance &instance, vk::raii::PhysicalDevice physical)
     : instance_(&instance), physical_(std::move(physical)), memory_(physical_.getMemoryProperties()),
       limits_(read_limits(physical_)),
       is_cpu_(physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu),
-      has_fp64_(physical_.getFeatures().shaderFloat64), queue_family_(find_queue_family(physical_).value()),
-      device_(create(physical_, queue_family_, has_fp64_)), queue_(device_, queue_family_, 0) {}
+      has_fp64_(physical_.getFeatures().shaderFloat64), has_attachments_(!is_wide(physical_)),
+      queue_family_(find_queue_family(physical_).value()),
+      device_(create(physical_, queue_family_, has_fp64_, !has_attachments_)),
+      queue_(device_, queue_family_, 0) {}
 
 void Device::require_no_validation_message() const {
   if (!instance_->messages().empty())
@@ -80,6 +98,13 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags
         return i;
   throw Error(ExitCode::out_of_memory,
               "the device has no memory of the kind that a buffer or an image needs");
+}
+
+bool Device::is_fast_for_the_host(std::uint32_t memory_type) const {
+  using Property = vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags fast =
+      Property::eDeviceLocal | Property::eHostVisible | Property::eHostCoherent | Property::eHostCached;
+  return (memory_.memoryTypes[memory_type].propertyFlags & fast) == fast;
 }
 
 } // namespace pmdsim::vulkan

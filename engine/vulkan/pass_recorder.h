@@ -26,6 +26,8 @@ public:
   const vk::raii::CommandBuffer &commands() const { return commands_.get(); }
   // What was recorded since begin() or the last end_pass() is the pass `name`.
   void end_pass(const std::string &name);
+  // What the host did of the pass `name`.
+  void add(const std::string &name, double ms);
   // Returns when the device is done with all passes recorded. Throws as Commands::submit_and_wait().
   void finish();
 
@@ -36,7 +38,6 @@ private:
   static constexpr std::uint32_t capacity = 16;
 
   void open();
-  void add(const std::string &name, double ms);
   void collect_timestamps();
 
   const Device *device_;

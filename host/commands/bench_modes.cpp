@@ -35,7 +35,7 @@ public:
     auto exposures = std::make_unique<Exposures>(setup_, options_.device, false, accuracy);
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor)
-      take(*exposures, sensor, mode, "first frame");
+      exposures->reuse(take(*exposures, sensor, mode, "first frame"));
     bench.first_frame_ms = ms_since(start);
     bench.checks = check_accuracy(setup_, truth, options_.device, accuracy);
     for (const AccuracyCheck &check : bench.checks)
@@ -76,8 +76,10 @@ private:
     TimedFrame sum;
     for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor) {
       if (several_sensors())
-        take(exposures, sensor, mode, "warming up");
-      add(sum, take(exposures, sensor, mode, what));
+        exposures.reuse(take(exposures, sensor, mode, "warming up"));
+      Measurement frame = take(exposures, sensor, mode, what);
+      add(sum, frame);
+      exposures.reuse(std::move(frame));
     }
     return sum;
   }

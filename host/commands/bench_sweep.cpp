@@ -116,11 +116,13 @@ private:
   void visit(std::size_t i, int round, ProgressBar &bar) {
     prepares_ms_[i].push_back(prepare(i));
     const std::string what = fmt::format("timing {}/{}", round, rounds(i));
-    frame(i, what, bar); // the first is cold
+    camera_->reuse(frame(i, what, bar)); // the first is cold
     double spent_ms = 0.0;
     for (int k = 0; k < most_frames_of_visit && spent_ms < visit_ms; ++k) {
+      Measurement measured = frame(i, what, bar);
       TimedFrame timed;
-      add(timed, frame(i, what, bar));
+      add(timed, measured);
+      camera_->reuse(std::move(measured));
       spent_ms += timed.frame_ms;
       rows_[i].frames.push_back(std::move(timed));
     }

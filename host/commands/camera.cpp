@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -62,6 +63,11 @@ Measurement Camera::measure(const Progress &progress) {
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();
   return measurement;
+}
+
+void Camera::reuse(Measurement &&frame) {
+  if (simulator_)
+    simulator_->reuse(std::move(frame));
 }
 
 } // namespace pmdsim

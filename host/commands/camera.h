@@ -38,6 +38,8 @@ public:
                Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
   // One frame. Throws Error, interrupted among others.
   Measurement measure(const Progress &progress = {});
+  // As Simulator::reuse().
+  void reuse(Measurement &&frame);
 
 private:
   struct Prepared {

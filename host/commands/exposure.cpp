@@ -127,6 +127,14 @@ TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const
   return frame;
 }
 
+std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
+  const auto give_back = [this](TakenFrame *held) {
+    const std::unique_ptr<TakenFrame> owned(held);
+    reuse(std::move(owned->measurement));
+  };
+  return {std::make_unique<TakenFrame>(std::move(frame)).release(), give_back};
+}
+
 TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, double time_s, Light light,
                                       const Progress &progress, const std::optional<double> &next_s) {
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, Mode::exact};

@@ -8,7 +8,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace pmdsim {
 
@@ -51,6 +53,10 @@ public:
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
 
   const Camera &camera() const { return camera_; }
+  // As Simulator::reuse().
+  void reuse(Measurement &&frame) { camera_.reuse(std::move(frame)); }
+  // A frame whose memory is reused once nobody holds it any more; this must outlive it.
+  std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
 
   // The frame that begins at `time_s`, of the sensor with the index `sensor`. `next_s`, where it is known, is
   // when the next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error,

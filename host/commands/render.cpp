@@ -79,7 +79,7 @@ std::string render(const Setup &setup, const FrameRange &frames, const std::set<
   std::string text;
   const auto measure = [&](const SensorFrame &at) {
     bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
-    const auto taken = std::make_shared<const TakenFrame>(
+    const auto taken = exposures.share(
         exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar), at.next_s));
     if (at.frame == frames.first)
       text += frame_text(*taken, at.frame);

@@ -227,7 +227,6 @@ TEST_CASE("wrong command lines") {
                                                     {"render", "a.json", "--format", "gif"},
                                                     {"render", "a.json", "--samples", "all"},
                                                     {"render", "a.json", "--mode", "fast"},
-                                                    {"render", "a.json", "--no-wide-vectors"},
                                                     {"check", "a.json", "--mode", "exact"},
                                                     {"bench", "--samples", "2"},
                                                     {"bench", "--device", "reference"},
