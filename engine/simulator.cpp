@@ -21,8 +21,9 @@
 namespace pmdsim {
 namespace {
 
-// One submission's work at most, so that a frame can be stopped and shows its progress.
-constexpr std::uint64_t interactions_per_submission = 2'000'000'000;
+// One submission's work at most: a frame can be stopped, shows its progress and holds no GPU for more than
+// 100 ms (at 5e9 interactions a second, a tenth of what a small one does).
+constexpr std::uint64_t interactions_per_submission = 500'000'000;
 
 DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
   std::vector<DeviceInfo> devices;
