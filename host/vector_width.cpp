@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <optional>
 #include <string>
 
@@ -13,9 +14,16 @@ constexpr const char *cache_variable = "MESA_SHADER_CACHE_DIR";
 constexpr const char *usual_width = "256";
 
 std::optional<std::string> environment(const char *name) {
-  const char *value = std::getenv(name);
+  const char *value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): no other thread has begun
   return value && *value ? std::optional<std::string>(value) : std::nullopt;
 }
+
+void set(const char *name, const std::string &value) {
+  constexpr int replace = 1;
+  ::setenv(name, value.c_str(), replace); // NOLINT(concurrency-mt-unsafe): likewise
+}
+
+long bits(const std::string &width) { return std::strtol(width.c_str(), nullptr, 10); }
 
 // As the XDG base directory specification has it.
 std::optional<std::filesystem::path> cache_directory() {
@@ -29,20 +37,16 @@ std::optional<std::filesystem::path> cache_directory() {
 } // namespace
 
 void settle_vector_width(bool no_wide_vectors) {
-  constexpr int replace = 1;
   auto width = environment(width_variable);
   if (!width)
     return;
-  if (no_wide_vectors && std::strtol(width->c_str(), nullptr, 10) > 256) {
+  if (no_wide_vectors && bits(*width) > 256) {
     width = usual_width;
-    ::setenv(width_variable, usual_width, replace);
+    set(width_variable, usual_width);
   }
   const auto cache = cache_directory();
   if (cache && !environment(cache_variable))
-    ::setenv(
-        cache_variable,
-        (*cache / ("pmdsim_lavapipe_" + std::to_string(std::strtol(width->c_str(), nullptr, 10)))).c_str(),
-        replace);
+    set(cache_variable, *cache / fmt::format("pmdsim_lavapipe_{}", bits(*width)));
 }
 
 } // namespace pmdsim
