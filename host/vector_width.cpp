@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace pmdsim {
 namespace {
@@ -45,8 +46,12 @@ void settle_vector_width(bool no_wide_vectors) {
     set(width_variable, usual_width);
   }
   const auto cache = cache_directory();
-  if (cache && !environment(cache_variable))
-    set(cache_variable, *cache / fmt::format("pmdsim_lavapipe_{}", bits(*width)));
+  if (cache && !environment(cache_variable)) {
+    const std::filesystem::path of_width = *cache / fmt::format("pmdsim_lavapipe_{}", bits(*width));
+    std::error_code ignored;                                // without it nothing is kept, which is no error
+    std::filesystem::create_directories(of_width, ignored); // Mesa makes no parents
+    set(cache_variable, of_width);
+  }
 }
 
 } // namespace pmdsim
