@@ -9,7 +9,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::uint32_t sequence_frames = 20;
+constexpr std::uint32_t sequence_frames = 100;
 
 std::vector<std::string> samples_of(const Setup &setup) {
   std::vector<std::string> samples;
