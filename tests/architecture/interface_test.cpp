@@ -19,7 +19,8 @@
 #include "spirv/lit_gather_double_float.h"
 #include "spirv/lit_gather_fp64.h"
 #include "spirv/lit_open.h"
-#include "spirv/lit_tiles.h"
+#include "spirv/lit_tiles_double_float.h"
+#include "spirv/lit_tiles_fp64.h"
 #include "spirv/lit_trace_double_float.h"
 #include "spirv/lit_trace_fp64.h"
 #include "spirv/lit_try_double_float.h"
@@ -35,7 +36,12 @@
 #include "spirv/short_way_looped_fp64.h"
 #include "spirv/short_way_straight_double_float.h"
 #include "spirv/short_way_straight_fp64.h"
+#include "spirv/tags_double_float.h"
+#include "spirv/tags_fp64.h"
 #include "spirv/visibility_frag.h"
+#include "spirv/visibility_keys_frag.h"
+#include "spirv/visibility_keys_masked_double_float.h"
+#include "spirv/visibility_keys_masked_fp64.h"
 #include "spirv/visibility_masked_double_float.h"
 #include "spirv/visibility_masked_fp64.h"
 #include "spirv/visibility_vert.h"
@@ -143,20 +149,26 @@ const std::map<std::string, HostLayout> constants_until_points{
        MEMBER(VisibilityConstants, fragments_per_pixel_side), MEMBER(VisibilityConstants, sample_shift),
        MEMBER(VisibilityConstants, block_x), MEMBER(VisibilityConstants, block_y),
        MEMBER(VisibilityConstants, block), MEMBER(VisibilityConstants, planes),
-       MEMBER(VisibilityConstants, shapes), MEMBER(VisibilityConstants, surfaces)}}},
+       MEMBER(VisibilityConstants, shapes), MEMBER(VisibilityConstants, surfaces),
+       MEMBER(VisibilityConstants, tags), MEMBER(VisibilityConstants, tag_columns),
+       MEMBER(VisibilityConstants, padding)}}},
+    {"TagsConstants",
+     {sizeof(TagsConstants),
+      {MEMBER(TagsConstants, tags), MEMBER(TagsConstants, tag_columns), MEMBER(TagsConstants, fragments),
+       MEMBER(TagsConstants, tile_columns), MEMBER(TagsConstants, tile_rows), MEMBER(TagsConstants, column),
+       MEMBER(TagsConstants, row), MEMBER(TagsConstants, resolution_x),
+       MEMBER(TagsConstants, fragments_per_pixel_side)}}},
     {"PointsConstants",
      {sizeof(PointsConstants),
       {MEMBER(PointsConstants, strip), MEMBER(PointsConstants, slope), MEMBER(PointsConstants, chip),
        MEMBER(PointsConstants, tags), MEMBER(PointsConstants, planes), MEMBER(PointsConstants, position),
-       MEMBER(PointsConstants, surface),
-       MEMBER(PointsConstants, backscatter), MEMBER(PointsConstants, shapes),
-       MEMBER(PointsConstants, surfaces), MEMBER(PointsConstants, list)}}},
+       MEMBER(PointsConstants, surface), MEMBER(PointsConstants, backscatter),
+       MEMBER(PointsConstants, shapes), MEMBER(PointsConstants, surfaces), MEMBER(PointsConstants, list)}}},
     {"SearchConstants",
      {sizeof(SearchConstants),
       {MEMBER(SearchConstants, strip), MEMBER(SearchConstants, lens), MEMBER(SearchConstants, view),
        MEMBER(SearchConstants, fragments), MEMBER(SearchConstants, planes), MEMBER(SearchConstants, corners),
-       MEMBER(SearchConstants, tags), MEMBER(SearchConstants, position),
-       MEMBER(SearchConstants, surface),
+       MEMBER(SearchConstants, tags), MEMBER(SearchConstants, position), MEMBER(SearchConstants, surface),
        MEMBER(SearchConstants, backscatter), MEMBER(SearchConstants, shapes),
        MEMBER(SearchConstants, surfaces)}}},
 };
@@ -196,8 +208,8 @@ const std::map<std::string, HostLayout> shadows{
 const std::map<std::string, HostLayout> constants_of_shadows{
     {"LitTilesConstants",
      {sizeof(LitTilesConstants),
-      {MEMBER(LitTilesConstants, strip), MEMBER(LitTilesConstants, position),
-       MEMBER(LitTilesConstants, tags), MEMBER(LitTilesConstants, scene), MEMBER(LitTilesConstants, parts)}}},
+      {MEMBER(LitTilesConstants, strip), MEMBER(LitTilesConstants, position), MEMBER(LitTilesConstants, tags),
+       MEMBER(LitTilesConstants, scene), MEMBER(LitTilesConstants, parts)}}},
     {"LitGatherConstants",
      {sizeof(LitGatherConstants),
       {MEMBER(LitGatherConstants, strip), MEMBER(LitGatherConstants, position),
@@ -208,8 +220,7 @@ const std::map<std::string, HostLayout> constants_of_shadows{
     {"LitDecideConstants",
      {sizeof(LitDecideConstants),
       {MEMBER(LitDecideConstants, strip), MEMBER(LitDecideConstants, position),
-       MEMBER(LitDecideConstants, tags),
-       MEMBER(LitDecideConstants, parts), MEMBER(LitDecideConstants, scene),
+       MEMBER(LitDecideConstants, tags), MEMBER(LitDecideConstants, parts), MEMBER(LitDecideConstants, scene),
        MEMBER(LitDecideConstants, diodes), MEMBER(LitDecideConstants, work),
        MEMBER(LitDecideConstants, candidates), MEMBER(LitDecideConstants, reached),
        MEMBER(LitDecideConstants, bundle), MEMBER(LitDecideConstants, part_count),
@@ -224,22 +235,24 @@ const std::map<std::string, HostLayout> constants_of_shadows{
 const std::map<std::string, HostLayout> constants_of_the_sum{
     {"AccumulateConstants",
      {sizeof(AccumulateConstants),
-      {MEMBER(AccumulateConstants, position), MEMBER(AccumulateConstants, surface), MEMBER(AccumulateConstants, backscatter),
-       MEMBER(AccumulateConstants, sum), MEMBER(AccumulateConstants, run),
-       MEMBER(AccumulateConstants, diodes), MEMBER(AccumulateConstants, tones),
-       MEMBER(AccumulateConstants, diagrams), MEMBER(AccumulateConstants, reached),
-       MEMBER(AccumulateConstants, terms), MEMBER(AccumulateConstants, list),
-       MEMBER(AccumulateConstants, blocks), MEMBER(AccumulateConstants, plane),
-       MEMBER(AccumulateConstants, padded_pixels), MEMBER(AccumulateConstants, adds_terms)}}},
+      {MEMBER(AccumulateConstants, position), MEMBER(AccumulateConstants, surface),
+       MEMBER(AccumulateConstants, backscatter), MEMBER(AccumulateConstants, sum),
+       MEMBER(AccumulateConstants, run), MEMBER(AccumulateConstants, diodes),
+       MEMBER(AccumulateConstants, tones), MEMBER(AccumulateConstants, diagrams),
+       MEMBER(AccumulateConstants, reached), MEMBER(AccumulateConstants, terms),
+       MEMBER(AccumulateConstants, list), MEMBER(AccumulateConstants, blocks),
+       MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, padded_pixels),
+       MEMBER(AccumulateConstants, adds_terms)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
-      {MEMBER(ResolveConstants, position), MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags), MEMBER(ResolveConstants, planes),
-       MEMBER(ResolveConstants, channels), MEMBER(ResolveConstants, harmonics),
-       MEMBER(ResolveConstants, frequency), MEMBER(ResolveConstants, lit), MEMBER(ResolveConstants, terms),
-       MEMBER(ResolveConstants, broken), MEMBER(ResolveConstants, list), MEMBER(ResolveConstants, columns),
-       MEMBER(ResolveConstants, samples), MEMBER(ResolveConstants, padded_pixels),
-       MEMBER(ResolveConstants, pixels), MEMBER(ResolveConstants, plane),
-       MEMBER(ResolveConstants, lit_channel), MEMBER(ResolveConstants, diodes)}}},
+      {MEMBER(ResolveConstants, position), MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags),
+       MEMBER(ResolveConstants, planes), MEMBER(ResolveConstants, channels),
+       MEMBER(ResolveConstants, harmonics), MEMBER(ResolveConstants, frequency),
+       MEMBER(ResolveConstants, lit), MEMBER(ResolveConstants, terms), MEMBER(ResolveConstants, broken),
+       MEMBER(ResolveConstants, list), MEMBER(ResolveConstants, columns), MEMBER(ResolveConstants, samples),
+       MEMBER(ResolveConstants, padded_pixels), MEMBER(ResolveConstants, pixels),
+       MEMBER(ResolveConstants, plane), MEMBER(ResolveConstants, lit_channel),
+       MEMBER(ResolveConstants, diodes)}}},
 };
 
 const std::map<std::string, HostLayout> short_way{
@@ -288,11 +301,17 @@ const std::vector<Shader> shaders{
     {"visibility.frag", visibility_frag_spirv},
     {"visibility_masked.frag, fp64", visibility_masked_fp64_spirv},
     {"visibility_masked.frag, float pairs", visibility_masked_double_float_spirv},
+    {"visibility.frag, keys", visibility_keys_frag_spirv},
+    {"visibility_masked.frag, keys, fp64", visibility_keys_masked_fp64_spirv},
+    {"visibility_masked.frag, keys, float pairs", visibility_keys_masked_double_float_spirv},
+    {"tags, fp64", tags_fp64_spirv},
+    {"tags, float pairs", tags_double_float_spirv},
     {"points, fp64", points_fp64_spirv},
     {"points, float pairs", points_double_float_spirv},
     {"search, fp64", search_fp64_spirv},
     {"search, float pairs", search_double_float_spirv},
-    {"lit_tiles", lit_tiles_spirv},
+    {"lit_tiles, fp64", lit_tiles_fp64_spirv},
+    {"lit_tiles, float pairs", lit_tiles_double_float_spirv},
     {"lit_open", lit_open_spirv},
     {"lit_gather, fp64", lit_gather_fp64_spirv},
     {"lit_gather, float pairs", lit_gather_double_float_spirv},
