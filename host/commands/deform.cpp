@@ -87,6 +87,7 @@ FileToWrite profile_plot(const std::shared_ptr<const FrameToWrite> &frame, const
             throw_if_interrupted();
             const glm::uvec2 &resolution = frame->channels.resolution;
             const std::string quantity = fmt::format("deformation along row {}", profile_row(resolution));
+            const std::scoped_lock alone(drawing_mutex());
             draw_profile(std::get<std::span<const float>>(deformation.values), resolution, "deformation",
                          "mm", picture_title(quantity, *frame, deformation.frequency))
                 .write_png(file);

@@ -34,6 +34,7 @@ PreviewStyle preview_style(const Channel &channel) {
 void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
   const PreviewStyle style = preview_style(channel);
   const std::string title = picture_title(style.quantity, frame, channel.frequency);
+  const std::scoped_lock alone(drawing_mutex());
   draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
       .write_png(file);
 }

@@ -63,6 +63,11 @@ cairo_status_t append(void *closure, const unsigned char *bytes, unsigned count)
 
 } // namespace
 
+std::mutex &drawing_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 Canvas::Canvas(int width, int height)
     : surface_(make_surface(width, height)), context_(cairo_create(surface_.get()), &cairo_destroy) {
   if (cairo_status(context_.get()) != CAIRO_STATUS_SUCCESS)

@@ -7,6 +7,7 @@
 
 #include <cairo.h>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,10 @@ struct Box {
 enum class Anchor { left, centre, right };
 
 using SurfacePtr = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+// Whoever draws while other threads may holds this from before the first text is measured until the canvas is
+// gone: Cairo (1.16) keeps its fonts for all threads and does not guard them.
+std::mutex &drawing_mutex();
 
 class Canvas {
 public:
