@@ -17,10 +17,6 @@ namespace {
 
 constexpr int prepared_times = 3;
 
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Measures one setup in several modes.
 class ModesInTurn {
 public:

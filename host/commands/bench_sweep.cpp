@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "host/commands/camera.h"
 #include "host/commands/distance_errors.h"
+#include "host/commands/exposure.h"
 #include "host/commands/interruption.h"
 #include "host/commands/peak_memory.h"
 #include "host/commands/progress_bar.h"
@@ -24,19 +25,10 @@ constexpr int rounds_of_prompt = 5, rounds_of_slow = 3;
 constexpr double visit_ms = 60.0; // frames are timed until they have taken this
 constexpr int most_frames_of_visit = 4;
 
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-double samples_of(const Sensor &sensor) {
-  return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
-}
-
 // Of a frame, roughly; for the progress bar.
 double expected_s(const Setup &setup) {
-  const auto &[scene, sensors, illuminators] = setup.start;
-  const double samples = samples_of(sensors.front());
-  return 0.02 + samples * (50e-9 + 0.3e-9 * static_cast<double>(diode_count(illuminators)));
+  const auto diodes = static_cast<double>(diode_count(setup.start.illuminators));
+  return 0.02 + samples_of_frame(setup) * (50e-9 + 0.3e-9 * diodes);
 }
 
 // Of all that is done with a point.
@@ -95,8 +87,8 @@ private:
   // The first frame, with its result checked.
   void begin(std::size_t i, ProgressBar &bar) {
     SweepRow &row = rows_[i];
-    const Sensor &sensor = setups_[i].start.sensors.front();
-    row.interactions = samples_of(sensor) * static_cast<double>(diode_count(setups_[i].start.illuminators));
+    row.interactions =
+        samples_of_frame(setups_[i]) * static_cast<double>(diode_count(setups_[i].start.illuminators));
     camera_.reset(); // with all that the point before left on the device
     restart_peak_memory();
     camera_.emplace(options_.device);

@@ -30,6 +30,10 @@ double explained(const TimedFrame &frame) {
 
 } // namespace
 
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 void add(TimedFrame &sum, const Measurement &measurement) {
   sum.frame_ms += measurement.frame_ms;
   for (const PassTime &pass : measurement.passes) {

@@ -4,6 +4,7 @@
 #include "engine/measurement.h"
 #include "host/commands/report.h"
 
+#include <chrono>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace pmdsim {
+
+// By the clock.
+double ms_since(std::chrono::steady_clock::time_point start);
 
 // What one frame took; of several sensors all their frames together.
 struct TimedFrame {
