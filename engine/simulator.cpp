@@ -149,7 +149,8 @@ void Simulator::State::sum(const PlannedStrip &planned, const LitWindow &window,
       interactions_per_submission / pass.interactions_per_run(planned.strip), 1, runs));
   for (std::uint32_t first = window.first_run; first < window.last_run; first += per_submission) {
     const std::uint32_t last = std::min(window.last_run, first + per_submission);
-    pass.record(recorder.commands(), planned.strip, prepared->buffers, window, first, last, list);
+    pass.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene, window, first, last,
+                list);
     recorder.end_pass("accumulate");
     if (last < runs) {
       recorder.finish();
@@ -169,7 +170,7 @@ void Simulator::State::sum_list(const PlannedStrip &planned, const LitWindow &wi
     recorder.end_pass("points");
   }
   sum(planned, window, accumulate, &pixels, progress);
-  resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes, &pixels);
+  resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene, &pixels);
   recorder.end_pass("resolve");
 }
 
@@ -185,7 +186,7 @@ void Simulator::State::sum_listed(const PlannedStrip &planned, const Progress &p
                               &listed.lists.of(shader::list_few));
     listed.lists.record_count(recorder.commands(), side * side);
   }
-  recorder.end_pass(listed.sums_all ? "accumulate" : "short_way");
+  recorder.end_pass("short_way");
   if (listed.has_lit)
     sum_list(planned, {0, listed.accumulate.runs(), 0}, shader::list_lit, listed.accumulate, listed.resolve,
              progress);
@@ -216,7 +217,7 @@ void Simulator::State::warm_up() {
   if (prepared->listed)
     warm_up_lists(pixel);
   else
-    prepared->resolve.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene.planes);
+    prepared->resolve.record(recorder.commands(), pixel.strip, prepared->buffers, prepared->scene);
   read_back(pixel);
   recorder.finish();
 }
@@ -259,7 +260,7 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
   if (prepared->listed) {
     sum_listed(planned, progress);
   } else {
-    prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene.planes);
+    prepared->resolve.record(recorder.commands(), planned.strip, prepared->buffers, prepared->scene);
     recorder.end_pass("resolve");
   }
   read_back(planned);

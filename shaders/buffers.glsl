@@ -3,6 +3,7 @@
 #define PMDSIM_BUFFERS_GLSL
 
 #include "interface.h"
+#include "real.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Vec4s { vec4 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
@@ -49,6 +50,10 @@ void store_vec4(uvec2 address, uint i, vec4 value) {
 uvec2 load_tag(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
 void store_tag(uvec2 address, uint i, uvec2 tag) { DoubleWords(address).at[i] = packDouble2x32(tag); }
 #endif
+// A sample's record (interface.h).
+uvec2 load_record_tag(uvec2 address, uint i) { return load_tag(address, 2 * i); }
+Real load_record_depth(uvec2 address, uint i) { return real_of(load_tag(address, 2 * i + 1)); }
+
 TrianglePlane load_plane(uvec2 address, uint i) {
   vec4 rest = load_vec4(address, 3 * i + 2);
   return TrianglePlane(load_vec4(address, 3 * i), load_vec4(address, 3 * i + 1), rest.x, floatBitsToUint(rest.y), rest.z, rest.w);

@@ -39,4 +39,14 @@ Real3 chip_ray(ChipPlace chip, Strip strip, uvec2 pixel, vec2 from_centre) {
   return Real3(divide(place.x, place.z), divide(place.y, place.z), real(1.0));
 }
 
+// The ray (x, y, 1) of a sample of a grid, `place` in half samples from the frame's middle; `general`: of any chip.
+Real3 grid_ray(vec4 slope, uvec2 chip_at, vec2 place, bool general) {
+  if (!general)
+    return Real3(multiply(real(place.x), real(slope.x, slope.y)), multiply(real(place.y), real(slope.z, slope.w)), real(1.0));
+  ChipPlace chip = Chips(chip_at).at;
+  Real3 at = add3(real3(chip.origin_hi.xyz, chip.origin_lo.xyz), term(place.x, chip.half_step_x_hi, chip.half_step_x_lo));
+  at = add3(at, term(place.y, chip.half_step_y_hi, chip.half_step_y_lo));
+  return Real3(divide(at.x, at.z), divide(at.y, at.z), real(1.0));
+}
+
 #endif

@@ -11,6 +11,7 @@
 namespace pmdsim::shader {
 using uint = std::uint32_t;
 using glm::uvec2;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec4;
 #define PMDSIM_CONSTANT inline constexpr uint
@@ -44,6 +45,9 @@ PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to with
 PMDSIM_CONSTANT constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
 PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
 PMDSIM_CONSTANT constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
+// And of its plain form:
+PMDSIM_CONSTANT constant_only = 17;         // 1: the frame has no other run
+PMDSIM_CONSTANT constant_general_chip = 18; // 1: the chip stands anyhow; 0: nominal
 
 // Specialization constants of the resolve pass.
 PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
@@ -56,6 +60,12 @@ PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light
 PMDSIM_CONSTANT constant_resolve_listed = 7;   // 1: only the pixels of a list
 PMDSIM_CONSTANT constant_resolve_promised = 8; // 1: an error was promised
 PMDSIM_CONSTANT constant_resolve_precise = 9;  // 1: samples' returns are turned and added in Real
+
+// Specialization constants of the plain resolve pass: those of the resolve and the points pass, one after the other, then its
+// own.
+PMDSIM_CONSTANT plain_resolve_points = 10;
+PMDSIM_CONSTANT constant_plain_only = 16; // as constant_only
+PMDSIM_CONSTANT constant_plain_side = 17; // S
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
@@ -239,6 +249,15 @@ struct Tone {
   float harmonic;   // how many of its turns a turn of the fundamental is
 };
 
+// A strip's samples where they are an even grid over the chip, row by row. Counted in half samples from the frame's middle
+// they lie at first + 2 (column, row).
+struct SampleGrid {
+  vec4 slope;            // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  vec2 first;            // of the strip's first sample
+  uint columns;          // samples in a row
+  float inverse_columns; // 1 / columns
+};
+
 // Where the strip of pixels that is being computed lies in the frame.
 struct Strip {
   uint column, row;   // of its first pixel
@@ -271,6 +290,10 @@ struct VisibilityConstants {
   uvec2 tags;         // in and out: of all of the strip's fragments, row by row
   uint tag_columns;   // fragments in a row
   uint padding;
+  // Where fragments leave their depth, too, as in SampleGrid:
+  vec4 slope;
+  vec2 first;
+  uvec2 chip; // in: ChipPlace
 };
 
 // Turns keys into tags. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
@@ -358,7 +381,7 @@ struct ResolveConstants {
   uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
   uvec2 planes;
-  uvec2 channels;  // out: channel by channel (channel_*), each padded_pixels values of 32 bits
+  uvec2 channels;  // out: pair by pair of channels (channel_*), of each pixel two values of 32 bits
   uvec2 harmonics; // in: float[], amplitudes of the harmonics
   uvec2 frequency; // in: Frequency
   uvec2 lit;       // in: uint a sample, the diodes that reach it
@@ -372,6 +395,39 @@ struct ResolveConstants {
   uint plane;  // elements of a plane of the sum
   uint lit_channel;
   uint diodes; // of all illuminators
+};
+
+// The sum and what becomes of it the plain way: all samples alike, each a record (uvec4) of its tag and its depth. The sum has
+// no backscatter in it; it is made of planes of a vec4 a sample, as above, or, of a single run, of a vec2.
+struct PlainSumConstants {
+  SampleGrid grid;
+  uvec2 chip; // in: ChipPlace
+  uvec2 records;
+  uvec2 planes; // in: TrianglePlane[]
+  uvec2 sum;    // as in AccumulateConstants, from here on
+  uvec2 run;
+  uvec2 diodes;
+  uvec2 tones;
+  uvec2 diagrams;
+  uint blocks;
+  uint plane;
+  uint samples; // of the strip, in all
+};
+
+struct PlainResolveConstants {
+  SampleGrid grid;
+  uvec2 chip;
+  uvec2 records;
+  uvec2 planes;
+  uvec2 sum; // as in ResolveConstants, from here on
+  uvec2 channels;
+  uvec2 harmonics;
+  uvec2 frequency;
+  uvec2 shapes;   // as in PointsConstants
+  uvec2 surfaces;
+  uint pixels; // of the strip
+  uint padded_pixels;
+  uint plane;
 };
 
 // Pixels that wait for their samples to be summed; their numbers follow. Numbers of workgroups are counted
@@ -440,13 +496,14 @@ struct ShortWayWork {
   uint diodes; // of all illuminators
 };
 
-// The ground truth comes first, then the channels of each frequency, the taps (if kept) last.
+// The ground truth comes first, then the channels of each frequency, the taps (if kept) last. Channels 2 n and 2 n + 1 lie
+// side by side, a word of each for every pixel: lavapipe stores lane by lane, two words as fast as one.
 PMDSIM_CONSTANT channel_range_m = 0;
 PMDSIM_CONSTANT channel_z_m = 1;
-PMDSIM_CONSTANT channel_coverage = 2;
-PMDSIM_CONSTANT channel_triangle_id = 3;
-PMDSIM_CONSTANT channel_object_id = 4;
-PMDSIM_CONSTANT truth_channels = 5;
+PMDSIM_CONSTANT channel_triangle_id = 2;
+PMDSIM_CONSTANT channel_object_id = 3;
+PMDSIM_CONSTANT channel_coverage = 4;
+PMDSIM_CONSTANT truth_channels = 6; // the last is not used
 PMDSIM_CONSTANT channel_amplitude = 0;
 PMDSIM_CONSTANT channel_phase_rad = 1;
 PMDSIM_CONSTANT channel_distance_m = 2;
@@ -462,7 +519,9 @@ static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
-static_assert(sizeof(VisibilityConstants) == 96 && sizeof(TagsConstants) == 40);
+static_assert(sizeof(VisibilityConstants) == 128 && offsetof(VisibilityConstants, slope) == 96);
+static_assert(sizeof(PlainSumConstants) == 108 && sizeof(PlainResolveConstants) == 116);
+static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 40);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);

@@ -3,6 +3,7 @@
 #define PMDSIM_POINTS_GLSL
 
 #include "buffers.glsl"
+#include "meet.glsl"
 #include "paint.glsl"
 #include "position.glsl"
 #include "real.glsl"
@@ -48,15 +49,6 @@ float cos4(vec3 ray) {
   float cosine = max(0.0, ray.z);
   float cos2 = cosine * cosine / dot(ray, ray);
   return cos2 * cos2;
-}
-
-// Where the ray (x, y, 1) meets the plane.
-Real3 point_on_plane(Real3 ray, TrianglePlane plane) {
-  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
-  Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
-  // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
-  Real depth = real_clamp(divide(offset, dot3(normal, ray)), plane.along_min, plane.along_max);
-  return Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth);
 }
 
 // B of the shape `id` at a point that the ray, of any length, leads to, over the cosine, with the lens's vignetting.

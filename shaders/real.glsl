@@ -37,6 +37,8 @@ Real real(float hi, float lo) { return vec2(hi, lo); }
 Real real(float a) { return vec2(a, 0.0); }
 float high(Real a) { return a.x; }
 float rest(Real a) { return a.y; }
+uvec2 words_of(Real a) { return floatBitsToUint(a); }
+Real real_of(uvec2 words) { return uintBitsToFloat(words); }
 Real add(Real a, Real b) {
   vec2 s = two_sum(a.x, b.x), t = two_sum(a.y, b.y);
   precise float carry = s.y + t.x;
@@ -85,6 +87,8 @@ Real real(float hi, float lo) { return double(hi) + double(lo); }
 Real real(float a) { return double(a); }
 float high(Real a) { return float(a); }
 float rest(Real a) { return float(a - double(float(a))); }
+uvec2 words_of(Real a) { return unpackDouble2x32(a); }
+Real real_of(uvec2 words) { return packDouble2x32(words); }
 // Never fused, so that two shaders that ask the same get the same answer.
 Real add(Real a, Real b) {
   precise double sum = a + b;

@@ -47,12 +47,16 @@ Real turns_per_m(Frequency frequency, uint plane) {
 
 // Where a frame's channels are.
 struct Channels {
-  uvec2 values; // channel by channel
+  uvec2 values; // pair by pair
   uint padded_pixels;
 };
 
 void store(Channels to, uint channel, uint pixel, uint word) {
-  Words(to.values).at[channel * to.padded_pixels + pixel] = word;
+  Words(to.values).at[2 * (channel / 2 * to.padded_pixels + pixel) + channel % 2] = word;
+}
+// To `channel`, which is even, and the next.
+void store_pair(Channels to, uint channel, uint pixel, uvec2 words) {
+  store_tag(to.values, channel / 2 * to.padded_pixels + pixel, words);
 }
 void store(Channels to, uint channel, uint pixel, float value) { store(to, channel, pixel, floatBitsToUint(value)); }
 
@@ -120,14 +124,15 @@ vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
 }
 
 // `turns` in [-1, 1]; not known where nothing returns.
-void store_phase(Channels to, Frequency frequency, uint pixel, Real turns, bool is_known) {
+void store_amplitude_and_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns) {
+  bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
   Real two_pi = real(6.2831855, -1.7484555e-7);
   // Rounding to float must not reach the end of the half-open interval.
   uint channel = frequency.first_channel;
   float phase_rad = clamp(high(multiply(turns, two_pi)), 0.0, frequency.below.x);
-  store(to, channel + channel_phase_rad, pixel, is_known ? phase_rad : nan());
+  store_pair(to, channel + channel_amplitude, pixel, floatBitsToUint(vec2(amplitude, is_known ? phase_rad : nan())));
   Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
   float distance_m = clamp(high(distance), 0.0, frequency.below.y);
   store(to, channel + channel_distance_m, pixel, is_known ? distance_m : nan());
@@ -149,17 +154,16 @@ float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samp
                                          : demodulate_harmonics(sum, frequency, amplitudes);
   float size = magnitude(z);
   float amplitude = scale * size;
-  store(to, frequency.first_channel + channel_amplitude, pixel, amplitude);
   Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
   turns = add(add(turns, negate(round_to_whole(turns))), real(angle_turns(z)));
-  store_phase(to, frequency, pixel, turns, amplitude > 0.0);
+  store_amplitude_and_phase(to, frequency, pixel, amplitude, turns);
   return size;
 }
 
 void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
   Real hits = real(float(max(sum.hits, 1u)));
-  store(to, channel_range_m, pixel, sum.hits > 0u ? high(divide(sum.range, hits)) : nan());
-  store(to, channel_z_m, pixel, sum.hits > 0u ? high(divide(sum.depth, hits)) : nan());
+  vec2 lengths = vec2(high(divide(sum.range, hits)), high(divide(sum.depth, hits)));
+  store_pair(to, channel_range_m, pixel, floatBitsToUint(sum.hits > 0u ? lengths : vec2(nan())));
   store(to, channel_coverage, pixel, float(sum.hits) / float(samples));
 }
 
@@ -168,9 +172,7 @@ void store_lit(Channels to, uint channel, uint diodes, uint pixel, PixelSum sum)
 }
 
 void store_ids(Channels to, uvec2 tag, uint object, uint pixel) {
-  bool hit = tag.x != 0u;
-  store(to, channel_triangle_id, pixel, hit ? tag.y : no_triangle);
-  store(to, channel_object_id, pixel, hit ? object : no_triangle);
+  store_pair(to, channel_triangle_id, pixel, tag.x != 0u ? uvec2(tag.y, object) : uvec2(no_triangle));
 }
 
 // The promise (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to

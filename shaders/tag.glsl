@@ -4,22 +4,28 @@
 
 #include "interface.h"
 
+// `fragment` counts from the tile's corner; `side` as fragments_per_pixel_side.
+uint pixel_id(vec2 fragment, uvec2 first_pixel, uint resolution_x, uint side) {
+  // By a float, exact for this: lavapipe divides whole numbers lane by lane.
+  uvec2 pixel = first_pixel + uvec2((fragment + 0.5) / float(max(side, 1u)));
+  return side == 0u ? 1u : pixel.y * resolution_x + pixel.x + 1u;
+}
+
 // Where keys are left: in place of a colour and a depth the nearest fragment's key stays, by an atomic operation.
-#ifdef TAG_KEYS
+#if defined(TAG_KEYS)
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Keys { uint64_t at[]; };
 
 void leave_tag(VisibilityConstants constants, uvec2 fragment, uint triangle) {
   uint64_t key = packUint2x32(uvec2(~triangle, floatBitsToUint(gl_FragCoord.z)));
   atomicMax(Keys(constants.tags).at[fragment.y * constants.tag_columns + fragment.x], key);
 }
-#else
+#elif !defined(TAG_DEPTH)
 layout(location = 0) out uvec2 tag;
 
 void leave_tag(VisibilityConstants constants, uvec2 fragment, uint triangle) {
-  uint side = constants.fragments_per_pixel_side;
-  uvec2 in_tile = fragment - uvec2(constants.tile_x, constants.tile_y);
-  uvec2 pixel = uvec2(constants.column, constants.row) + in_tile / max(side, 1u);
-  tag = uvec2(side == 0u ? 1u : pixel.y * constants.resolution_x + pixel.x + 1u, triangle);
+  vec2 in_tile = vec2(fragment - uvec2(constants.tile_x, constants.tile_y));
+  uvec2 first_pixel = uvec2(constants.column, constants.row);
+  tag = uvec2(pixel_id(in_tile, first_pixel, constants.resolution_x, constants.fragments_per_pixel_side), triangle);
 }
 #endif
 

@@ -9,6 +9,10 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_plain_looped_double_float.h"
+#include "spirv/accumulate_plain_looped_fp64.h"
+#include "spirv/accumulate_plain_straight_double_float.h"
+#include "spirv/accumulate_plain_straight_fp64.h"
 #include "spirv/accumulate_precise_looped_double_float.h"
 #include "spirv/accumulate_precise_looped_fp64.h"
 #include "spirv/accumulate_precise_straight_fp64.h"
@@ -31,6 +35,9 @@ constexpr double largest_whole_power = 8.0;
 const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
                          shader::accumulate_straight_double_float_spirv, shader::accumulate_looped_fp64_spirv,
                          shader::accumulate_looped_double_float_spirv};
+const Forms plain_forms{
+    shader::accumulate_plain_straight_fp64_spirv, shader::accumulate_plain_straight_double_float_spirv,
+    shader::accumulate_plain_looped_fp64_spirv, shader::accumulate_plain_looped_double_float_spirv};
 const Forms direct_forms{
     shader::accumulate_direct_straight_fp64_spirv, shader::accumulate_direct_straight_double_float_spirv,
     shader::accumulate_direct_looped_fp64_spirv, shader::accumulate_direct_looped_double_float_spirv};
@@ -39,8 +46,10 @@ const Forms precise_forms{
     shader::accumulate_precise_straight_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv,
     shader::accumulate_precise_looped_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv};
 
-const Forms &forms_of(const Signal &signal, Precision precision) {
-  return !signal.by_moments ? direct_forms : precision == Precision::fp64 ? precise_forms : moment_forms;
+const Forms &forms_of(const Signal &signal, const AccumulatePass::Scope &scope) {
+  if (scope.plain)
+    return plain_forms;
+  return !signal.by_moments ? direct_forms : scope.precision == Precision::fp64 ? precise_forms : moment_forms;
 }
 
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
@@ -95,8 +104,13 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
                                       const SumModel &model, const Signal &signal,
                                       const SimulatorOptions &options, const AccumulatePass::Scope &scope,
                                       bool first) {
-  return {device, forms_of(signal, scope.precision).choose(device, options),
-          sizeof(shader::AccumulateConstants), sum_constants(groups, model, signal, scope, first)};
+  vulkan::Specialization constants = sum_constants(groups, model, signal, scope, first);
+  if (scope.plain) {
+    constants.push_back(groups.runs.size() == 1 ? 1u : 0u);
+    constants.push_back(scope.plain->is_nominal() ? 0u : 1u);
+  }
+  const std::size_t bytes = scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants);
+  return {device, forms_of(signal, scope).choose(device, options), static_cast<std::uint32_t>(bytes), constants};
 }
 
 template <typename Property>
@@ -238,7 +252,7 @@ vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &grou
 
 AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                                const Signal &signal, const SimulatorOptions &options, const Scope &scope)
-    : runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
+    : plain_(scope.plain), runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       diode_bytes_(scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
                                                       : sizeof(shader::GroupDiode)),
@@ -255,11 +269,16 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 }
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, const LitWindow &window, std::uint32_t first,
-                            std::uint32_t last, const vulkan::Buffer *list) const {
+                            const StripBuffers &buffers, const SceneBuffers &scene,
+                            const LitWindow &window, std::uint32_t first, std::uint32_t last,
+                            const vulkan::Buffer *list) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);
+    if (plain_) {
+      record_plain(commands, strip, buffers, scene, run);
+      continue;
+    }
     const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
@@ -281,6 +300,25 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
       dispatch_listed(run == 0 ? first_ : later_, commands, constants, plane, list, of_samples);
     }
   }
+}
+
+void AccumulatePass::record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                                  const StripBuffers &buffers, const SceneBuffers &scene,
+                                  std::uint32_t run) const {
+  const std::uint32_t plane = sample_count(strip);
+  const shader::PlainSumConstants constants{plain_->of(strip),
+                                            plain_->chip(),
+                                            words(buffers.tags.address()),
+                                            words(scene.planes.address()),
+                                            words(buffers.sum.address()),
+                                            words(light_runs_.address() + run * sizeof(shader::LightRun)),
+                                            words(diodes_.address() + runs_[run].first * diode_bytes_),
+                                            words(tones_.address()),
+                                            words(diagrams_.address()),
+                                            blocks_per_run_,
+                                            plane,
+                                            strip.columns * strip.rows * strip.samples * strip.samples};
+  (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
 }
 
 } // namespace pmdsim

@@ -3,9 +3,11 @@
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
 #include "engine/accuracy.h"
+#include "engine/passes/chip_grid.h"
 #include "engine/passes/lit_windows.h"
 #include "engine/passes/pixel_lists.h"
 #include "engine/passes/promise.h"
+#include "engine/passes/scene_buffers.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/scene.h"
@@ -48,6 +50,7 @@ public:
     bool shadowed = false, listed = false;
     Precision precision = Precision::fp32;
     std::optional<Promise> promise{};
+    std::optional<ChipGrid> plain{}; // where the samples' records are all that is known of them
   };
   AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
                  const Signal &signal, const SimulatorOptions &options, const Scope &scope);
@@ -57,10 +60,14 @@ public:
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
   // Adds the runs first ... last - 1 of the window to the strip's sums.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const LitWindow &window, std::uint32_t first, std::uint32_t last,
+              const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window, std::uint32_t first, std::uint32_t last,
               const vulkan::Buffer *list = nullptr) const;
 
 private:
+  void record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, const SceneBuffers &scene, std::uint32_t run) const;
+
+  std::optional<ChipGrid> plain_;
   std::vector<DiodeRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_;

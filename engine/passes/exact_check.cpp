@@ -3,6 +3,7 @@
 #include "engine/passes/raster_blocks.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -39,10 +40,8 @@ std::vector<std::vector<std::uint32_t>> by_strip(const std::set<std::uint32_t> &
 
 float channel_value(const StripBuffers &buffers, const shader::Strip &strip, std::uint32_t channel,
                     std::uint32_t pixel) {
-  float value = 0.0f;
-  const std::size_t at = std::size_t{channel} * strip.padded_pixels + pixel;
-  std::memcpy(&value, channels_for_host(buffers).data() + at * sizeof(value), sizeof(value));
-  return value;
+  const shader::uvec2 pair = pair_for_host(buffers, strip, channel / 2 * 2)[pixel];
+  return std::bit_cast<float>(channel % 2 == 0 ? pair.x : pair.y);
 }
 
 // 0 where neither is known, infinite where only one is.
@@ -87,7 +86,7 @@ void ExactCheck::record_points(const vk::raii::CommandBuffer &commands, std::siz
 
 void ExactCheck::record_channels(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                                  const StripBuffers &buffers, const SceneBuffers &scene) const {
-  resolve_.record(commands, planned.strip, buffers, scene.planes, &list_);
+  resolve_.record(commands, planned.strip, buffers, scene, &list_);
 }
 
 void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,

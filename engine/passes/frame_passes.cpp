@@ -62,16 +62,17 @@ struct Ways {
   bool thin_out;   // one place may stand in for a pixel's samples
   bool listed;     // pixels differ in how they are summed
   bool all_points; // the point of every sample is made
+  bool plain;      // all samples go one way, on which their records are all that is kept of them
 };
 
-Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest &request,
-                 std::size_t windows, bool painted) {
+Ways choose_ways(const vulkan::Device &device, const FramePlan &plan, const HostView &view,
+                 const FrameRequest &request, std::size_t windows, bool painted) {
   const Sensor &sensor = request.sensor;
   // The bits of several windows are never there together, so that nothing is known of a sample before it is
   // summed.
   const bool one_window = !view.signal.lit || windows == 1;
   Ways ways{};
-  ways.rest = view.signal.lit || (view.model.backscatter != shader::backscatter_flat && !plan.short_sums_all);
+  ways.rest = view.signal.lit || view.model.backscatter != shader::backscatter_flat;
   const bool can =
       plan.short_promise && one_window && ShortWay::can_sum(plan.short_groups, view.signal, sensor);
   // Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
@@ -80,10 +81,10 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
   ways.thin_out = can && sensor.samples > 1 && is_smooth &&
                   (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
-  if (plan.short_sums_all && !ways.short_way)
-    ways.rest = true;
   ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
-  ways.all_points = !ways.listed || view.signal.lit || sensor.has_distortion();
+  ways.plain = !ways.listed && !view.signal.lit && !view.signal.promised && view.signal.by_moments &&
+               plan.precision == Precision::fp32 && ChipGrid::holds(sensor) && device.has_attachments();
+  ways.all_points = !ways.plain && (!ways.listed || view.signal.lit || sensor.has_distortion());
   return ways;
 }
 
@@ -127,8 +128,7 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
                          const Ways &ways, const std::vector<PlannedStrip> &strips,
                          const SceneBuffers &scene) {
   // Of one sample a pixel, the short way takes all that every diode lights and that surely keep the promise.
-  const bool has_lit =
-      !plan.short_sums_all && (!ways.short_way || request.sensor.samples > 1 || !plan.surely_kept);
+  const bool has_lit = !ways.short_way || request.sensor.samples > 1 || !plan.surely_kept;
   const bool lists_pixels = has_lit || ways.rest;
   PixelLists lists(device, strips);
   const auto make_short_way = [&](const Promise &promise, const ShortWayOptions &of) {
@@ -150,12 +150,19 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
           std::move(short_way),
           std::move(few_places),
           std::move(points),
-          plan.short_sums_all,
           has_lit,
           AccumulatePass(device, plan.stand_ins, view.model, view.signal, options,
                          {false, true, plan.precision, plan.promise}),
           ResolvePass(device, view.signal, plan.stand_ins, options,
                       {is_tiled(request.sensor), true, plan.precision, plan.promise})};
+}
+
+// Where the records are all that is kept of samples, and where it is not.
+SampleLayout plain_layout(bool single_run) {
+  return {sizeof(shader::uvec4), 0, 0, 0, single_run ? sizeof(shader::vec2) : sizeof(shader::vec4)};
+}
+SampleLayout layout_of(std::uint32_t surface_vectors) {
+  return {sizeof(shader::uvec2), 3 * sizeof(double), sizeof(float), surface_vectors, sizeof(shader::vec4)};
 }
 
 std::uint32_t shining(const DiodeGroups &groups) {
@@ -186,16 +193,24 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   std::vector<LitWindow> windows = view.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   SceneBuffers scene =
       upload_scene(device, view.camera, request.scene, sensor, request.backscatter, textures);
-  const Ways ways = choose_ways(plan, view, request, windows.size(), scene.paint.painted);
+  const Ways ways = choose_ways(device, plan, view, request, windows.size(), scene.paint.painted);
   const bool checks = request.accuracy.mode != Mode::exact;
   const std::uint32_t samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : view.largest_strip;
   const auto strips = plan_strips(sensor, view.projection.blocks, samples);
   const Precision of_check = checks ? check_precision(view, plan, sensor) : plan.precision;
+  const bool single_run = plan.all.runs.size() == 1;
   StripBuffers buffers = make_strip_buffers(
       device, strips, view.projection.blocks, view.signal,
-      std::max(view.model.surface_vectors(plan.precision), view.model.surface_vectors(of_check)), options);
-  VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision);
+      ways.plain ? plain_layout(single_run)
+                 : layout_of(std::max(view.model.surface_vectors(plan.precision),
+                                      view.model.surface_vectors(of_check))),
+      options);
+  std::optional<ChipGrid> grid;
+  if (ways.plain)
+    grid.emplace(device, sensor);
+  VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision,
+                            grid);
   auto points = all_points(device, options, request, view, plan, ways, scene.paint);
   std::optional<LitPass> lit;
   if (view.signal.lit)
@@ -211,10 +226,13 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const bool stand_in = !ways.listed && !ways.rest && plan.is_reduced();
   const DiodeGroups &summed = stand_in ? plan.stand_ins : plan.all;
   const auto &promise = stand_in ? plan.promise : plan.promise_of_all;
+  std::optional<ResolvePass::PlainScope> plain;
+  if (grid)
+    plain.emplace(*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4, scene.paint.painted);
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
-                            {view.signal.lit, ways.listed, plan.precision, promise});
+                            {view.signal.lit, ways.listed, plan.precision, promise, grid});
   ResolvePass resolve(device, view.signal, summed, options,
-                      {is_tiled(sensor), ways.listed, plan.precision, promise});
+                      {is_tiled(sensor), ways.listed, plan.precision, promise, plain});
   if (stand_in)
     windows = {all_runs(summed)};
   const AccuracyReport report = report_of(plan, ways, stand_in);

@@ -35,7 +35,6 @@ struct ListedPasses {
   ShortWay short_way;
   std::optional<ShortWay> few_places; // of list_few
   std::optional<PointsPass> points;   // where not every sample's point is made
-  bool sums_all;                      // the short way sums every diode: it is the accumulate pass
   bool has_lit;                       // pixels in list_lit, which the two below sum
   AccumulatePass accumulate;          // stand-ins
   ResolvePass resolve;

@@ -219,14 +219,6 @@ void plan_short_way(const LitView &view, const Accuracy &accuracy, const Reduced
     plan.few_promise = promised(2, place_spread_m);
 }
 
-// Every diode the short way, where no error is promised of it.
-void take_all_the_short_way(FramePlan &plan) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  plan.short_groups = plan.all;
-  plan.short_promise = Promise{any, 0.0, 0.0, any, 0.0, 0.0, 0.0, 0.0};
-  plan.short_sums_all = true;
-}
-
 FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   FramePlan plan;
   plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
@@ -245,8 +237,6 @@ FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   }
   if (plan.promise && plan.precision == Precision::fp32)
     plan_short_way(view, accuracy, light, plan);
-  else if (view.sensor.samples == 1 && plan.precision == Precision::fp32 && !view.signal.lit)
-    take_all_the_short_way(plan);
   return plan;
 }
 

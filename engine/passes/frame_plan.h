@@ -33,7 +33,6 @@ struct FramePlan {
   std::optional<Promise> promise, promise_of_all;
   // Of what the short way sums; nothing where that is not exact enough.
   std::optional<Promise> short_promise;
-  bool short_sums_all = false; // it sums every diode, so that it takes any pixel of one sample
   // Likewise of pixels of several samples that it sums at four places.
   std::optional<Promise> few_promise;
   bool surely_kept = false; // by every pixel, which is known before the frame

@@ -7,6 +7,7 @@
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -14,22 +15,22 @@
 namespace pmdsim {
 namespace {
 
-// Copies a strip's rows of `words` 32-bit words into rows of a frame.
+// Copies the strip's rows of one of two channels to their place in a frame. `of` is 0 or 1.
 template <typename T>
-void store_rows(const std::byte *from, const shader::Strip &strip, std::uint32_t frame_columns,
+void store_rows(std::span<const shader::uvec2> pair, std::uint32_t of, const shader::Strip &strip,
                 std::vector<T> &to) {
-  static_assert(sizeof(T) == 4);
-  const std::size_t row_bytes = strip.columns * sizeof(T);
-  for (std::uint32_t row = 0; row < strip.rows; ++row)
-    std::memcpy(to.data() + std::size_t{strip.row + row} * frame_columns + strip.column,
-                from + row * row_bytes, row_bytes);
+  for (std::uint32_t row = 0; row < strip.rows; ++row) {
+    const auto from = pair.subspan(std::size_t{row} * strip.columns, strip.columns);
+    T *into = to.data() + std::size_t{strip.row + row} * strip.resolution_x + strip.column;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      into[i] = std::bit_cast<T>(of == 0 ? from[i].x : from[i].y);
+  }
 }
 
 // Of a channel that a float may be too small for.
-void check_finite(const std::vector<float> &channel, const shader::Strip &strip,
-                  std::uint32_t frame_columns) {
+void check_finite(const std::vector<float> &channel, const shader::Strip &strip) {
   for (std::uint32_t row = 0; row < strip.rows; ++row) {
-    const std::size_t first = std::size_t{strip.row + row} * frame_columns + strip.column;
+    const std::size_t first = std::size_t{strip.row + row} * strip.resolution_x + strip.column;
     if (std::ranges::any_of(std::span(channel).subspan(first, strip.columns),
                             [](float value) { return std::isinf(value); }))
       throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
@@ -38,7 +39,8 @@ void check_finite(const std::vector<float> &channel, const shader::Strip &strip,
 }
 
 // Where `tiled`, tags lie in tiles (shaders/interface.h).
-void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool tiled, Measurement &to) {
+void store_sample_tags(const std::byte *from, std::size_t tag_bytes, const shader::Strip &strip,
+                       bool tiled, Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
   const glm::uvec2 pixels(strip.columns, strip.rows);
   for (std::uint32_t row = 0; row < samples.y; ++row)
@@ -47,7 +49,7 @@ void store_sample_tags(const std::byte *from, const shader::Strip &strip, bool t
                                             subsample = sample % strip.samples;
       const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
       shader::uvec2 tag;
-      std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * sizeof(tag), sizeof(tag));
+      std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * tag_bytes, sizeof(tag));
       const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
       const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
       to.sample_pixel_id[to_at] = tag.x;
@@ -99,7 +101,7 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   if (buffers.tags_read.bytes() > 0) {
     const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
     commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
-                        vk::BufferCopy(0, 0, samples * sizeof(shader::uvec2)));
+                        vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
   }
   vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader,
                          Access::eTransferWrite | Access::eShaderStorageWrite, Stage::eHost,
@@ -115,8 +117,7 @@ shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, Measurement &measurement) {
   const auto store = [&](std::uint32_t channel, auto &to) {
-    store_rows(channels_for_host(buffers).data() + std::size_t{channel} * strip.padded_pixels * sizeof(float),
-               strip, strip.resolution_x, to);
+    store_rows(pair_for_host(buffers, strip, channel / 2 * 2), channel % 2, strip, to);
   };
   store(shader::channel_range_m, measurement.range_m);
   store(shader::channel_z_m, measurement.z_m);
@@ -133,12 +134,12 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
     store(first + shader::channel_distance_m, to.distance_m);
     for (std::uint32_t k = 0; k < to.taps.size(); ++k)
       store(first + shader::channel_first_tap + k, to.taps[k]);
-    check_finite(to.amplitude, strip, strip.resolution_x);
+    check_finite(to.amplitude, strip);
     for (const std::vector<float> &tap : to.taps)
-      check_finite(tap, strip, strip.resolution_x);
+      check_finite(tap, strip);
   }
   if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(buffers.tags_read.mapped().data(), strip, is_tiled(sensor), measurement);
+    store_sample_tags(buffers.tags_read.mapped().data(), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
 }
 
 } // namespace pmdsim

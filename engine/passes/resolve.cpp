@@ -5,6 +5,8 @@
 #include "engine/vulkan/commands.h"
 #include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
+#include "spirv/resolve_plain_double_float.h"
+#include "spirv/resolve_plain_fp64.h"
 
 namespace pmdsim {
 vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
@@ -25,6 +27,15 @@ namespace {
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
                                       SamplePrecision precision, const ResolvePass::Scope &scope,
                                       bool first) {
+  if (scope.plain) {
+    vulkan::Specialization constants = resolve_constants(signal, scope, first);
+    const auto &plain = *scope.plain;
+    constants.insert(constants.end(), {0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u, 0,
+                                       plain.painted ? 1u : 0u, 0, plain.single_run ? 1u : 0u, plain.samples});
+    return {device,
+            choose(device, precision, shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
+            sizeof(shader::PlainResolveConstants), constants};
+  }
   return {device, choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants), resolve_constants(signal, scope, first)};
 }
@@ -39,7 +50,7 @@ vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &si
 
 ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
                          const SimulatorOptions &options, const Scope &scope)
-    : signal_(signal), diodes_(groups.diode_count),
+    : signal_(signal), plain_(scope.plain), diodes_(groups.diode_count),
       frequencies_(upload_frequencies(device, signal, groups, scope.promise)),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
       first_(make_pipeline(device, signal, options.precision, scope, true)) {
@@ -48,17 +59,21 @@ ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, con
 }
 
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                         const StripBuffers &buffers, const vulkan::Buffer &planes,
+                         const StripBuffers &buffers, const SceneBuffers &scene,
                          const vulkan::Buffer *list) const {
   vulkan::compute_barrier(commands);
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
+    if (plain_) {
+      record_plain(commands, strip, buffers, scene, f);
+      continue;
+    }
     const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
     const shader::ResolveConstants constants{
         words(buffers.position.address()),
         words(buffers.sum.address() + first_plane * plane * sizeof(shader::vec4)),
         words(buffers.tags.address()),
-        words(planes.address()),
+        words(scene.planes.address()),
         words(buffers.channels.address()),
         words(harmonics_.address()),
         words(frequencies_.address() + f * sizeof(shader::Frequency)),
@@ -75,6 +90,29 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
         diodes_};
     dispatch_listed(f == 0 ? first_ : later_, commands, constants, strip.padded_pixels, list, of_pixels);
   }
+}
+
+void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                               const StripBuffers &buffers, const SceneBuffers &scene,
+                               std::uint32_t frequency) const {
+  const std::uint32_t plane = sample_count(strip);
+  const vk::DeviceSize sum_bytes = plain_->single_run ? sizeof(shader::vec2) : sizeof(shader::vec4);
+  const vk::DeviceSize first_plane = vk::DeviceSize{frequency} * signal_.planes;
+  const shader::PlainResolveConstants constants{
+      plain_->grid.of(strip),
+      plain_->grid.chip(),
+      words(buffers.tags.address()),
+      words(scene.planes.address()),
+      words(buffers.sum.address() + first_plane * plane * sum_bytes),
+      words(buffers.channels.address()),
+      words(harmonics_.address()),
+      words(frequencies_.address() + frequency * sizeof(shader::Frequency)),
+      words(scene.paint.shapes.address()),
+      words(scene.paint.surfaces.address()),
+      strip.columns * strip.rows,
+      strip.padded_pixels,
+      plane};
+  (frequency == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 
 } // namespace pmdsim

@@ -2,9 +2,11 @@
 // The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
 #include "engine/accuracy.h"
+#include "engine/passes/chip_grid.h"
 #include "engine/passes/diode_groups.h"
 #include "engine/passes/pixel_lists.h"
 #include "engine/passes/promise.h"
+#include "engine/passes/scene_buffers.h"
 #include "engine/passes/signal.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
@@ -16,22 +18,34 @@ namespace pmdsim {
 
 class ResolvePass {
 public:
+  // Of samples that were summed the plain way (AccumulatePass::Scope).
+  struct PlainScope {
+    ChipGrid grid;
+    std::uint32_t samples; // S
+    bool single_run;
+    bool vignetting, painted;
+  };
   // Which pixels, and how they were summed.
   struct Scope {
     bool tiled = false;  // the tags lie in tiles (shaders/interface.h)
     bool listed = false; // only those of lists
     Precision precision = Precision::fp32;
-    std::optional<Promise> promise; // where Signal::promised
+    std::optional<Promise> promise{}; // where Signal::promised
+    std::optional<PlainScope> plain{};
   };
   ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
               const SimulatorOptions &options, const Scope &scope);
 
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const vulkan::Buffer &planes,
+              const StripBuffers &buffers, const SceneBuffers &scene,
               const vulkan::Buffer *list = nullptr) const;
 
 private:
+  void record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, const SceneBuffers &scene, std::uint32_t frequency) const;
+
   Signal signal_;
+  std::optional<PlainScope> plain_;
   std::uint32_t diodes_;
   vulkan::Buffer frequencies_;
   vulkan::Buffer harmonics_;

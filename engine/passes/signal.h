@@ -26,12 +26,15 @@ struct Signal {
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
   std::uint32_t sum_planes() const { return planes * frequencies(); }
-  std::uint32_t channels_of_frequency() const { return shader::channel_first_tap + (keep_taps ? taps : 0); }
+  // Channels lie in pairs.
+  std::uint32_t channels_of_frequency() const {
+    return (shader::channel_first_tap + (keep_taps ? taps : 0) + 1) / 2 * 2;
+  }
   std::uint32_t first_channel(std::uint32_t frequency) const {
     return shader::truth_channels + frequency * channels_of_frequency();
   }
   std::uint32_t lit_channel() const { return first_channel(frequencies()); }
-  std::uint32_t channels() const { return lit_channel() + (lit ? 1 : 0); }
+  std::uint32_t channels() const { return lit_channel() + (lit ? 2 : 0); }
   // 2 pi f / c of the highest tone, rad/m.
   double largest_wavenumber_rad_m() const;
   // Frequency by frequency, the harmonics of each in order.

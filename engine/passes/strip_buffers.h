@@ -12,7 +12,7 @@ namespace pmdsim {
 
 struct StripBuffers {
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
-  vulkan::Buffer tags;      // uvec2 a sample (shaders/interface.h): pixel id, triangle id
+  vulkan::Buffer tags; // uvec2 a sample (shaders/interface.h): pixel id, triangle id; or its record, uvec4
   vulkan::Buffer
       position;           // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
   vulkan::Buffer surface; // the vectors a sample that the sum asks for
@@ -22,19 +22,31 @@ struct StripBuffers {
   vulkan::Buffer terms;    // sum of |terms|, a float a sample; empty unless an error was promised
   vulkan::Buffer broken;   // shader::BrokenPromise; likewise
   vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 a sample
-  vulkan::Buffer channels; // channel by channel, padded_pixels words each
+  vulkan::Buffer channels; // pair by pair (shaders/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer broken_read;
   vulkan::Buffer tags_read;    // empty unless the samples' triangles are asked for
   vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
+  std::size_t tag_bytes;       // a sample, of `tags`
 };
 
-// The channels as the host reads them, once they are read back.
-std::span<const std::byte> channels_for_host(const StripBuffers &buffers);
+// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of each
+// pixel a word of either.
+std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
+                                             std::uint32_t first);
+
+// What a strip keeps of its samples.
+struct SampleLayout {
+  std::size_t tag_bytes;      // a sample
+  std::size_t position_bytes; // likewise, from here on
+  std::size_t backscatter_bytes;
+  std::size_t surface_vectors;
+  std::size_t sum_bytes; // of each plane
+};
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                std::uint32_t surface_vectors, const SimulatorOptions &options);
+                                const SampleLayout &layout, const SimulatorOptions &options);
 
 // The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
 // MiB.

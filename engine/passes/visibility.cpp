@@ -6,6 +6,12 @@
 #include "engine/vulkan/errors.h"
 #include "spirv/tags_double_float.h"
 #include "spirv/tags_fp64.h"
+#include "spirv/visibility_depth_frag_double_float.h"
+#include "spirv/visibility_depth_frag_fp64.h"
+#include "spirv/visibility_depth_masked_double_float.h"
+#include "spirv/visibility_depth_masked_fp64.h"
+#include "spirv/visibility_depth_vert_double_float.h"
+#include "spirv/visibility_depth_vert_fp64.h"
 #include "spirv/visibility_frag.h"
 #include "spirv/visibility_keys_frag.h"
 #include "spirv/visibility_keys_masked_double_float.h"
@@ -26,6 +32,7 @@ using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
 
 constexpr auto tag_format = vk::Format::eR32G32Uint;
+constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
 constexpr auto depth_format = vk::Format::eD32Sfloat;
 constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
@@ -67,29 +74,44 @@ vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<Ras
   return vulkan::upload(device, std::as_bytes(std::span(records)));
 }
 
-// The opaque form runs no arithmetic at all.
-std::span<const std::uint32_t> fragment_shader(const vulkan::Device &device, bool masked,
-                                               SamplePrecision precision) {
+struct RasterShaders {
+  std::span<const std::uint32_t> vertex, fragment;
+};
+
+RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePrecision precision, bool depths) {
+  const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
+    return choose(device, precision, fp64, double_float);
+  };
+  if (depths)
+    return {of(shader::visibility_depth_vert_fp64_spirv, shader::visibility_depth_vert_double_float_spirv),
+            masked ? of(shader::visibility_depth_masked_fp64_spirv,
+                        shader::visibility_depth_masked_double_float_spirv)
+                   : of(shader::visibility_depth_frag_fp64_spirv,
+                        shader::visibility_depth_frag_double_float_spirv)};
+  // The opaque forms run no arithmetic at all.
   if (!device.has_attachments())
-    return masked ? choose(device, precision, shader::visibility_keys_masked_fp64_spirv,
-                           shader::visibility_keys_masked_double_float_spirv)
-                  : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv);
-  if (!masked)
-    return shader::visibility_frag_spirv;
-  return choose(device, precision, shader::visibility_masked_fp64_spirv,
-                shader::visibility_masked_double_float_spirv);
+    return {shader::visibility_vert_spirv,
+            masked ? of(shader::visibility_keys_masked_fp64_spirv,
+                        shader::visibility_keys_masked_double_float_spirv)
+                   : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv)};
+  return {shader::visibility_vert_spirv,
+          masked ? of(shader::visibility_masked_fp64_spirv, shader::visibility_masked_double_float_spirv)
+                 : std::span<const std::uint32_t>(shader::visibility_frag_spirv)};
 }
 
 vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
-                                 float half_viewport, std::span<const std::uint32_t> fragment_spirv) {
+                                 float half_viewport, const RasterShaders &shaders, vk::Format format,
+                                 std::uint32_t general_chip) {
   return vulkan::checked([&] {
-    const auto vertex = shader_module(device, shader::visibility_vert_spirv);
-    const auto fragment = shader_module(device, fragment_spirv);
-    const vk::SpecializationMapEntry entry(0, 0, sizeof(float));
-    const vk::SpecializationInfo constants(1, &entry, sizeof(float), &half_viewport);
+    const auto vertex = shader_module(device, shaders.vertex);
+    const auto fragment = shader_module(device, shaders.fragment);
+    const vk::SpecializationMapEntry entry(0, 0, sizeof(std::uint32_t));
+    const vk::SpecializationInfo of_vertex(1, &entry, sizeof(half_viewport), &half_viewport),
+        of_fragment(1, &entry, sizeof(general_chip), &general_chip);
     const std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants),
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main")};
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &of_vertex),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",
+                                          &of_fragment)};
     const vk::VertexInputBindingDescription binding(0, sizeof(shader::RasterVertex));
     const std::array attributes{
         vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32B32Sfloat,
@@ -106,13 +128,14 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
     const bool attached = device.has_attachments();
     const vk::PipelineDepthStencilStateCreateInfo depth({}, attached, attached, vk::CompareOp::eGreater);
     vk::PipelineColorBlendAttachmentState write;
-    write.setColorWriteMask(vk::ColorComponentFlagBits::eR | vk::ColorComponentFlagBits::eG);
+    using Component = vk::ColorComponentFlagBits;
+    write.setColorWriteMask(Component::eR | Component::eG | Component::eB | Component::eA);
     vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
     if (!attached)
       blend.setAttachments({});
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
-    vk::PipelineRenderingCreateInfo rendering(0, tag_format, depth_format);
+    vk::PipelineRenderingCreateInfo rendering(0, format, depth_format);
     if (!attached)
       rendering.setColorAttachmentFormats({}).setDepthAttachmentFormat(vk::Format::eUndefined);
     return vk::raii::Pipeline(device.get(), nullptr,
@@ -122,12 +145,13 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
   });
 }
 
-// A device has one viewport, so one pipeline for each fragment shader.
+// A device has one viewport, so one pipeline for each pair of shaders.
 std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, float half_viewport,
-                                                 std::span<const std::uint32_t> fragment_spirv) {
-  return device.pipelines().get(fragment_spirv.data(), {}, [&] {
+                                                 const RasterShaders &shaders, vk::Format format,
+                                                 std::uint32_t general_chip) {
+  return device.pipelines().get(shaders.fragment.data(), {general_chip}, [&] {
     vk::raii::PipelineLayout layout = make_layout(device);
-    vk::raii::Pipeline pipeline = make_pipeline(device, layout, half_viewport, fragment_spirv);
+    vk::raii::Pipeline pipeline = make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
     return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
   });
 }
@@ -140,13 +164,15 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 
 VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
                                const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
-                               SamplePrecision precision)
+                               SamplePrecision precision, const std::optional<ChipGrid> &grid)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
       planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()),
-      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      compiled_(compiled(device, half_viewport_, fragment_shader(device, masked, precision))) {
+      grid_(grid), half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
+      compiled_(compiled(device, half_viewport_,
+                         choose_shaders(device, masked, precision, grid.has_value()),
+                         grid ? record_format : tag_format, grid && !grid->is_nominal() ? 1u : 0u)) {
   if (!device.has_attachments()) {
     tags_of_keys_ = vulkan::ComputePipeline(
         device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
@@ -155,7 +181,7 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
   }
   const vk::Extent2D extent = largest_extent(projection.blocks, strips);
   attachments_ = {
-      vulkan::Image(device, extent, tag_format,
+      vulkan::Image(device, extent, grid ? record_format : tag_format,
                     vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
                     vk::ImageAspectFlagBits::eColor),
       vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
@@ -257,6 +283,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
   commands.setScissor(0,
                       vk::Rect2D({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)},
                                  {size.x, size.y}));
+  const shader::SampleGrid grid = grid_ ? grid_->of(strip) : shader::SampleGrid{};
   const shader::VisibilityConstants constants{
       raster_shift(sensor_, tile),
       corner.x,
@@ -274,7 +301,10 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       words(scene.paint.surfaces.address()),
       words(tags.address()),
       extent_of(planned, blocks_).width,
-      0};
+      0,
+      grid.slope,
+      grid.first,
+      grid_ ? grid_->chip() : shader::uvec2(0)};
   commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
                                                       constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);

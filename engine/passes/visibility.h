@@ -2,6 +2,7 @@
 // The visibility pass: rasterises the projected triangles and tags every visible sample with its pixel ID and
 // its triangle ID, nearest wins.
 
+#include "engine/passes/chip_grid.h"
 #include "engine/passes/projection.h"
 #include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
@@ -21,12 +22,14 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class VisibilityPass {
 public:
-  // `strips` tell how large an image is needed; `masked`: whether shapes may have holes.
+  // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
+  // samples' depths are asked for, too, which only attachments can hold.
   VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-                 const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision);
+                 const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+                 const std::optional<ChipGrid> &grid);
 
-  // Leaves the tags of the strip's samples, or with distortion of its block's fragments, in `tags`, visible
-  // to compute shaders and transfers.
+  // Leaves the tags of the strip's samples, or their records (shaders/interface.h), or with distortion the
+  // tags of its block's fragments, in `tags`, visible to compute shaders and transfers.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &tags) const;
 
@@ -51,6 +54,7 @@ private:
   };
   std::optional<Attachments> attachments_; // nothing where fragments leave keys instead
   vulkan::ComputePipeline tags_of_keys_;
+  std::optional<ChipGrid> grid_;
   float half_viewport_;
   std::shared_ptr<const vulkan::Pipeline> compiled_;
 };

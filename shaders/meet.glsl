@@ -1,0 +1,19 @@
+// Where rays meet the planes of triangles.
+#ifndef PMDSIM_MEET_GLSL
+#define PMDSIM_MEET_GLSL
+
+#include "interface.h"
+#include "real.glsl"
+
+// The depth at which the ray (x, y, 1) meets the plane.
+Real depth_on_plane(Real3 ray, TrianglePlane plane) {
+  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
+  Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
+  // A sample that an edge-on triangle covers only by the raster's snapping must not leave that triangle's depths.
+  return real_clamp(divide(offset, dot3(normal, ray)), plane.along_min, plane.along_max);
+}
+
+Real3 point_at_depth(Real3 ray, Real depth) { return Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth); }
+Real3 point_on_plane(Real3 ray, TrianglePlane plane) { return point_at_depth(ray, depth_on_plane(ray, plane)); }
+
+#endif

@@ -1,0 +1,84 @@
+#version 460
+// resolve.comp of samples that were summed the plain way. Without a branch around it all, so that lavapipe reads what all
+// pixels share once for all lanes; beyond the last pixel is room for what only pads.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#define POINTS_BASE plain_resolve_points
+#include "grid.glsl"
+#include "points.glsl"
+#include "resolve.glsl"
+
+layout(push_constant, std430) uniform Constants { PlainResolveConstants constants; };
+layout(constant_id = plain_resolve_points + constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_plain_only) const uint is_only = 0;
+layout(constant_id = constant_plain_side) const uint side = 1; // S
+
+// The sum of plane p, but for the backscatter.
+vec2 load_sum(uint p, uint i) {
+  uint at = p * constants.plane + i;
+  return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
+}
+
+// What is known of a surface: a TrianglePlane's backscatter and object, the only ones of its members that are asked for.
+struct Surface {
+  uvec2 tag;
+  float backscatter;
+  uint object;
+};
+
+Surface load_surface(uint i) {
+  uvec2 tag = load_record_tag(constants.records, i);
+  uvec2 words = load_tag(constants.planes, 6 * tag.y + 4);
+  return Surface(tag, uintBitsToFloat(words.x), words.y);
+}
+
+Surface add_sample(inout PixelSum sum, Frequency frequency, uvec2 at) {
+  uint i = at.y * constants.grid.columns + at.x;
+  Surface surface = load_surface(i);
+  Real depth = load_record_depth(constants.records, i);
+  Real3 ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
+  Real3 point = point_at_depth(ray, depth);
+  Real range = length3(point);
+  TrianglePlane plane;
+  plane.backscatter = surface.backscatter;
+  float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), point, surface.tag.y, plane);
+  bool hits = surface.tag.x != 0u, shines = hits && backscatter > 0.0; // what is black may not be a number
+  if (sum.hits == 0u)
+    sum.reference_m = range;
+  Real excess_m = add(range, negate(sum.reference_m));
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    vec2 z = load_sum(p, i);
+    if (side > 1)
+      z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(frequency, p)))));
+    sum.z[p] = compensated_add(sum.z[p], shines ? backscatter * z : vec2(0.0));
+  }
+  sum.range = add(sum.range, hits ? range : real(0.0));
+  sum.depth = add(sum.depth, depth);
+  sum.hits += hits ? 1u : 0u;
+  return surface;
+}
+
+void main() {
+  Frequency frequency = Frequencies(constants.frequency).at[0];
+  uint pixel = gl_GlobalInvocationID.x;
+  uint columns = constants.grid.columns / side;
+  uvec2 first = side * row_by_row(min(pixel, constants.pixels - 1), columns, constants.grid.inverse_columns * float(side));
+  uint middle = (side - 1) / 2; // of an even number of samples the upper left one
+  PixelSum sum;
+  see_nothing(sum);
+  Surface central;
+  for (uint y = 0; y < side; ++y)
+    for (uint x = 0; x < side; ++x) {
+      Surface surface = add_sample(sum, frequency, first + uvec2(x, y));
+      if (x == middle && y == middle)
+        central = surface;
+    }
+  Channels to = Channels(constants.channels, constants.padded_pixels);
+  store_return(to, frequency, constants.harmonics, side * side, pixel, sum);
+  if (ground_truth != 0) {
+    store_ground_truth(to, side * side, pixel, sum);
+    store_ids(to, central.tag, central.object, pixel);
+  }
+}

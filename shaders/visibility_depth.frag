@@ -1,0 +1,31 @@
+#version 460
+// As visibility.frag, where samples are an even grid: leaves the depth beside the tag at which the sample's own exact ray meets
+// the triangle's plane.
+// MASKED: for scenes whose shapes have holes; what is not there where the ray meets it leaves nothing.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#define TAG_DEPTH
+#include "chip.glsl"
+#include "meet.glsl"
+#ifdef MASKED
+#include "paint.glsl"
+#endif
+#include "sight.glsl"
+#include "tag.glsl"
+
+layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
+layout(constant_id = 0) const uint general_chip = 0;
+layout(location = 0) flat in uint visible_triangle;
+layout(location = 0) out uvec4 record;
+
+void main() {
+  vec2 fragment = floor(gl_FragCoord.xy);
+  Real3 ray = grid_ray(slope, constants.chip, first + 2.0 * fragment, general_chip != 0);
+  Real depth = depth_on_plane(ray, TrianglePlane(plane_hi, plane_lo, 0.0, 0u, along.x, along.y));
+#ifdef MASKED
+  if (!look_of(constants.shapes, constants.surfaces, visible_triangle, point_at_depth(ray, depth)).is_there)
+    discard;
+#endif
+  record = uvec4(pixel_id(fragment, strip.xy, strip.z, strip.w), visible_triangle, words_of(depth));
+}
