@@ -43,7 +43,8 @@ PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sa
 PMDSIM_CONSTANT constant_listed = 12;     // 1: only the samples of a list of pixels
 PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to without their phases
 PMDSIM_CONSTANT constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
-PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
+PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance, so that S_0
+                                          // and S_1 (moments.glsl) need no loop
 PMDSIM_CONSTANT constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
 // And of its plain form:
 PMDSIM_CONSTANT constant_only = 17;         // 1: the frame has no other run
@@ -236,6 +237,7 @@ struct LightRun {
   float diagrams; // likewise of measured diagrams, times r^2
   float rims;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-rim_root
   float rim_root; // W = sum of weights / (I / r^2)
+  vec4 detours;   // sum of the diodes' GroupDiode::position, where they are alike (constant_alike)
   // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i) (power_sums.h).
   vec4 moments_of_powers[27];
 };
@@ -502,12 +504,12 @@ PMDSIM_CONSTANT channel_range_m = 0;
 PMDSIM_CONSTANT channel_z_m = 1;
 PMDSIM_CONSTANT channel_triangle_id = 2;
 PMDSIM_CONSTANT channel_object_id = 3;
-PMDSIM_CONSTANT channel_coverage = 4;
-PMDSIM_CONSTANT truth_channels = 6; // the last is not used
+PMDSIM_CONSTANT truth_channels = 4;
 PMDSIM_CONSTANT channel_amplitude = 0;
 PMDSIM_CONSTANT channel_phase_rad = 1;
 PMDSIM_CONSTANT channel_distance_m = 2;
-PMDSIM_CONSTANT channel_first_tap = 3;
+PMDSIM_CONSTANT channel_coverage = 3; // the same of each frequency: it fills a pair
+PMDSIM_CONSTANT channel_first_tap = 4;
 
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
@@ -525,7 +527,7 @@ static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 40);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 496 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
+static_assert(sizeof(LightRun) == 512 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
 static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
 static_assert(sizeof(AccumulateConstants) == 104);
 static_assert(sizeof(ResolveConstants) == 116);

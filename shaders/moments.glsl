@@ -22,10 +22,12 @@ void add_block(inout float total[sums], Point point, Diodes diodes, uint block, 
     bool is_reached = (reached & 1u << d) != 0u;
     vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_excess(point, diode, is_reached);
     float term = factors.x;
-    part[0] += term;
+    if (alike == 0)
+      part[0] += term;
     [[unroll]] for (uint k = 1; k < sums; ++k) {
       term = k == 1 && alike != 0 ? factors.y : term * factors.y;
-      part[k] += term;
+      if (alike == 0 || k > 1)
+        part[k] += term;
     }
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
@@ -40,8 +42,11 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
-  if (alike != 0)
-    total[0] = run.intensity; // those that pad a run have none, and q = 0
+  if (alike != 0) { // those that pad a run have no intensity, and q = 0
+    total[0] = run.intensity;
+    [[unroll]] for (uint k = 1; k < min(2, sums); ++k)
+      total[k] = dot(run.detours.xyz, point.position) + run.detours.w;
+  }
   [[unroll]] for (uint k = 0; k < moments; ++k) {
     float sum = 0.0;
     [[unroll]] for (uint down = 0; down < powers; ++down) {

@@ -124,7 +124,7 @@ vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
 }
 
 // `turns` in [-1, 1]; not known where nothing returns.
-void store_amplitude_and_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns) {
+void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float coverage) {
   bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
@@ -135,7 +135,7 @@ void store_amplitude_and_phase(Channels to, Frequency frequency, uint pixel, flo
   store_pair(to, channel + channel_amplitude, pixel, floatBitsToUint(vec2(amplitude, is_known ? phase_rad : nan())));
   Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
   float distance_m = clamp(high(distance), 0.0, frequency.below.y);
-  store(to, channel + channel_distance_m, pixel, is_known ? distance_m : nan());
+  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), coverage)));
 }
 
 // `samples`: S x S of the pixel; of harmonics, `amplitudes` are those of the correlation function. Returns |z| over what one
@@ -156,15 +156,18 @@ float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samp
   float amplitude = scale * size;
   Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
   turns = add(add(turns, negate(round_to_whole(turns))), real(angle_turns(z)));
-  store_amplitude_and_phase(to, frequency, pixel, amplitude, turns);
+  store_phase(to, frequency, pixel, amplitude, turns, float(sum.hits) / float(samples));
   return size;
 }
 
 void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
-  Real hits = real(float(max(sum.hits, 1u)));
-  vec2 lengths = vec2(high(divide(sum.range, hits)), high(divide(sum.depth, hits)));
+  if (samples > 1) {
+    Real hits = real(float(max(sum.hits, 1u)));
+    sum.range = divide(sum.range, hits);
+    sum.depth = divide(sum.depth, hits);
+  }
+  vec2 lengths = vec2(high(sum.range), high(sum.depth));
   store_pair(to, channel_range_m, pixel, floatBitsToUint(sum.hits > 0u ? lengths : vec2(nan())));
-  store(to, channel_coverage, pixel, float(sum.hits) / float(samples));
 }
 
 void store_lit(Channels to, uint channel, uint diodes, uint pixel, PixelSum sum) {

@@ -49,7 +49,9 @@ const Forms precise_forms{
 const Forms &forms_of(const Signal &signal, const AccumulatePass::Scope &scope) {
   if (scope.plain)
     return plain_forms;
-  return !signal.by_moments ? direct_forms : scope.precision == Precision::fp64 ? precise_forms : moment_forms;
+  return !signal.by_moments                   ? direct_forms
+         : scope.precision == Precision::fp64 ? precise_forms
+                                              : moment_forms;
 }
 
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
@@ -109,8 +111,10 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
     constants.push_back(groups.runs.size() == 1 ? 1u : 0u);
     constants.push_back(scope.plain->is_nominal() ? 0u : 1u);
   }
-  const std::size_t bytes = scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants);
-  return {device, forms_of(signal, scope).choose(device, options), static_cast<std::uint32_t>(bytes), constants};
+  const std::size_t bytes =
+      scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants);
+  return {device, forms_of(signal, scope).choose(device, options), static_cast<std::uint32_t>(bytes),
+          constants};
 }
 
 template <typename Property>
@@ -217,8 +221,10 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
   std::vector<shader::LightRun> result;
   for (const DiodeRun &run : groups.runs) {
     double intensity = 0.0, diagrams = 0.0; // relative; times what the diagrams are off by
+    glm::dvec4 detours(0.0);
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
+      detours += glm::dvec4(groups.diodes[i].position);
       diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].diagram_error;
     }
     const DoublePair4 reference(run.reference_m, 0.0);
@@ -230,6 +236,7 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
     record.phase_turns = {phase_turns.hi, phase_turns.lo};
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
+    record.detours = detours;
     record.heights = static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(promise.terms_per_weight_error * diagrams);
     set_rims(groups, run.first, run.first + run_diodes, promise, record);
@@ -269,9 +276,8 @@ std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) c
 }
 
 void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, const SceneBuffers &scene,
-                            const LitWindow &window, std::uint32_t first, std::uint32_t last,
-                            const vulkan::Buffer *list) const {
+                            const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window,
+                            std::uint32_t first, std::uint32_t last, const vulkan::Buffer *list) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
     vulkan::compute_barrier(commands);

@@ -60,8 +60,8 @@ public:
   std::uint64_t interactions_per_run(const shader::Strip &strip) const;
   // Adds the runs first ... last - 1 of the window to the strip's sums.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window, std::uint32_t first, std::uint32_t last,
-              const vulkan::Buffer *list = nullptr) const;
+              const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window,
+              std::uint32_t first, std::uint32_t last, const vulkan::Buffer *list = nullptr) const;
 
 private:
   void record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

@@ -200,12 +200,12 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const auto strips = plan_strips(sensor, view.projection.blocks, samples);
   const Precision of_check = checks ? check_precision(view, plan, sensor) : plan.precision;
   const bool single_run = plan.all.runs.size() == 1;
-  StripBuffers buffers = make_strip_buffers(
-      device, strips, view.projection.blocks, view.signal,
-      ways.plain ? plain_layout(single_run)
-                 : layout_of(std::max(view.model.surface_vectors(plan.precision),
-                                      view.model.surface_vectors(of_check))),
-      options);
+  StripBuffers buffers =
+      make_strip_buffers(device, strips, view.projection.blocks, view.signal,
+                         ways.plain ? plain_layout(single_run)
+                                    : layout_of(std::max(view.model.surface_vectors(plan.precision),
+                                                         view.model.surface_vectors(of_check))),
+                         options);
   std::optional<ChipGrid> grid;
   if (ways.plain)
     grid.emplace(device, sensor);
@@ -228,7 +228,8 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const auto &promise = stand_in ? plan.promise : plan.promise_of_all;
   std::optional<ResolvePass::PlainScope> plain;
   if (grid)
-    plain.emplace(*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4, scene.paint.painted);
+    plain.emplace(*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4,
+                  scene.paint.painted);
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
                             {view.signal.lit, ways.listed, plan.precision, promise, grid});
   ResolvePass resolve(device, view.signal, summed, options,

@@ -39,8 +39,8 @@ void check_finite(const std::vector<float> &channel, const shader::Strip &strip)
 }
 
 // Where `tiled`, tags lie in tiles (shaders/interface.h).
-void store_sample_tags(const std::byte *from, std::size_t tag_bytes, const shader::Strip &strip,
-                       bool tiled, Measurement &to) {
+void store_sample_tags(const std::byte *from, std::size_t tag_bytes, const shader::Strip &strip, bool tiled,
+                       Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
   const glm::uvec2 pixels(strip.columns, strip.rows);
   for (std::uint32_t row = 0; row < samples.y; ++row)
@@ -121,7 +121,7 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
   };
   store(shader::channel_range_m, measurement.range_m);
   store(shader::channel_z_m, measurement.z_m);
-  store(shader::channel_coverage, measurement.coverage);
+  store(signal.first_channel(0) + shader::channel_coverage, measurement.coverage);
   store(shader::channel_triangle_id, measurement.triangle_id);
   store(shader::channel_object_id, measurement.object_id);
   if (signal.lit)
@@ -139,7 +139,8 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
       check_finite(tap, strip);
   }
   if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(buffers.tags_read.mapped().data(), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
+    store_sample_tags(buffers.tags_read.mapped().data(), buffers.tag_bytes, strip, is_tiled(sensor),
+                      measurement);
 }
 
 } // namespace pmdsim

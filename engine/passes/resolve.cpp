@@ -30,11 +30,13 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal
   if (scope.plain) {
     vulkan::Specialization constants = resolve_constants(signal, scope, first);
     const auto &plain = *scope.plain;
-    constants.insert(constants.end(), {0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u, 0,
-                                       plain.painted ? 1u : 0u, 0, plain.single_run ? 1u : 0u, plain.samples});
-    return {device,
-            choose(device, precision, shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
-            sizeof(shader::PlainResolveConstants), constants};
+    constants.insert(constants.end(),
+                     {0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u, 0,
+                      plain.painted ? 1u : 0u, 0, plain.single_run ? 1u : 0u, plain.samples});
+    return {
+        device,
+        choose(device, precision, shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
+        sizeof(shader::PlainResolveConstants), constants};
   }
   return {device, choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants), resolve_constants(signal, scope, first)};
@@ -112,7 +114,8 @@ void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const sh
       strip.columns * strip.rows,
       strip.padded_pixels,
       plane};
-  (frequency == 0 ? first_ : later_).dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
+  (frequency == 0 ? first_ : later_)
+      .dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 
 } // namespace pmdsim

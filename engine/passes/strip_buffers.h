@@ -30,8 +30,8 @@ struct StripBuffers {
   std::size_t tag_bytes;       // a sample, of `tags`
 };
 
-// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of each
-// pixel a word of either.
+// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of
+// each pixel a word of either.
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
                                              std::uint32_t first);
 

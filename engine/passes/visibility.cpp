@@ -78,7 +78,8 @@ struct RasterShaders {
   std::span<const std::uint32_t> vertex, fragment;
 };
 
-RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePrecision precision, bool depths) {
+RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePrecision precision,
+                             bool depths) {
   const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
     return choose(device, precision, fp64, double_float);
   };
@@ -168,10 +169,9 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
-      planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()),
-      grid_(grid), half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      compiled_(compiled(device, half_viewport_,
-                         choose_shaders(device, masked, precision, grid.has_value()),
+      planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
+      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
+      compiled_(compiled(device, half_viewport_, choose_shaders(device, masked, precision, grid.has_value()),
                          grid ? record_format : tag_format, grid && !grid->is_nominal() ? 1u : 0u)) {
   if (!device.has_attachments()) {
     tags_of_keys_ = vulkan::ComputePipeline(
