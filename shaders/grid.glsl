@@ -6,10 +6,13 @@
 #include "chip.glsl"
 #include "meet.glsl"
 
-// (i % columns, i / columns) without the division, which lavapipe does lane by lane; exact for i < 2^21.
+// (i % columns, i / columns) without the division, which lavapipe does lane by lane: a float's quotient is off by one at most,
+// of fewer than 2^21 rows.
 uvec2 row_by_row(uint i, uint columns, float inverse_columns) {
-  uint row = uint((float(i) + 0.5) * inverse_columns);
-  return uvec2(i - row * columns, row);
+  uint row = uint(float(i) * inverse_columns);
+  row -= row * columns > i ? 1u : 0u;
+  uint column = i - row * columns;
+  return column < columns ? uvec2(column, row) : uvec2(column - columns, row + 1u);
 }
 
 Real3 ray_of(uvec2 sample_at, SampleGrid grid, uvec2 chip, bool general) {

@@ -289,27 +289,32 @@ struct VisibilityConstants {
   uvec2 shapes;          // in: ShapePaint[]
   uvec2 surfaces;        // in: SurfacePaint[]
   // Where fragments leave keys:
-  uvec2 tags;         // in and out: of all of the strip's fragments, row by row
-  uint tag_columns;   // fragments in a row
-  uint padding;
+  uvec2 tags;       // in and out: of all of the strip's fragments, row by row
+  uint tag_columns; // fragments in a row
+  uint tag_stride;  // from one key to the next, keys
   // Where fragments leave their depth, too, as in SampleGrid:
   vec4 slope;
   vec2 first;
   uvec2 chip; // in: ChipPlace
 };
 
-// Turns keys into tags. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
+// Turns keys into tags or records. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
 // depth: the largest is the nearest, and of triangles at one depth the first.
 struct TagsConstants {
-  uvec2 tags;        // in: keys, 0 where nothing was hit; out: tags
-  uint tag_columns;  // fragments in a row
+  SampleGrid grid;   // of all fragments; where tags are left, only the columns are
+  uvec2 chip;        // in, where records are left: ChipPlace
+  uvec2 planes;      // likewise: TrianglePlane[]
+  uvec2 tags;        // in: keys, 0 where nothing was hit; out: tags or, in place of two keys each, records
   uint fragments;    // in all
   uint tile_columns; // of a tile, fragments: as many as there are where samples are an even grid
   uint tile_rows;
   uint column, row;  // of the strip's first pixel
   uint resolution_x; // of the frame
   uint fragments_per_pixel_side; // 0: with distortion
+  uint padding;
 };
+PMDSIM_CONSTANT constant_tags_records = 0; // specialization: 1: leaves records
+PMDSIM_CONSTANT constant_tags_chip = 1;    // as constant_general_chip
 
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
@@ -523,7 +528,7 @@ static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
 static_assert(sizeof(VisibilityConstants) == 128 && offsetof(VisibilityConstants, slope) == 96);
 static_assert(sizeof(PlainSumConstants) == 108 && sizeof(PlainResolveConstants) == 116);
-static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 40);
+static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 88);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);

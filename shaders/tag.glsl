@@ -3,23 +3,17 @@
 #define PMDSIM_TAG_GLSL
 
 #include "interface.h"
-
-// `fragment` counts from the tile's corner; `side` as fragments_per_pixel_side.
-uint pixel_id(vec2 fragment, uvec2 first_pixel, uint resolution_x, uint side) {
-  // By a float, exact for this: lavapipe divides whole numbers lane by lane.
-  uvec2 pixel = first_pixel + uvec2((fragment + 0.5) / float(max(side, 1u)));
-  return side == 0u ? 1u : pixel.y * resolution_x + pixel.x + 1u;
-}
+#include "pixel_id.glsl"
 
 // Where keys are left: in place of a colour and a depth the nearest fragment's key stays, by an atomic operation.
-#if defined(TAG_KEYS)
+#ifdef TAG_KEYS
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Keys { uint64_t at[]; };
 
 void leave_tag(VisibilityConstants constants, uvec2 fragment, uint triangle) {
   uint64_t key = packUint2x32(uvec2(~triangle, floatBitsToUint(gl_FragCoord.z)));
-  atomicMax(Keys(constants.tags).at[fragment.y * constants.tag_columns + fragment.x], key);
+  atomicMax(Keys(constants.tags).at[constants.tag_stride * (fragment.y * constants.tag_columns + fragment.x)], key);
 }
-#elif !defined(TAG_DEPTH)
+#else
 layout(location = 0) out uvec2 tag;
 
 void leave_tag(VisibilityConstants constants, uvec2 fragment, uint triangle) {

@@ -1,22 +1,32 @@
 #version 460
-// From the keys that fragments left to their tags, in place.
+// From the keys that fragments left to their tags or, where samples are an even grid, their records, in place.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "buffers.glsl"
+#include "grid.glsl"
+#include "pixel_id.glsl"
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { TagsConstants constants; };
+layout(constant_id = constant_tags_records) const uint leaves_records = 0;
+layout(constant_id = constant_tags_chip) const uint general_chip = 0;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= constants.fragments)
     return;
-  uvec2 key = load_tag(constants.tags, i);
-  uint side = constants.fragments_per_pixel_side;
-  uvec2 fragment = uvec2(i % constants.tag_columns, i / constants.tag_columns);
+  uint at = leaves_records != 0 ? 2 * i : i;
+  uvec2 key = load_tag(constants.tags, at);
+  bool hit = key != uvec2(0u);
+  uint triangle = hit ? ~key.x : 0u;
+  uvec2 fragment = row_by_row(i, constants.grid.columns, constants.grid.inverse_columns);
   uvec2 in_tile = fragment % uvec2(constants.tile_columns, constants.tile_rows);
-  uvec2 pixel = uvec2(constants.column, constants.row) + in_tile / max(side, 1u);
-  uvec2 tag = uvec2(side == 0u ? 1u : pixel.y * constants.resolution_x + pixel.x + 1u, ~key.x);
-  store_tag(constants.tags, i, key == uvec2(0u) ? uvec2(0u) : tag);
+  uint pixel = pixel_id(vec2(in_tile), uvec2(constants.column, constants.row), constants.resolution_x,
+                        constants.fragments_per_pixel_side);
+  store_tag(constants.tags, at, hit ? uvec2(pixel, triangle) : uvec2(0u));
+  if (leaves_records != 0) {
+    Real3 ray = ray_of(fragment, constants.grid, constants.chip, general_chip != 0);
+    Real depth = depth_on_plane(ray, load_plane(constants.planes, triangle));
+    store_tag(constants.tags, at + 1, words_of(hit ? depth : real(0.0)));
+  }
 }

@@ -5,14 +5,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-#define TAG_DEPTH
 #include "chip.glsl"
 #include "meet.glsl"
+#include "pixel_id.glsl"
 #ifdef MASKED
 #include "paint.glsl"
 #endif
 #include "sight.glsl"
-#include "tag.glsl"
 
 layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
 layout(constant_id = 0) const uint general_chip = 0;

@@ -65,8 +65,8 @@ struct Ways {
   bool plain;      // all samples go one way, on which their records are all that is kept of them
 };
 
-Ways choose_ways(const vulkan::Device &device, const FramePlan &plan, const HostView &view,
-                 const FrameRequest &request, std::size_t windows, bool painted) {
+Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest &request,
+                 std::size_t windows, bool painted) {
   const Sensor &sensor = request.sensor;
   // The bits of several windows are never there together, so that nothing is known of a sample before it is
   // summed.
@@ -83,7 +83,7 @@ Ways choose_ways(const vulkan::Device &device, const FramePlan &plan, const Host
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
   ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
   ways.plain = !ways.listed && !view.signal.lit && !view.signal.promised && view.signal.by_moments &&
-               plan.precision == Precision::fp32 && ChipGrid::holds(sensor) && device.has_attachments();
+               plan.precision == Precision::fp32 && ChipGrid::holds(sensor);
   ways.all_points = !ways.plain && (!ways.listed || view.signal.lit || sensor.has_distortion());
   return ways;
 }
@@ -193,7 +193,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   std::vector<LitWindow> windows = view.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   SceneBuffers scene =
       upload_scene(device, view.camera, request.scene, sensor, request.backscatter, textures);
-  const Ways ways = choose_ways(device, plan, view, request, windows.size(), scene.paint.painted);
+  const Ways ways = choose_ways(plan, view, request, windows.size(), scene.paint.painted);
   const bool checks = request.accuracy.mode != Mode::exact;
   const std::uint32_t samples =
       options.max_strip_samples > 0 ? options.max_strip_samples : view.largest_strip;

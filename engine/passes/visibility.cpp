@@ -83,18 +83,18 @@ RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePr
   const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
     return choose(device, precision, fp64, double_float);
   };
-  if (depths)
-    return {of(shader::visibility_depth_vert_fp64_spirv, shader::visibility_depth_vert_double_float_spirv),
-            masked ? of(shader::visibility_depth_masked_fp64_spirv,
-                        shader::visibility_depth_masked_double_float_spirv)
-                   : of(shader::visibility_depth_frag_fp64_spirv,
-                        shader::visibility_depth_frag_double_float_spirv)};
   // The opaque forms run no arithmetic at all.
   if (!device.has_attachments())
     return {shader::visibility_vert_spirv,
             masked ? of(shader::visibility_keys_masked_fp64_spirv,
                         shader::visibility_keys_masked_double_float_spirv)
                    : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv)};
+  if (depths)
+    return {of(shader::visibility_depth_vert_fp64_spirv, shader::visibility_depth_vert_double_float_spirv),
+            masked ? of(shader::visibility_depth_masked_fp64_spirv,
+                        shader::visibility_depth_masked_double_float_spirv)
+                   : of(shader::visibility_depth_frag_fp64_spirv,
+                        shader::visibility_depth_frag_double_float_spirv)};
   return {shader::visibility_vert_spirv,
           masked ? of(shader::visibility_masked_fp64_spirv, shader::visibility_masked_double_float_spirv)
                  : std::span<const std::uint32_t>(shader::visibility_frag_spirv)};
@@ -176,7 +176,7 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
   if (!device.has_attachments()) {
     tags_of_keys_ = vulkan::ComputePipeline(
         device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
-        sizeof(shader::TagsConstants));
+        sizeof(shader::TagsConstants), {grid ? 1u : 0u, grid && !grid->is_nominal() ? 1u : 0u});
     return;
   }
   const vk::Extent2D extent = largest_extent(projection.blocks, strips);
@@ -200,7 +200,7 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
                                  const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
-  commands.fillBuffer(tags.get(), 0, vk::DeviceSize{fragments} * sizeof(shader::uvec2), 0);
+  commands.fillBuffer(tags.get(), 0, vk::DeviceSize{fragments} * key_stride() * sizeof(shader::uvec2), 0);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
                          Access::eShaderStorageRead | Access::eShaderStorageWrite);
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1));
@@ -211,8 +211,15 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
   const shader::Strip &strip = planned.strip;
   const bool distorted = blocks_[planned.block].distorted;
   const std::uint32_t tiles = is_tiled(sensor_) ? strip.samples : 1;
-  const shader::TagsConstants constants{words(tags.address()),
-                                        extent.width,
+  shader::SampleGrid grid{};
+  if (grid_)
+    grid = grid_->of(strip);
+  grid.columns = extent.width;
+  grid.inverse_columns = 1.0f / static_cast<float>(extent.width);
+  const shader::TagsConstants constants{grid,
+                                        grid_ ? grid_->chip() : shader::uvec2(0),
+                                        words(scene.planes.address()),
+                                        words(tags.address()),
                                         fragments,
                                         extent.width / tiles,
                                         extent.height / tiles,
@@ -221,7 +228,8 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
                                         strip.resolution_x,
                                         distorted           ? 0
                                         : is_tiled(sensor_) ? 1
-                                                            : strip.samples};
+                                                            : strip.samples,
+                                        0};
   tags_of_keys_.dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,
@@ -301,7 +309,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       words(scene.paint.surfaces.address()),
       words(tags.address()),
       extent_of(planned, blocks_).width,
-      0,
+      key_stride(),
       grid.slope,
       grid.first,
       grid_ ? grid_->chip() : shader::uvec2(0)};

@@ -23,7 +23,7 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 class VisibilityPass {
 public:
   // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
-  // samples' depths are asked for, too, which only attachments can hold.
+  // samples' records are asked for.
   VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                  const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
                  const std::optional<ChipGrid> &grid);
@@ -34,6 +34,7 @@ public:
               const vulkan::Buffer &tags) const;
 
 private:
+  std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next
   void record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                           const SceneBuffers &scene, const vulkan::Buffer &tags) const;
   void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,

@@ -8,6 +8,10 @@
 #include "spirv/accumulate_direct_straight_fp64.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_plain_looped_double_float.h"
+#include "spirv/accumulate_plain_looped_fp64.h"
+#include "spirv/accumulate_plain_straight_double_float.h"
+#include "spirv/accumulate_plain_straight_fp64.h"
 #include "spirv/accumulate_precise_looped_double_float.h"
 #include "spirv/accumulate_precise_looped_fp64.h"
 #include "spirv/accumulate_precise_straight_fp64.h"
@@ -30,6 +34,8 @@
 #include "spirv/points_fp64.h"
 #include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
+#include "spirv/resolve_plain_double_float.h"
+#include "spirv/resolve_plain_fp64.h"
 #include "spirv/search_double_float.h"
 #include "spirv/search_fp64.h"
 #include "spirv/short_way_looped_double_float.h"
@@ -38,6 +44,12 @@
 #include "spirv/short_way_straight_fp64.h"
 #include "spirv/tags_double_float.h"
 #include "spirv/tags_fp64.h"
+#include "spirv/visibility_depth_frag_double_float.h"
+#include "spirv/visibility_depth_frag_fp64.h"
+#include "spirv/visibility_depth_masked_double_float.h"
+#include "spirv/visibility_depth_masked_fp64.h"
+#include "spirv/visibility_depth_vert_double_float.h"
+#include "spirv/visibility_depth_vert_fp64.h"
 #include "spirv/visibility_frag.h"
 #include "spirv/visibility_keys_frag.h"
 #include "spirv/visibility_keys_masked_double_float.h"
@@ -125,7 +137,7 @@ const std::map<std::string, HostLayout> scene_and_light{
       {MEMBER(LightRun, reference_hi), MEMBER(LightRun, reference_lo), MEMBER(LightRun, phase_turns),
        MEMBER(LightRun, radius_m), MEMBER(LightRun, intensity), MEMBER(LightRun, heights),
        MEMBER(LightRun, diagrams), MEMBER(LightRun, rims), MEMBER(LightRun, rim_root),
-       MEMBER(LightRun, moments_of_powers)}}},
+       MEMBER(LightRun, detours), MEMBER(LightRun, moments_of_powers)}}},
     {"Frequency",
      {sizeof(Frequency),
       {MEMBER(Frequency, turns_per_m), MEMBER(Frequency, ambiguity_m), MEMBER(Frequency, below),
@@ -136,6 +148,10 @@ const std::map<std::string, HostLayout> scene_and_light{
 };
 
 const std::map<std::string, HostLayout> constants_until_points{
+    {"SampleGrid",
+     {sizeof(SampleGrid),
+      {MEMBER(SampleGrid, slope), MEMBER(SampleGrid, first), MEMBER(SampleGrid, columns),
+       MEMBER(SampleGrid, inverse_columns)}}},
     {"Strip",
      {sizeof(Strip),
       {MEMBER(Strip, column), MEMBER(Strip, row), MEMBER(Strip, columns), MEMBER(Strip, rows),
@@ -143,21 +159,33 @@ const std::map<std::string, HostLayout> constants_until_points{
        MEMBER(Strip, padded_pixels)}}},
     {"VisibilityConstants",
      {sizeof(VisibilityConstants),
-      {MEMBER(VisibilityConstants, shift), MEMBER(VisibilityConstants, tile_x),
-       MEMBER(VisibilityConstants, tile_y), MEMBER(VisibilityConstants, column),
-       MEMBER(VisibilityConstants, row), MEMBER(VisibilityConstants, resolution_x),
-       MEMBER(VisibilityConstants, fragments_per_pixel_side), MEMBER(VisibilityConstants, sample_shift),
-       MEMBER(VisibilityConstants, block_x), MEMBER(VisibilityConstants, block_y),
-       MEMBER(VisibilityConstants, block), MEMBER(VisibilityConstants, planes),
-       MEMBER(VisibilityConstants, shapes), MEMBER(VisibilityConstants, surfaces),
-       MEMBER(VisibilityConstants, tags), MEMBER(VisibilityConstants, tag_columns),
-       MEMBER(VisibilityConstants, padding)}}},
+      {MEMBER(VisibilityConstants, shift),
+       MEMBER(VisibilityConstants, tile_x),
+       MEMBER(VisibilityConstants, tile_y),
+       MEMBER(VisibilityConstants, column),
+       MEMBER(VisibilityConstants, row),
+       MEMBER(VisibilityConstants, resolution_x),
+       MEMBER(VisibilityConstants, fragments_per_pixel_side),
+       MEMBER(VisibilityConstants, sample_shift),
+       MEMBER(VisibilityConstants, block_x),
+       MEMBER(VisibilityConstants, block_y),
+       MEMBER(VisibilityConstants, block),
+       MEMBER(VisibilityConstants, planes),
+       MEMBER(VisibilityConstants, shapes),
+       MEMBER(VisibilityConstants, surfaces),
+       MEMBER(VisibilityConstants, tags),
+       MEMBER(VisibilityConstants, tag_columns),
+       MEMBER(VisibilityConstants, tag_stride),
+       MEMBER(VisibilityConstants, slope),
+       MEMBER(VisibilityConstants, first),
+       MEMBER(VisibilityConstants, chip)}}},
     {"TagsConstants",
      {sizeof(TagsConstants),
-      {MEMBER(TagsConstants, tags), MEMBER(TagsConstants, tag_columns), MEMBER(TagsConstants, fragments),
-       MEMBER(TagsConstants, tile_columns), MEMBER(TagsConstants, tile_rows), MEMBER(TagsConstants, column),
-       MEMBER(TagsConstants, row), MEMBER(TagsConstants, resolution_x),
-       MEMBER(TagsConstants, fragments_per_pixel_side)}}},
+      {MEMBER(TagsConstants, grid), MEMBER(TagsConstants, chip), MEMBER(TagsConstants, planes),
+       MEMBER(TagsConstants, tags), MEMBER(TagsConstants, fragments), MEMBER(TagsConstants, tile_columns),
+       MEMBER(TagsConstants, tile_rows), MEMBER(TagsConstants, column), MEMBER(TagsConstants, row),
+       MEMBER(TagsConstants, resolution_x), MEMBER(TagsConstants, fragments_per_pixel_side),
+       MEMBER(TagsConstants, padding)}}},
     {"PointsConstants",
      {sizeof(PointsConstants),
       {MEMBER(PointsConstants, strip), MEMBER(PointsConstants, slope), MEMBER(PointsConstants, chip),
@@ -243,6 +271,22 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(AccumulateConstants, list), MEMBER(AccumulateConstants, blocks),
        MEMBER(AccumulateConstants, plane), MEMBER(AccumulateConstants, padded_pixels),
        MEMBER(AccumulateConstants, adds_terms)}}},
+    {"PlainSumConstants",
+     {sizeof(PlainSumConstants),
+      {MEMBER(PlainSumConstants, grid), MEMBER(PlainSumConstants, chip), MEMBER(PlainSumConstants, records),
+       MEMBER(PlainSumConstants, planes), MEMBER(PlainSumConstants, sum), MEMBER(PlainSumConstants, run),
+       MEMBER(PlainSumConstants, diodes), MEMBER(PlainSumConstants, tones),
+       MEMBER(PlainSumConstants, diagrams), MEMBER(PlainSumConstants, blocks),
+       MEMBER(PlainSumConstants, plane), MEMBER(PlainSumConstants, samples)}}},
+    {"PlainResolveConstants",
+     {sizeof(PlainResolveConstants),
+      {MEMBER(PlainResolveConstants, grid), MEMBER(PlainResolveConstants, chip),
+       MEMBER(PlainResolveConstants, records), MEMBER(PlainResolveConstants, planes),
+       MEMBER(PlainResolveConstants, sum), MEMBER(PlainResolveConstants, channels),
+       MEMBER(PlainResolveConstants, harmonics), MEMBER(PlainResolveConstants, frequency),
+       MEMBER(PlainResolveConstants, shapes), MEMBER(PlainResolveConstants, surfaces),
+       MEMBER(PlainResolveConstants, pixels), MEMBER(PlainResolveConstants, padded_pixels),
+       MEMBER(PlainResolveConstants, plane)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position), MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags),
@@ -299,6 +343,12 @@ struct Shader {
 const std::vector<Shader> shaders{
     {"visibility.vert", visibility_vert_spirv},
     {"visibility.frag", visibility_frag_spirv},
+    {"visibility.vert, depths, fp64", visibility_depth_vert_fp64_spirv},
+    {"visibility.vert, depths, float pairs", visibility_depth_vert_double_float_spirv},
+    {"visibility_depth.frag, fp64", visibility_depth_frag_fp64_spirv},
+    {"visibility_depth.frag, float pairs", visibility_depth_frag_double_float_spirv},
+    {"visibility_depth.frag, masked, fp64", visibility_depth_masked_fp64_spirv},
+    {"visibility_depth.frag, masked, float pairs", visibility_depth_masked_double_float_spirv},
     {"visibility_masked.frag, fp64", visibility_masked_fp64_spirv},
     {"visibility_masked.frag, float pairs", visibility_masked_double_float_spirv},
     {"visibility.frag, keys", visibility_keys_frag_spirv},
@@ -326,6 +376,10 @@ const std::vector<Shader> shaders{
     {"accumulate, straight, float pairs", accumulate_straight_double_float_spirv},
     {"accumulate, looped, fp64", accumulate_looped_fp64_spirv},
     {"accumulate, looped, float pairs", accumulate_looped_double_float_spirv},
+    {"accumulate plain, straight, fp64", accumulate_plain_straight_fp64_spirv},
+    {"accumulate plain, straight, float pairs", accumulate_plain_straight_double_float_spirv},
+    {"accumulate plain, looped, fp64", accumulate_plain_looped_fp64_spirv},
+    {"accumulate plain, looped, float pairs", accumulate_plain_looped_double_float_spirv},
     {"accumulate precise, straight, fp64", accumulate_precise_straight_fp64_spirv},
     {"accumulate precise, looped, fp64", accumulate_precise_looped_fp64_spirv},
     {"accumulate precise, looped, float pairs", accumulate_precise_looped_double_float_spirv},
@@ -340,6 +394,8 @@ const std::vector<Shader> shaders{
     {"pixel_list_count", pixel_list_count_spirv},
     {"resolve, fp64", resolve_fp64_spirv},
     {"resolve, float pairs", resolve_double_float_spirv},
+    {"resolve plain, fp64", resolve_plain_fp64_spirv},
+    {"resolve plain, float pairs", resolve_plain_double_float_spirv},
 };
 
 } // namespace
