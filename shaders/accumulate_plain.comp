@@ -1,12 +1,14 @@
 #version 460
 // accumulate.comp where all samples are summed alike, each of one record: its point follows from its depth, and the backscatter
-// joins in the resolve pass. One load and, of a single run, one store a sample, which lavapipe does lane by lane.
+// joins in the resolve pass. Of lit walls that face all diodes one load and, of a frame's only run, one store a sample, which
+// lavapipe does lane by lane.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "compensated.glsl"
 #include "grid.glsl"
+#include "meet.glsl"
 
 layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
 layout(constant_id = constant_first) const uint is_first = 0;

@@ -1,10 +1,9 @@
-// Samples that are an even grid over the chip: which one an invocation is, and where its point is.
+// Samples that are an even grid over the chip: which one an invocation is, and where its ray goes.
 #ifndef PMDSIM_GRID_GLSL
 #define PMDSIM_GRID_GLSL
 
 #include "buffers.glsl"
 #include "chip.glsl"
-#include "meet.glsl"
 
 // (i % columns, i / columns) without the division, which lavapipe does lane by lane: a float's quotient is off by one at most,
 // of fewer than 2^21 rows.

@@ -43,8 +43,7 @@ PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sa
 PMDSIM_CONSTANT constant_listed = 12;     // 1: only the samples of a list of pixels
 PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to without their phases
 PMDSIM_CONSTANT constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
-PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance, so that S_0
-                                          // and S_1 (moments.glsl) need no loop
+PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
 PMDSIM_CONSTANT constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
 // And of its plain form:
 PMDSIM_CONSTANT constant_only = 17;         // 1: the frame has no other run
@@ -67,6 +66,7 @@ PMDSIM_CONSTANT constant_resolve_precise = 9;  // 1: samples' returns are turned
 PMDSIM_CONSTANT plain_resolve_points = 10;
 PMDSIM_CONSTANT constant_plain_only = 16; // as constant_only
 PMDSIM_CONSTANT constant_plain_side = 17; // S
+PMDSIM_CONSTANT constant_plain_frequencies = 18; // that one dispatch resolves
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
@@ -404,8 +404,8 @@ struct ResolveConstants {
   uint diodes; // of all illuminators
 };
 
-// The sum and what becomes of it the plain way: all samples alike, each a record (uvec4) of its tag and its depth. The sum has
-// no backscatter in it; it is made of planes of a vec4 a sample, as above, or, of a single run, of a vec2.
+// The sum and what becomes of it the plain way: all samples alike, row by row, each with a record of two words of tag and two of
+// depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as above, or, of a frame's only run, a vec2.
 struct PlainSumConstants {
   SampleGrid grid;
   uvec2 chip; // in: ChipPlace

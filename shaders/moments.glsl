@@ -12,6 +12,8 @@ layout(constant_id = constant_tones) const uint tones = 1;
 
 // What is summed over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
 const uint sums = powers > 0 ? powers : moments;
+// Of alike diodes S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
+const bool linear_known = alike != 0 && powers > 2;
 
 void add_block(inout float total[sums], Point point, Diodes diodes, uint block, uint reached) {
   float part[sums];
@@ -26,7 +28,7 @@ void add_block(inout float total[sums], Point point, Diodes diodes, uint block, 
       part[0] += term;
     [[unroll]] for (uint k = 1; k < sums; ++k) {
       term = k == 1 && alike != 0 ? factors.y : term * factors.y;
-      if (alike == 0 || k > 1)
+      if (k > 1 || !linear_known)
         part[k] += term;
     }
   }
@@ -42,11 +44,11 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
-  if (alike != 0) { // those that pad a run have no intensity, and q = 0
-    total[0] = run.intensity;
+  if (alike != 0)
+    total[0] = run.intensity; // those that pad a run have none, and q = 0
+  if (linear_known)
     [[unroll]] for (uint k = 1; k < min(2, sums); ++k)
       total[k] = dot(run.detours.xyz, point.position) + run.detours.w;
-  }
   [[unroll]] for (uint k = 0; k < moments; ++k) {
     float sum = 0.0;
     [[unroll]] for (uint down = 0; down < powers; ++down) {

@@ -7,6 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #define POINTS_BASE plain_resolve_points
 #include "grid.glsl"
+#include "meet.glsl"
 #include "points.glsl"
 #include "resolve.glsl"
 
@@ -14,10 +15,12 @@ layout(push_constant, std430) uniform Constants { PlainResolveConstants constant
 layout(constant_id = plain_resolve_points + constant_chip) const uint general_chip = 0;
 layout(constant_id = constant_plain_only) const uint is_only = 0;
 layout(constant_id = constant_plain_side) const uint side = 1; // S
+layout(constant_id = constant_plain_frequencies) const uint frequencies = 1;
+const uint all_planes = frequencies * planes;
 
-// The sum of plane p, but for the backscatter.
-vec2 load_sum(uint p, uint i) {
-  uint at = p * constants.plane + i;
+// Of frequency f, the p-th of its planes, but for the backscatter.
+vec2 load_sum(uint f, uint p, uint i) {
+  uint at = (f * planes + p) * constants.plane + i;
   return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
 }
 
@@ -34,7 +37,8 @@ Surface load_surface(uint i) {
   return Surface(tag, uintBitsToFloat(words.x), words.y);
 }
 
-Surface add_sample(inout PixelSum sum, Frequency frequency, uvec2 at) {
+// `z` as in PixelSum, frequency by frequency.
+Surface add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequencies], uvec2 at) {
   uint i = at.y * constants.grid.columns + at.x;
   Surface surface = load_surface(i);
   Real depth = load_record_depth(constants.records, i);
@@ -44,24 +48,30 @@ Surface add_sample(inout PixelSum sum, Frequency frequency, uvec2 at) {
   TrianglePlane plane;
   plane.backscatter = surface.backscatter;
   float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), point, surface.tag.y, plane);
-  bool hits = surface.tag.x != 0u, shines = hits && backscatter > 0.0; // what is black may not be a number
+  bool hits = surface.tag.x != 0u && high(depth) != 0.0, shines = hits && backscatter > 0.0; // black may not be a number
   if (sum.hits == 0u)
     sum.reference_m = range;
   Real excess_m = add(range, negate(sum.reference_m));
-  [[unroll]] for (uint p = 0; p < planes; ++p) {
-    vec2 z = load_sum(p, i);
-    if (side > 1)
-      z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(frequency, p)))));
-    sum.z[p] = compensated_add(sum.z[p], shines ? backscatter * z : vec2(0.0));
-  }
+  [[unroll]] for (uint f = 0; f < frequencies; ++f)
+    [[unroll]] for (uint p = 0; p < planes; ++p) {
+      vec2 value = load_sum(f, p, i);
+      if (side > 1)
+        value = complex_multiply(value, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(of[f], p)))));
+      z[f * planes + p] = compensated_add(z[f * planes + p], shines ? backscatter * value : vec2(0.0));
+    }
   sum.range = add(sum.range, hits ? range : real(0.0));
-  sum.depth = add(sum.depth, depth);
+  sum.depth = add(sum.depth, hits ? depth : real(0.0));
   sum.hits += hits ? 1u : 0u;
   return surface;
 }
 
 void main() {
-  Frequency frequency = Frequencies(constants.frequency).at[0];
+  Frequency of[frequencies];
+  vec4 z[all_planes];
+  [[unroll]] for (uint f = 0; f < frequencies; ++f)
+    of[f] = Frequencies(constants.frequency).at[f];
+  [[unroll]] for (uint p = 0; p < all_planes; ++p)
+    z[p] = vec4(0.0);
   uint pixel = gl_GlobalInvocationID.x;
   uint columns = constants.grid.columns / side;
   uvec2 first = side * row_by_row(min(pixel, constants.pixels - 1), columns, constants.grid.inverse_columns * float(side));
@@ -71,12 +81,16 @@ void main() {
   Surface central;
   for (uint y = 0; y < side; ++y)
     for (uint x = 0; x < side; ++x) {
-      Surface surface = add_sample(sum, frequency, first + uvec2(x, y));
+      Surface surface = add_sample(sum, z, of, first + uvec2(x, y));
       if (x == middle && y == middle)
         central = surface;
     }
   Channels to = Channels(constants.channels, constants.padded_pixels);
-  store_return(to, frequency, constants.harmonics, side * side, pixel, sum);
+  [[unroll]] for (uint f = 0; f < frequencies; ++f) {
+    [[unroll]] for (uint p = 0; p < planes; ++p)
+      sum.z[p] = z[f * planes + p];
+    store_return(to, of[f], constants.harmonics, side * side, pixel, sum);
+  }
   if (ground_truth != 0) {
     store_ground_truth(to, side * side, pixel, sum);
     store_ids(to, central.tag, central.object, pixel);

@@ -8,11 +8,11 @@
 #else
 #define SHARED flat in
 #endif
-layout(location = 1) SHARED vec4 plane_hi; // as in TrianglePlane
+layout(location = 1) SHARED vec4 plane_hi;   // as in TrianglePlane
 layout(location = 2) SHARED vec4 plane_lo;
-layout(location = 3) SHARED vec2 along;    // least, most
-layout(location = 4) SHARED vec4 slope;    // as in SampleGrid
-layout(location = 5) SHARED vec2 first;
-layout(location = 6) SHARED uvec4 strip; // column, row, resolution_x, fragments_per_pixel_side
+layout(location = 3) SHARED vec2 along_m;    // least, most depth
+layout(location = 4) SHARED vec4 grid_slope; // as in SampleGrid
+layout(location = 5) SHARED vec2 grid_first;
+layout(location = 6) SHARED uvec4 strip_place; // column, row, resolution_x, fragments_per_pixel_side
 
 #endif

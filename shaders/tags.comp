@@ -4,6 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "grid.glsl"
+#include "meet.glsl"
 #include "pixel_id.glsl"
 
 layout(local_size_x = workgroup_size) in;

@@ -27,9 +27,9 @@ void main() {
   TrianglePlane plane = load_plane(constants.planes, triangle);
   plane_hi = plane.plane_hi;
   plane_lo = plane.plane_lo;
-  along = vec2(plane.along_min, plane.along_max);
-  slope = constants.slope;
-  first = constants.first;
-  strip = uvec4(constants.column, constants.row, constants.resolution_x, constants.fragments_per_pixel_side);
+  along_m = vec2(plane.along_min, plane.along_max);
+  grid_slope = constants.slope;
+  grid_first = constants.first;
+  strip_place = uvec4(constants.column, constants.row, constants.resolution_x, constants.fragments_per_pixel_side);
 #endif
 }

@@ -20,11 +20,13 @@ layout(location = 0) out uvec4 record;
 
 void main() {
   vec2 fragment = floor(gl_FragCoord.xy);
-  Real3 ray = grid_ray(slope, constants.chip, first + 2.0 * fragment, general_chip != 0);
-  Real depth = depth_on_plane(ray, TrianglePlane(plane_hi, plane_lo, 0.0, 0u, along.x, along.y));
+  Real3 ray = grid_ray(grid_slope, constants.chip, grid_first + 2.0 * fragment, general_chip != 0);
 #ifdef MASKED
-  if (!look_of(constants.shapes, constants.surfaces, visible_triangle, point_at_depth(ray, depth)).is_there)
+  // Without the triangle's limits, as visibility_masked.frag: all ways must see the same holes.
+  Real unlimited = divide(real(plane_hi.w, plane_lo.w), dot3(real3(plane_hi.xyz, plane_lo.xyz), ray));
+  if (!look_of(constants.shapes, constants.surfaces, visible_triangle, point_at_depth(ray, unlimited)).is_there)
     discard;
 #endif
-  record = uvec4(pixel_id(fragment, strip.xy, strip.z, strip.w), visible_triangle, words_of(depth));
+  Real depth = depth_on_plane(ray, TrianglePlane(plane_hi, plane_lo, 0.0, 0u, along_m.x, along_m.y));
+  record = uvec4(pixel_id(fragment, strip_place.xy, strip_place.z, strip_place.w), visible_triangle, words_of(depth));
 }

@@ -82,8 +82,8 @@ Ways choose_ways(const FramePlan &plan, const HostView &view, const FrameRequest
                   (sensor.adaptive_samples || request.accuracy.mode == Mode::automatic);
   ways.short_way = can && (sensor.samples == 1 || ways.thin_out);
   ways.listed = ways.short_way || (plan.is_reduced() && ways.rest && one_window);
-  ways.plain = !ways.listed && !view.signal.lit && !view.signal.promised && view.signal.by_moments &&
-               plan.precision == Precision::fp32 && ChipGrid::holds(sensor);
+  ways.plain = !ways.listed && !plan.is_reduced() && !view.signal.lit && !view.signal.promised &&
+               view.signal.by_moments && plan.precision == Precision::fp32 && ChipGrid::holds(sensor);
   ways.all_points = !ways.plain && (!ways.listed || view.signal.lit || sensor.has_distortion());
   return ways;
 }

@@ -8,6 +8,8 @@
 #include "spirv/resolve_plain_double_float.h"
 #include "spirv/resolve_plain_fp64.h"
 
+#include <algorithm>
+
 namespace pmdsim {
 vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
   return {signal.planes,
@@ -24,21 +26,35 @@ vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass
 
 namespace {
 
+// Of the plain way, as one straight line: as many as its parts can have, all alike.
+std::uint32_t frequencies_at_once(const Signal &signal) {
+  constexpr std::uint32_t most = 8;
+  std::uint32_t count = std::min(signal.frequencies(), most);
+  while (signal.frequencies() % count != 0)
+    --count;
+  return count;
+}
+
+vulkan::Specialization plain_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
+  const ResolvePass::PlainScope &plain = *scope.plain;
+  vulkan::Specialization constants = resolve_constants(signal, scope, first);
+  const vulkan::Specialization points{0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u,
+                                      0, plain.painted ? 1u : 0u,    0};
+  constants.insert(constants.end(), points.begin(), points.end());
+  constants.insert(constants.end(), {plain.single_run ? 1u : 0u, plain.samples, frequencies_at_once(signal)});
+  return constants;
+}
+
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
                                       SamplePrecision precision, const ResolvePass::Scope &scope,
                                       bool first) {
-  if (scope.plain) {
-    vulkan::Specialization constants = resolve_constants(signal, scope, first);
-    const auto &plain = *scope.plain;
-    constants.insert(constants.end(),
-                     {0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u, 0,
-                      plain.painted ? 1u : 0u, 0, plain.single_run ? 1u : 0u, plain.samples});
-    return {
-        device,
-        choose(device, precision, shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
-        sizeof(shader::PlainResolveConstants), constants};
-  }
-  return {device, choose(device, precision, shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
+  const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
+    return choose(device, precision, fp64, double_float);
+  };
+  if (scope.plain)
+    return {device, of(shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
+            sizeof(shader::PlainResolveConstants), plain_constants(signal, scope, first)};
+  return {device, of(shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
           sizeof(shader::ResolveConstants), resolve_constants(signal, scope, first)};
 }
 
@@ -64,12 +80,13 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
                          const StripBuffers &buffers, const SceneBuffers &scene,
                          const vulkan::Buffer *list) const {
   vulkan::compute_barrier(commands);
+  if (plain_) {
+    for (std::uint32_t f = 0; f < signal_.frequencies(); f += frequencies_at_once(signal_))
+      record_plain(commands, strip, buffers, scene, f);
+    return;
+  }
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
-    if (plain_) {
-      record_plain(commands, strip, buffers, scene, f);
-      continue;
-    }
     const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
     const shader::ResolveConstants constants{
         words(buffers.position.address()),
@@ -96,10 +113,10 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
 
 void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                                const StripBuffers &buffers, const SceneBuffers &scene,
-                               std::uint32_t frequency) const {
+                               std::uint32_t first_frequency) const {
   const std::uint32_t plane = sample_count(strip);
   const vk::DeviceSize sum_bytes = plain_->single_run ? sizeof(shader::vec2) : sizeof(shader::vec4);
-  const vk::DeviceSize first_plane = vk::DeviceSize{frequency} * signal_.planes;
+  const vk::DeviceSize first_plane = vk::DeviceSize{first_frequency} * signal_.planes;
   const shader::PlainResolveConstants constants{
       plain_->grid.of(strip),
       plain_->grid.chip(),
@@ -108,13 +125,13 @@ void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const sh
       words(buffers.sum.address() + first_plane * plane * sum_bytes),
       words(buffers.channels.address()),
       words(harmonics_.address()),
-      words(frequencies_.address() + frequency * sizeof(shader::Frequency)),
+      words(frequencies_.address() + first_frequency * sizeof(shader::Frequency)),
       words(scene.paint.shapes.address()),
       words(scene.paint.surfaces.address()),
       strip.columns * strip.rows,
       strip.padded_pixels,
       plane};
-  (frequency == 0 ? first_ : later_)
+  (first_frequency == 0 ? first_ : later_)
       .dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 

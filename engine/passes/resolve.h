@@ -42,7 +42,8 @@ public:
 
 private:
   void record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, const SceneBuffers &scene, std::uint32_t frequency) const;
+                    const StripBuffers &buffers, const SceneBuffers &scene,
+                    std::uint32_t first_frequency) const;
 
   Signal signal_;
   std::optional<PlainScope> plain_;

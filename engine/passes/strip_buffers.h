@@ -13,15 +13,15 @@ namespace pmdsim {
 struct StripBuffers {
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer tags; // uvec2 a sample (shaders/interface.h): pixel id, triangle id; or its record, uvec4
-  vulkan::Buffer
-      position;           // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels long
-  vulkan::Buffer surface; // the vectors a sample that the sum asks for
+  vulkan::Buffer position; // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
+                           // long, but for `sum` on the plain way, which is row by row as the records
+  vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer reached;  // a window's bundles (lit_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;      // diodes that reach it, a word a sample; likewise
   vulkan::Buffer terms;    // sum of |terms|, a float a sample; empty unless an error was promised
   vulkan::Buffer broken;   // shader::BrokenPromise; likewise
-  vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 a sample
+  vulkan::Buffer sum;      // plane by plane (shaders/interface.h), a vec4 or vec2 a sample
   vulkan::Buffer channels; // pair by pair (shaders/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer broken_read;

@@ -83,7 +83,6 @@ RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePr
   const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
     return choose(device, precision, fp64, double_float);
   };
-  // The opaque forms run no arithmetic at all.
   if (!device.has_attachments())
     return {shader::visibility_vert_spirv,
             masked ? of(shader::visibility_keys_masked_fp64_spirv,

@@ -94,10 +94,23 @@ struct SeriesFactors {
   }
 };
 
-// The sums of I u^n, n = 1 ... powers - 1. That of n = 0 is the same for all points.
+// Times their intensities: all diodes in one.
+NativeDiode sum_of(const NativeDiode *diodes, std::size_t diode_count) {
+  NativeDiode sum{};
+  for (const NativeDiode *diode = diodes; diode != diodes + diode_count; ++diode) {
+    sum.x_m += diode->intensity_w_sr * diode->x_m;
+    sum.y_m += diode->intensity_w_sr * diode->y_m;
+    sum.z_m += diode->intensity_w_sr * diode->z_m;
+    sum.square_m2 += diode->intensity_w_sr * diode->square_m2;
+    sum.intensity_w_sr += diode->intensity_w_sr;
+  }
+  return sum;
+}
+
+// The sums of I u^n. Those of n = 0 and 1 follow from `all`.
 template <std::size_t powers>
 void find_power_sums(const NativeTile &points, const NativeDiode *diodes, std::size_t diode_count,
-                     float (&sum)[powers][tile]) {
+                     const NativeDiode &all, float (&sum)[powers][tile]) {
   float x[tile], y[tile], z[tile], reciprocal[tile]; // -2 P / |P|^2 and 1 / |P|^2
   float total[powers][tile] = {};
   for (std::size_t i = 0; i < tile; ++i) {
@@ -111,17 +124,20 @@ void find_power_sums(const NativeTile &points, const NativeDiode *diodes, std::s
     for (std::size_t i = 0; i < tile; ++i) {
       const float u =
           x[i] * diode.x_m + (y[i] * diode.y_m + (z[i] * diode.z_m + reciprocal[i] * diode.square_m2));
-      float term = diode.intensity_w_sr;
+      float term = diode.intensity_w_sr * u;
 #pragma GCC unroll 12
-      for (std::size_t n = 1; n < powers; ++n) {
+      for (std::size_t n = 2; n < powers; ++n) {
         total[n][i] += term * u;
         term *= u;
       }
     }
   }
-  for (std::size_t n = 1; n < powers; ++n)
-    for (std::size_t i = 0; i < tile; ++i)
+  for (std::size_t i = 0; i < tile; ++i) {
+    sum[0][i] = all.intensity_w_sr;
+    sum[1][i] = x[i] * all.x_m + (y[i] * all.y_m + (z[i] * all.z_m + reciprocal[i] * all.square_m2));
+    for (std::size_t n = 2; n < powers; ++n)
       sum[n][i] = total[n][i];
+  }
 }
 
 template <std::size_t powers>
@@ -143,14 +159,10 @@ void find_moments_of_sums(const NativeTile &points, const float (&sum)[powers][t
 template <std::size_t powers>
 void sum_by_series(const NativeTile *tiles, std::size_t tile_count, const NativeDiode *diodes,
                    std::size_t diode_count, float wavenumber_per_m, float *phase_rad) {
-  float intensity_w_sr = 0.0f;
-  for (std::size_t m = 0; m < diode_count; ++m)
-    intensity_w_sr += diodes[m].intensity_w_sr;
+  const NativeDiode all = sum_of(diodes, diode_count);
   float sum[powers][tile], moment[native_moments][tile];
-  for (float &value : sum[0])
-    value = intensity_w_sr;
   for (std::size_t t = 0; t < tile_count; ++t) {
-    find_power_sums<powers>(tiles[t], diodes, diode_count, sum);
+    find_power_sums<powers>(tiles[t], diodes, diode_count, all, sum);
     find_moments_of_sums<powers>(tiles[t], sum, moment);
     write_phases(moment, wavenumber_per_m, phase_rad + t * tile);
   }

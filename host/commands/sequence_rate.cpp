@@ -13,7 +13,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <memory>
 #include <set>
 #include <string>
 #include <system_error>
@@ -88,9 +87,9 @@ public:
     const auto start = std::chrono::steady_clock::now();
     FrameSequence sequence(setup_, {0, setup_.frames.count}, directory.path() / "frames", run_);
     const auto measure = [&](const SensorFrame &at) {
-      const auto taken = std::make_shared<const TakenFrame>(
-          take(fmt::format("{}, {}", what, at.label), at.sensor, at.time_s, at.next_s));
-      return rendered_frame(taken, at, formats);
+      return rendered_frame(
+          exposures_.share(take(fmt::format("{}, {}", what, at.label), at.sensor, at.time_s, at.next_s)), at,
+          formats);
     };
     sequence.write(measure, bytes_of_rendered_frame(setup_));
     const std::chrono::duration<double> taken_s = std::chrono::steady_clock::now() - start;

@@ -30,6 +30,7 @@ struct Change {
   std::function<void(Sensor &)> of;
   Shadows shadows = Shadows::off;
   Mode mode = Mode::exact;
+  std::size_t diodes = 30;
 };
 
 const std::vector<Change> &changes() {
@@ -48,6 +49,17 @@ const std::vector<Change> &changes() {
          s.chip.rotation_rad = {0.1, -0.05, 0.2};
          fill_in_part(s);
        }},
+      {"tilted",
+       [](Sensor &s) {
+         s.chip.rotation_rad = {0.1, -0.05, 0.2};
+       }},
+      {"one_sample_filled",
+       [](Sensor &s) {
+         fill_in_part(s);
+         s.samples = 1;
+         s.modulation_hz = {20e6, 60e6};
+       }},
+      {"several_runs", [](Sensor &) {}, Shadows::off, Mode::exact, 700},
       {"square", make_square},
       {"fisheye_filled_square",
        [](Sensor &s) {
@@ -124,8 +136,8 @@ RepeatabilityFrame repeatability_frame(const std::string &name) {
       change.of(sensor);
       Accuracy accuracy;
       accuracy.mode = change.mode;
-      return {scene, sensor, random_illuminator(random, 30, sensor.world_from_camera), change.shadows,
-              accuracy};
+      return {scene, sensor, random_illuminator(random, change.diodes, sensor.world_from_camera),
+              change.shadows, accuracy};
     }
   throw std::out_of_range("no repeatability frame " + name);
 }
