@@ -50,7 +50,8 @@ HostView look(const vulkan::Device &device, const SimulatorOptions &options, con
   view.signal.lit = shaded && (!view.occluders.shapes.empty() || !facing);
   view.signal.promised = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   view.model = sum_model(view.lights, request.backscatter, facing);
-  view.largest_strip = samples_of_a_strip(view.signal, request.sensor.samples * request.sensor.samples);
+  view.largest_strip =
+      samples_of_a_strip(view.signal, request.sensor.samples * request.sensor.samples, !device.is_cpu());
   view.projection = project_blocks(device, view.camera, request.sensor, view.largest_strip);
   return view;
 }
@@ -182,8 +183,13 @@ AccuracyReport report_of(const FramePlan &plan, const Ways &ways, bool stand_in)
 
 } // namespace
 
+SpareMemory release_memory(FramePasses &&passes) {
+  return {std::move(passes.buffers), passes.visibility.release_images()};
+}
+
 FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions &options,
-                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures) {
+                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
+                           SpareMemory &&spare) {
   const Sensor &sensor = request.sensor;
   HostView view = look(device, options, request);
   FramePlan plan = plan_frame({view.camera, view.lights, view.projection.visible, sensor, view.signal,
@@ -205,12 +211,12 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
                          ways.plain ? plain_layout(single_run)
                                     : layout_of(std::max(view.model.surface_vectors(plan.precision),
                                                          view.model.surface_vectors(of_check))),
-                         options);
+                         options, std::move(spare.buffers));
   std::optional<ChipGrid> grid;
   if (ways.plain)
     grid.emplace(device, sensor);
   VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision,
-                            grid);
+                            grid, std::move(spare.images));
   auto points = all_points(device, options, request, view, plan, ways, scene.paint);
   std::optional<LitPass> lit;
   if (view.signal.lit)

@@ -61,8 +61,17 @@ struct FramePasses {
   AccuracyReport report; // what is known before the frame
 };
 
+// Device memory of passes that are done with, for those that come next.
+struct SpareMemory {
+  StripBuffers buffers;
+  std::optional<RasterImages> images;
+};
+
+SpareMemory release_memory(FramePasses &&passes);
+
 // As the `attempt`-th of frame_plans has it. Throws Error: out_of_memory, accuracy.
 FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions &options,
-                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures);
+                           const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
+                           SpareMemory &&spare);
 
 } // namespace pmdsim

@@ -7,9 +7,24 @@
 
 namespace pmdsim {
 
+namespace {
+
+// `previous` where it has the size, whose pages are there already; a moving scene's frames differ in little
+// else.
+vulkan::Buffer make_or_take(const vulkan::Device &device, vulkan::Buffer &previous, vk::DeviceSize bytes,
+                            vk::BufferUsageFlags usage, vulkan::Memory memory) {
+  if (previous.bytes() == bytes)
+    return std::move(previous);
+  previous = vulkan::Buffer(); // its memory first
+  return {device, bytes, usage, memory};
+}
+
+} // namespace
+
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
                                 const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SampleLayout &layout, const SimulatorOptions &options) {
+                                const SampleLayout &layout, const SimulatorOptions &options,
+                                StripBuffers &&previous) {
   using Usage = vk::BufferUsageFlagBits;
   vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
@@ -18,35 +33,38 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
-  const auto storage = [&](vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
-    return vulkan::Buffer(device, bytes, Usage::eStorageBuffer | more, vulkan::Memory::device);
+  const auto storage = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes,
+                           vk::BufferUsageFlags more = {}) {
+    return make_or_take(device, previous.*buffer, bytes, Usage::eStorageBuffer | more,
+                        vulkan::Memory::device);
   };
-  const auto read = [&](vk::DeviceSize bytes) {
-    return vulkan::Buffer(device, bytes, Usage::eTransferDst, vulkan::Memory::read);
+  const auto read = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes) {
+    return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
   const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
   const vk::DeviceSize tag_bytes = samples * layout.tag_bytes;
   const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
-  vulkan::Buffer channels = storage(channel_bytes, Usage::eTransferSrc);
-  vulkan::Buffer channels_read = read(channels.is_mapped() ? 0 : channel_bytes);
-  return {storage(fragments * sizeof(shader::uvec2), Usage::eTransferDst),
-          storage(tag_bytes, Usage::eTransferDst | Usage::eTransferSrc),
-          storage(samples * layout.position_bytes),
-          storage(samples * layout.surface_vectors * sizeof(shader::vec4)),
-          storage(samples * layout.backscatter_bytes),
-          storage(reached_bytes, Usage::eTransferDst | Usage::eTransferSrc),
-          storage(lit_bytes),
-          storage(signal.promised ? samples * sizeof(float) : 0),
-          storage(broken_bytes, Usage::eTransferDst | Usage::eTransferSrc),
-          storage(samples * signal.sum_planes() * layout.sum_bytes),
-          std::move(channels),
-          std::move(channels_read),
-          read(broken_bytes),
-          read(options.keep_sample_tags || options.keep_reached ? tag_bytes : 0),
-          read(options.keep_reached ? reached_bytes : 0),
-          layout.tag_bytes};
+  using B = StripBuffers;
+  B made;
+  made.fragments = storage(&B::fragments, fragments * sizeof(shader::uvec2), Usage::eTransferDst);
+  made.tags = storage(&B::tags, tag_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.position = storage(&B::position, samples * layout.position_bytes);
+  made.surface = storage(&B::surface, samples * layout.surface_vectors * sizeof(shader::vec4));
+  made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
+  made.reached = storage(&B::reached, reached_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.lit = storage(&B::lit, lit_bytes);
+  made.terms = storage(&B::terms, signal.promised ? samples * sizeof(float) : 0);
+  made.broken = storage(&B::broken, broken_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.sum = storage(&B::sum, samples * signal.sum_planes() * layout.sum_bytes);
+  made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
+  made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
+  made.broken_read = read(&B::broken_read, broken_bytes);
+  made.tags_read = read(&B::tags_read, options.keep_sample_tags || options.keep_reached ? tag_bytes : 0);
+  made.reached_read = read(&B::reached_read, options.keep_reached ? reached_bytes : 0);
+  made.tag_bytes = layout.tag_bytes;
+  return made;
 }
 
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
@@ -57,8 +75,9 @@ std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const 
   return {pairs + std::size_t{first / 2} * strip.padded_pixels, strip.padded_pixels};
 }
 
-std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel) {
-  constexpr std::uint32_t usual = 1u << 20, buffer_bytes = 1u << 27;
+std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu) {
+  const std::uint32_t usual = on_gpu && signal.lit ? 1u << 18 : 1u << 20;
+  constexpr std::uint32_t buffer_bytes = 1u << 27;
   constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
   return std::min({usual, buffer_bytes / (signal.sum_planes() * plane_bytes),
                    buffer_bytes / (signal.channels() * channel_bytes) * samples_per_pixel});

@@ -156,6 +156,19 @@ std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, f
   });
 }
 
+RasterImages make_or_take(const vulkan::Device &device, vk::Extent2D extent, vk::Format format,
+                          std::optional<RasterImages> &&previous) {
+  if (previous && previous->extent == extent && previous->tag_format == format)
+    return std::move(*previous);
+  previous.reset(); // its memory first
+  return {vulkan::Image(device, extent, format,
+                        vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+                        vk::ImageAspectFlagBits::eColor),
+          vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
+                        vk::ImageAspectFlagBits::eDepth),
+          extent, format};
+}
+
 } // namespace
 
 std::uint32_t raster_block_fragments(const vulkan::Device &device) {
@@ -164,7 +177,8 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 
 VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
                                const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
-                               SamplePrecision precision, const std::optional<ChipGrid> &grid)
+                               SamplePrecision precision, const std::optional<ChipGrid> &grid,
+                               std::optional<RasterImages> &&previous)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
@@ -178,13 +192,8 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
         sizeof(shader::TagsConstants), {grid ? 1u : 0u, grid && !grid->is_nominal() ? 1u : 0u});
     return;
   }
-  const vk::Extent2D extent = largest_extent(projection.blocks, strips);
-  attachments_ = {
-      vulkan::Image(device, extent, grid ? record_format : tag_format,
-                    vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
-                    vk::ImageAspectFlagBits::eColor),
-      vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
-                    vk::ImageAspectFlagBits::eDepth)};
+  attachments_ = make_or_take(device, largest_extent(projection.blocks, strips),
+                              grid ? record_format : tag_format, std::move(previous));
 }
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -237,7 +246,7 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
 
 void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                                         const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  const auto &[tags_image, depth_image] = *attachments_;
+  const vulkan::Image &tags_image = attachments_->tags, &depth_image = attachments_->depth;
   const vk::Extent2D extent = extent_of(planned, blocks_);
   tags_image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);

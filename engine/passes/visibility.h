@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim {
@@ -20,18 +21,27 @@ namespace pmdsim {
 // The largest raster block that the device rasterises exactly: half of its largest power-of-two viewport.
 std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
+// What the raster draws on.
+struct RasterImages {
+  vulkan::Image tags, depth;
+  vk::Extent2D extent;
+  vk::Format tag_format;
+};
+
 class VisibilityPass {
 public:
   // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
-  // samples' records are asked for.
+  // samples' records are asked for; `previous`: taken where they are the same.
   VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                  const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
-                 const std::optional<ChipGrid> &grid);
+                 const std::optional<ChipGrid> &grid, std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/interface.h), or with distortion the
   // tags of its block's fragments, in `tags`, visible to compute shaders and transfers.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &tags) const;
+
+  std::optional<RasterImages> release_images() { return std::exchange(attachments_, std::nullopt); }
 
 private:
   std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next
@@ -49,11 +59,8 @@ private:
   Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
-  vulkan::Buffer planes_of_blocks_; // BlockPlane of each where shapes may have holes
-  struct Attachments {
-    vulkan::Image tags, depth;
-  };
-  std::optional<Attachments> attachments_; // nothing where fragments leave keys instead
+  vulkan::Buffer planes_of_blocks_;         // BlockPlane of each where shapes may have holes
+  std::optional<RasterImages> attachments_; // nothing where fragments leave keys instead
   vulkan::ComputePipeline tags_of_keys_;
   std::optional<ChipGrid> grid_;
   float half_viewport_;
