@@ -315,13 +315,13 @@ void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) 
 
 void Simulator::State::prepare() {
   const auto &[scene, sensor, illuminators, backscatter, shadows, accuracy] = *requested;
-  SpareMemory spare;
+  SpareMemory memory;
   if (prepared)
-    spare = release_memory(std::move(*prepared));
+    memory = release_memory(std::move(*prepared));
   prepared.reset(); // the rest of its memory first
   prepared.emplace(prepare_passes(device, options,
                                   {*scene, sensor, illuminators, backscatter, shadows, accuracy}, attempt,
-                                  textures, std::move(spare)));
+                                  textures, std::move(memory)));
   textures.drop_unused();
   warm_up();
 }

@@ -59,6 +59,16 @@ TEST_CASE("two measurements and two simulators give the same bits") {
   }
 }
 
+TEST_CASE("a simulator that has measured other frames gives the same bits") {
+  Simulator used = make_simulator(keep_everything());
+  for (const std::string &name : repeatability_frames())
+    for (const bool again : {false, true}) { // what was there before, another frame's or its own
+      INFO(name << (again ? ", prepared again" : ""));
+      const RepeatabilityFrame frame = repeatability_frame(name);
+      CHECK((bytes_of(measure(used, frame)) == bytes_in_strips(frame)));
+    }
+}
+
 TEST_CASE("strips of any height give the same bits") {
   for (const std::string &name : repeatability_frames())
     check_strips(name, repeatability_frame(name));
