@@ -67,7 +67,8 @@ Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferU
     const auto &recorded = commands.begin();
     recorded.copyBuffer(staging.get(), target.get(), vk::BufferCopy(0, done, part));
     memory_barrier(recorded, Stage::eTransfer, Access::eTransferWrite,
-                   Stage::eVertexAttributeInput | Stage::eVertexShader | Stage::eFragmentShader | Stage::eComputeShader,
+                   Stage::eVertexAttributeInput | Stage::eVertexShader | Stage::eFragmentShader |
+                       Stage::eComputeShader,
                    Access::eVertexAttributeRead | Access::eShaderStorageRead);
     commands.submit_and_wait();
   }
