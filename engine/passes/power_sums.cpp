@@ -1,7 +1,5 @@
 #include "engine/passes/power_sums.h"
 
-#include "engine/passes/remainder.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -120,9 +118,9 @@ Run make_run(const Excess &reach, std::uint32_t inverse_powers, std::uint32_t mo
   return run;
 }
 
-// As good as float32's own rounding.
+// As good as float32's own rounding, and where a wavelength is long no more than 2^-18 of e.
 bool is_exact_enough(const Run &run, double phase_rad) {
-  return run.weight_error <= 0x1p-23 && run.angle_error_rad <= largest_term(phase_rad, 0x1p-24);
+  return run.weight_error <= 0x1p-23 && run.angle_error_rad <= std::min(0x1p-24, 0x1p-18 * phase_rad);
 }
 
 // With the fewest powers that are exact enough.

@@ -74,7 +74,8 @@ TEST_CASE("only a sine's sum is a matter of choice") {
   CHECK_FALSE(signal_of(sensor_with(square, 4, {20e6}), direct).by_moments);
 }
 
-TEST_CASE("channels are the ground truth, then each frequency's in pairs, with its taps where they are kept") {
+TEST_CASE(
+    "channels are the ground truth, then each frequency's in pairs, with its taps where they are kept") {
   const Sensor sensor = sensor_with(sine, 7, {20e6, 30e6});
   const Signal without = signal_of(sensor, {});
   CHECK(without.first_channel(0) == 4);
