@@ -298,13 +298,13 @@ struct VisibilityConstants {
   uvec2 chip; // in: ChipPlace
 };
 
-// Turns keys into tags or records. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
+// Turns keys into tags or records, or adds the depths to records. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
 // depth: the largest is the nearest, and of triangles at one depth the first.
 struct TagsConstants {
   SampleGrid grid;   // of all fragments; where tags are left, only the columns are
   uvec2 chip;        // in, where records are left: ChipPlace
   uvec2 planes;      // likewise: TrianglePlane[]
-  uvec2 tags;        // in: keys, 0 where nothing was hit; out: tags or, in place of two keys each, records
+  uvec2 tags;        // in: keys, 0 where nothing was hit, or records without depths; out: tags, or records
   uint fragments;    // in all
   uint tile_columns; // of a tile, fragments: as many as there are where samples are an even grid
   uint tile_rows;
@@ -315,6 +315,7 @@ struct TagsConstants {
 };
 PMDSIM_CONSTANT constant_tags_records = 0; // specialization: 1: leaves records
 PMDSIM_CONSTANT constant_tags_chip = 1;    // as constant_general_chip
+PMDSIM_CONSTANT constant_tags_keys = 2;    // 1: from keys; 0: from the tags of records
 
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {

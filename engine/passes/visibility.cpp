@@ -149,11 +149,13 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
 std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, float half_viewport,
                                                  const RasterShaders &shaders, vk::Format format,
                                                  std::uint32_t general_chip) {
-  return device.pipelines().get(shaders.fragment.data(), {general_chip}, [&] {
-    vk::raii::PipelineLayout layout = make_layout(device);
-    vk::raii::Pipeline pipeline = make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
-    return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
-  });
+  return device.pipelines().get(
+      shaders.fragment.data(), {general_chip, static_cast<std::uint32_t>(format)}, [&] {
+        vk::raii::PipelineLayout layout = make_layout(device);
+        vk::raii::Pipeline pipeline =
+            make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
+        return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
+      });
 }
 
 RasterImages make_or_take(const vulkan::Device &device, vk::Extent2D extent, vk::Format format,
@@ -167,6 +169,14 @@ RasterImages make_or_take(const vulkan::Device &device, vk::Extent2D extent, vk:
           vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
                         vk::ImageAspectFlagBits::eDepth),
           extent, format};
+}
+
+// A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes
+// to.
+bool vertices_fetch_planes(const Projection &projection, const Sensor &sensor) {
+  constexpr std::size_t samples_per_triangle = 32;
+  const std::size_t triangles = projection.vertices.size() / 3;
+  return samples_per_triangle * triangles <= sensor.pixel_count() * sensor.samples * sensor.samples;
 }
 
 } // namespace
@@ -183,15 +193,18 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
       planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
-      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))),
-      compiled_(compiled(device, half_viewport_, choose_shaders(device, masked, precision, grid.has_value()),
-                         grid ? record_format : tag_format, grid && !grid->is_nominal() ? 1u : 0u)) {
-  if (!device.has_attachments()) {
-    tags_of_keys_ = vulkan::ComputePipeline(
-        device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
-        sizeof(shader::TagsConstants), {grid ? 1u : 0u, grid && !grid->is_nominal() ? 1u : 0u});
+      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))) {
+  const bool keys = !device.has_attachments();
+  const bool by_fragments = grid && !keys && vertices_fetch_planes(projection, sensor);
+  const std::uint32_t general_chip = grid && !grid->is_nominal() ? 1 : 0;
+  compiled_ = compiled(device, half_viewport_, choose_shaders(device, masked, precision, by_fragments),
+                       grid ? record_format : tag_format, general_chip);
+  if (keys || (grid && !by_fragments))
+    tags_.emplace(device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
+                  sizeof(shader::TagsConstants),
+                  vulkan::Specialization{grid ? 1u : 0u, general_chip, keys ? 1u : 0u});
+  if (keys)
     return;
-  }
   attachments_ = make_or_take(device, largest_extent(projection.blocks, strips),
                               grid ? record_format : tag_format, std::move(previous));
 }
@@ -216,6 +229,14 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
   commands.endRendering();
   vulkan::memory_barrier(commands, Stage::eFragmentShader, Access::eShaderStorageWrite, Stage::eComputeShader,
                          Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  complete_tags(commands, planned, scene, tags);
+}
+
+// Makes tags or records of what the fragments left.
+void VisibilityPass::complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  const std::uint32_t fragments = extent.width * extent.height;
   const shader::Strip &strip = planned.strip;
   const bool distorted = blocks_[planned.block].distorted;
   const std::uint32_t tiles = is_tiled(sensor_) ? strip.samples : 1;
@@ -238,7 +259,7 @@ void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const 
                                         : is_tiled(sensor_) ? 1
                                                             : strip.samples,
                                         0};
-  tags_of_keys_.dispatch(commands, constants, padded(fragments), shader::workgroup_size);
+  tags_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,
                          Access::eShaderStorageRead | Access::eTransferRead);
@@ -265,6 +286,8 @@ void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands,
   draw(commands, planned, scene, tags);
   commands.endRendering();
   copy_tags(commands, extent, tags);
+  if (tags_)
+    complete_tags(commands, planned, scene, tags);
 }
 
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -337,7 +360,7 @@ void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Exte
   commands.copyImageToBuffer(image.get(), Layout::eTransferSrcOptimal, tags.get(), region);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
                          Stage::eComputeShader | Stage::eTransfer,
-                         Access::eShaderStorageRead | Access::eTransferRead);
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead);
 }
 
 } // namespace pmdsim

@@ -49,6 +49,8 @@ private:
                           const SceneBuffers &scene, const vulkan::Buffer &tags) const;
   void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                    const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
   void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
             const vulkan::Buffer &tags) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -59,9 +61,9 @@ private:
   Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
-  vulkan::Buffer planes_of_blocks_;         // BlockPlane of each where shapes may have holes
-  std::optional<RasterImages> attachments_; // nothing where fragments leave keys instead
-  vulkan::ComputePipeline tags_of_keys_;
+  vulkan::Buffer planes_of_blocks_;             // BlockPlane of each where shapes may have holes
+  std::optional<RasterImages> attachments_;     // nothing where fragments leave keys instead
+  std::optional<vulkan::ComputePipeline> tags_; // nothing where the fragments leave all that is asked for
   std::optional<ChipGrid> grid_;
   float half_viewport_;
   std::shared_ptr<const vulkan::Pipeline> compiled_;

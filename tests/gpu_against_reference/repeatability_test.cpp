@@ -1,6 +1,7 @@
 // The same bits, whatever the run, the height of the strips and the number of threads.
 
 #include "tests/gpu_against_reference/frame_bytes.h"
+#include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
 #include <algorithm>
@@ -67,6 +68,25 @@ TEST_CASE("a simulator that has measured other frames gives the same bits") {
       const RepeatabilityFrame frame = repeatability_frame(name);
       CHECK((bytes_of(measure(used, frame)) == bytes_in_strips(frame)));
     }
+}
+
+TEST_CASE("hidden triangles, so many that samples fetch their planes for themselves, change no bit") {
+  const auto frame_of = [](int hidden) {
+    SceneBuilder builder;
+    builder.add_triangle({-3, -2, 1.5}, {-3, 4, 2.5}, {4, 0, 2});
+    builder.add_wall({4.0});
+    for (int i = 0; i < hidden; ++i)
+      builder.add_triangle({0.01 * i, 0, 5}, {0.01 * i, 0.5, 5}, {0.01 * i + 0.1, 0, 5});
+    Sensor sensor;
+    sensor.resolution = {64, 48};
+    sensor.pixel_pitch_m = glm::dvec2(4e-4);
+    sensor.focal_length_m = 0.02;
+    Simulator simulator = make_simulator(keep_everything());
+    simulator.prepare(builder.scene(), sensor, {diode_beside_lens(sensor, diode_at({0.1, 0, 0}))},
+                      Backscatter::lambert);
+    return bytes_of(simulator.measure());
+  };
+  CHECK((frame_of(0) == frame_of(300)));
 }
 
 TEST_CASE("strips of any height give the same bits") {
