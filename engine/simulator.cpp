@@ -347,6 +347,8 @@ Measurement Simulator::State::measure(const Progress &progress) {
   recorder.reset();
   Measurement measurement = make_measurement(prepared->sensor, prepared->signal, options, spare_memory());
   measurement.accuracy = prepared->report;
+  if (prepared->shadows != Shadows::automatic)
+    measurement.lit.clear();
   if (prepared->shadows == Shadows::automatic && options.keep_reached)
     measurement.sample_reached = none_reached(prepared->sensor, prepared->groups);
   if (prepared->signal.promised)

@@ -15,15 +15,32 @@
 namespace pmdsim {
 namespace {
 
-// Copies the strip's rows of one of two channels to their place in a frame. `of` is 0 or 1.
+// Where a strip's row begins in a channel of the frame.
 template <typename T>
-void store_rows(std::span<const shader::uvec2> pair, std::uint32_t of, const shader::Strip &strip,
-                std::vector<T> &to) {
+T *row_of(std::vector<T> &channel, const shader::Strip &strip, std::uint32_t row) {
+  return channel.data() + std::size_t{strip.row + row} * strip.resolution_x + strip.column;
+}
+
+// Copies the strip's rows of a pair of channels to their places in a frame.
+template <typename T>
+void store_rows(std::span<const shader::uvec2> pair, const shader::Strip &strip, std::vector<T> &even,
+                std::vector<T> &odd) {
   for (std::uint32_t row = 0; row < strip.rows; ++row) {
     const auto from = pair.subspan(std::size_t{row} * strip.columns, strip.columns);
-    T *into = to.data() + std::size_t{strip.row + row} * strip.resolution_x + strip.column;
-    for (std::size_t i = 0; i < from.size(); ++i)
-      into[i] = std::bit_cast<T>(of == 0 ? from[i].x : from[i].y);
+    T *const to_even = row_of(even, strip, row), *const to_odd = row_of(odd, strip, row);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      to_even[i] = std::bit_cast<T>(from[i].x);
+      to_odd[i] = std::bit_cast<T>(from[i].y);
+    }
+  }
+}
+
+// Of the first of a pair alone.
+void store_rows(std::span<const shader::uvec2> pair, const shader::Strip &strip, std::vector<float> &even) {
+  for (std::uint32_t row = 0; row < strip.rows; ++row) {
+    const auto from = pair.subspan(std::size_t{row} * strip.columns, strip.columns);
+    std::ranges::transform(from, row_of(even, strip, row),
+                           [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
   }
 }
 
@@ -76,7 +93,8 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
     channel->resize(pixels);
   measurement.triangle_id.resize(pixels);
   measurement.object_id.resize(pixels);
-  measurement.lit.resize(signal.lit ? pixels : 0);
+  if (signal.lit)
+    measurement.lit.resize(pixels);
   const bool keeps_tags = options.keep_sample_tags || options.keep_reached;
   for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
     ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
@@ -116,24 +134,22 @@ shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, Measurement &measurement) {
-  const auto store = [&](std::uint32_t channel, auto &to) {
-    store_rows(pair_for_host(buffers, strip, channel / 2 * 2), channel % 2, strip, to);
+  const auto store = [&](std::uint32_t channel, auto &...to) {
+    store_rows(pair_for_host(buffers, strip, channel), strip, to...);
   };
-  store(shader::channel_range_m, measurement.range_m);
-  store(shader::channel_z_m, measurement.z_m);
-  store(signal.first_channel(0) + shader::channel_coverage, measurement.coverage);
-  store(shader::channel_triangle_id, measurement.triangle_id);
-  store(shader::channel_object_id, measurement.object_id);
+  store(shader::channel_range_m, measurement.range_m, measurement.z_m);
+  store(shader::channel_triangle_id, measurement.triangle_id, measurement.object_id);
   if (signal.lit)
     store(signal.lit_channel(), measurement.lit);
   for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
     const std::uint32_t first = signal.first_channel(f);
     Return &to = measurement.returns[f];
-    store(first + shader::channel_amplitude, to.amplitude);
-    store(first + shader::channel_phase_rad, to.phase_rad);
-    store(first + shader::channel_distance_m, to.distance_m);
-    for (std::uint32_t k = 0; k < to.taps.size(); ++k)
-      store(first + shader::channel_first_tap + k, to.taps[k]);
+    store(first + shader::channel_amplitude, to.amplitude, to.phase_rad);
+    store(first + shader::channel_distance_m, to.distance_m, measurement.coverage);
+    for (std::uint32_t k = 0; k + 1 < to.taps.size(); k += 2)
+      store(first + shader::channel_first_tap + k, to.taps[k], to.taps[k + 1]);
+    if (to.taps.size() % 2 == 1)
+      store(first + shader::channel_first_tap + signal.taps - 1, to.taps.back());
     check_finite(to.amplitude, strip);
     for (const std::vector<float> &tap : to.taps)
       check_finite(tap, strip);
