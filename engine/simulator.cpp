@@ -315,13 +315,18 @@ void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) 
 
 void Simulator::State::prepare() {
   const auto &[scene, sensor, illuminators, backscatter, shadows, accuracy] = *requested;
-  SpareMemory memory;
-  if (prepared)
-    memory = release_memory(std::move(*prepared));
-  prepared.reset(); // the rest of its memory first
-  prepared.emplace(prepare_passes(device, options,
-                                  {*scene, sensor, illuminators, backscatter, shadows, accuracy}, attempt,
-                                  textures, std::move(memory)));
+  const FrameRequest request{*scene, sensor, illuminators, backscatter, shadows, accuracy};
+  const auto make = [&](SpareMemory &&memory) {
+    prepared.reset(); // the rest of its memory first
+    prepared.emplace(prepare_passes(device, options, request, attempt, textures, std::move(memory)));
+  };
+  try {
+    make(prepared ? release_memory(std::move(*prepared)) : SpareMemory());
+  } catch (const Error &error) {
+    if (error.code() != ExitCode::out_of_memory)
+      throw;
+    make({}); // there may be room without what was to be used again
+  }
   textures.drop_unused();
   warm_up();
 }

@@ -6,11 +6,12 @@
 #include "real.glsl"
 
 // The depth at which the ray (x, y, 1) meets the plane. A sample that an edge-on triangle covers only by the raster's snapping
-// must not leave that triangle's depths; where its ray is in the plane, it sees the far end.
+// must not leave that triangle's depths; where its ray never meets the plane, having just passed its horizon, it sees the far end.
 Real depth_on_plane(Real3 ray, TrianglePlane plane) {
   Real facing = dot3(real3(plane.plane_hi.xyz, plane.plane_lo.xyz), ray);
-  Real depth = divide(real(plane.plane_hi.w, plane.plane_lo.w), facing);
-  return high(facing) == 0.0 ? real(plane.along_max) : real_clamp(depth, plane.along_min, plane.along_max);
+  Real offset = real(plane.plane_hi.w, plane.plane_lo.w);
+  bool meets = high(facing) > 0.0 ? high(offset) > 0.0 : high(facing) < 0.0 && high(offset) < 0.0;
+  return meets ? real_clamp(divide(offset, facing), plane.along_min, plane.along_max) : real(plane.along_max);
 }
 
 Real3 point_at_depth(Real3 ray, Real depth) { return Real3(multiply(ray.x, depth), multiply(ray.y, depth), depth); }

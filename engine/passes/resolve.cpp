@@ -26,10 +26,11 @@ vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass
 
 namespace {
 
-// Of the plain way, as one straight line: as many as its parts can have, all alike.
+// Of the plain way, as one straight line, which should not take long to compile: a divisor of their number,
+// so that one pipeline does for all parts.
 std::uint32_t frequencies_at_once(const Signal &signal) {
-  constexpr std::uint32_t most = 8;
-  std::uint32_t count = std::min(signal.frequencies(), most);
+  constexpr std::uint32_t most = 8, most_planes = 16;
+  std::uint32_t count = std::clamp(most_planes / signal.planes, 1u, std::min(signal.frequencies(), most));
   while (signal.frequencies() % count != 0)
     --count;
   return count;
@@ -72,7 +73,7 @@ ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, con
       frequencies_(upload_frequencies(device, signal, groups, scope.promise)),
       harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
       first_(make_pipeline(device, signal, options.precision, scope, true)) {
-  if (signal.frequencies() > 1)
+  if (signal.frequencies() > (scope.plain ? frequencies_at_once(signal) : 1))
     later_ = make_pipeline(device, signal, options.precision, scope, false);
 }
 

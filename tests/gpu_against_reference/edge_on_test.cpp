@@ -15,9 +15,11 @@ namespace {
 
 constexpr double height_m = 1e-4, far_m = 20.0;
 
-Scene floor_below_lens() {
+// `slope`: down and away, so that rays pass above its horizon.
+Scene floor_below_lens(double slope) {
+  const double near_y_m = height_m - 5.0 * slope, far_y_m = height_m + far_m * slope;
   SceneBuilder builder;
-  builder.add_mesh({{-10, height_m, -5}, {10, height_m, -5}, {10, height_m, far_m}, {-10, height_m, far_m}},
+  builder.add_mesh({{-10, near_y_m, -5}, {10, near_y_m, -5}, {10, far_y_m, far_m}, {-10, far_y_m, far_m}},
                    {{0, 1, 2}, {0, 2, 3}});
   return builder.scene();
 }
@@ -49,14 +51,14 @@ void check_middle_row(const Measurement &frame, const Sensor &sensor) {
 } // namespace
 
 TEST_CASE("samples that look along a floor see its far end, not the lens") {
-  for (const std::uint32_t samples : {1u, 3u})
-    for (const double radius_m : {0.0, 0.1}) {
+  for (const double slope : {0.0, 1e-6})
+    for (const std::uint32_t samples : {1u, 3u}) {
       const Sensor sensor = level_sensor(samples);
       Simulator simulator = make_simulator();
-      simulator.prepare(floor_below_lens(), sensor, {light_at(ring(4, radius_m), 0.0, {})},
+      simulator.prepare(floor_below_lens(slope), sensor, {light_at(ring(4, 0.0), 0.0, {})},
                         Backscatter::constant);
       const Measurement frame = simulator.measure();
-      INFO("samples " << samples << ", light " << radius_m << " m beside the lens");
+      INFO("samples " << samples << ", slope " << slope);
       const std::size_t middle = std::size_t{sensor.resolution.y / 2} * sensor.resolution.x;
       if (samples == 1)
         CHECK(frame.range_m[middle] == Approx(far_m).epsilon(0.01)); // all that the pixel sees
