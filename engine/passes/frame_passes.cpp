@@ -234,8 +234,8 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const auto &promise = stand_in ? plan.promise : plan.promise_of_all;
   std::optional<ResolvePass::PlainScope> plain;
   if (grid)
-    plain.emplace(*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4,
-                  scene.paint.painted);
+    plain = ResolvePass::PlainScope{*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4,
+                                    scene.paint.painted};
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
                             {view.signal.lit, ways.listed, plan.precision, promise, grid});
   ResolvePass resolve(device, view.signal, summed, options,
