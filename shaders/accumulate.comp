@@ -7,6 +7,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "accumulate.glsl"
+#define REACHED_OF_BLOCK(i, block) reached_of_block(i, block)
 #include "moments.glsl"
 
 void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run, float backscatter) {
@@ -21,19 +22,8 @@ void main() {
   LightRun run = LightRuns(constants.run).at;
   Point point;
   ReferencePath path = load_point(i, run, point);
-  float total[sums];
-  [[unroll]] for (uint k = 0; k < sums; ++k)
-    total[k] = 0.0;
-  Diodes diodes = Diodes(constants.diodes);
-#ifdef STRAIGHT_LINE
-  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, diodes, block, reached_of_block(i, block));
-#else
-  for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, diodes, block, reached_of_block(i, block));
-#endif
   float moment[moments];
-  find_moments(total, point, run, moment);
+  sum_run(i, point, run, Diodes(constants.diodes), 0u, constants.blocks, moment);
 
   float backscatter = Floats(constants.backscatter).at[i];
   add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));

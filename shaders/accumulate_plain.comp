@@ -49,19 +49,8 @@ void main() {
   LightRun run = LightRuns(constants.run).at;
   Point point;
   ReferencePath path = load_point(i, run, point);
-  float total[sums];
-  [[unroll]] for (uint k = 0; k < sums; ++k)
-    total[k] = 0.0;
-  Diodes diodes = Diodes(constants.diodes);
-#ifdef STRAIGHT_LINE
-  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, diodes, block, 0u);
-#else
-  for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, diodes, block, 0u);
-#endif
   float moment[moments];
-  find_moments(total, point, run, moment);
+  sum_run(i, point, run, Diodes(constants.diodes), 0u, constants.blocks, moment);
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)
       add_tone(t, i, moment, path, run);

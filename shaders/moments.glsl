@@ -60,6 +60,25 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
   }
 }
 
+// Of a block's diodes, those that reach sample i, a bit each; only asked where `shadowed`.
+#ifndef REACHED_OF_BLOCK
+#define REACHED_OF_BLOCK(i, block) 0u
+#endif
+
+// The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form.
+void sum_run(uint i, Point point, LightRun run, Diodes diodes, uint first, uint blocks, out float moment[moments]) {
+  float total[sums];
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    total[k] = 0.0;
+#ifdef STRAIGHT_LINE
+  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
+#else
+  for (uint block = 0; block < blocks; ++block)
+#endif
+    add_block(total, point, diodes, first + block, REACHED_OF_BLOCK(i, block));
+  find_moments(total, point, run, moment);
+}
+
 // sum_k (j kappa)^k / k! * moment[k], by Horner's rule.
 vec2 return_of(float moment[moments], float kappa) {
   vec2 z = vec2(0.0);

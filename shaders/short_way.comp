@@ -96,17 +96,8 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
     LightRun run = Lights(constants.light).runs[r];
     Point point;
     ReferencePath path = see_point(position, surface, run, point);
-    float total[sums];
-    [[unroll]] for (uint k = 0; k < sums; ++k)
-      total[k] = 0.0;
-    Diodes diodes = Diodes(constants.diodes);
-#ifdef STRAIGHT_LINE
-    [[unroll]]
-#endif
-    for (uint block = 0; block < unrolled_blocks; ++block)
-      add_block(total, point, diodes, r * unrolled_blocks + block, 0u);
     float moment[moments];
-    find_moments(total, point, run, moment);
+    sum_run(0u, point, run, Diodes(constants.diodes), r * unrolled_blocks, unrolled_blocks, moment);
     terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
     [[unroll]] for (uint t = 0; t < tones; ++t) {
       vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
