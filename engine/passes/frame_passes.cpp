@@ -216,7 +216,8 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   if (ways.plain)
     grid.emplace(device, sensor);
   VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision,
-                            grid, std::move(spare.images));
+                            grid, sensor.has_distortion() ? buffers.fragments : buffers.tags,
+                            std::move(spare.images));
   auto points = all_points(device, options, request, view, plan, ways, scene.paint);
   std::optional<LitPass> lit;
   if (view.signal.lit)

@@ -19,6 +19,12 @@ vulkan::Buffer make_or_take(const vulkan::Device &device, vulkan::Buffer &previo
   return {device, bytes, usage, memory};
 }
 
+// What an image of that size that lies in a buffer (vulkan/image.h) takes on lavapipe, which draws four rows
+// at once.
+vk::DeviceSize drawn_fragments(glm::uvec2 fragments) {
+  return vk::DeviceSize{fragments.x} * ((fragments.y + 3) / 4 * 4);
+}
+
 } // namespace
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
@@ -26,11 +32,12 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
                                 const SampleLayout &layout, const SimulatorOptions &options,
                                 StripBuffers &&previous) {
   using Usage = vk::BufferUsageFlagBits;
-  vk::DeviceSize samples = 0, pixels = 0, fragments = 0;
+  vk::DeviceSize samples = 0, tags = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
     if (blocks[block].distorted)
-      fragments = std::max(fragments, vk::DeviceSize{blocks[block].fragments.x} * blocks[block].fragments.y);
+      fragments = std::max(fragments, drawn_fragments(blocks[block].fragments));
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
+    tags = std::max({tags, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
   const auto storage = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes,
@@ -42,7 +49,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
     return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
   const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
-  const vk::DeviceSize tag_bytes = samples * layout.tag_bytes;
+  const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
   const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;

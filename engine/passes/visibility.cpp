@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <vulkan/vulkan_format_traits.hpp>
 
 namespace pmdsim {
 namespace {
@@ -35,6 +36,9 @@ constexpr auto tag_format = vk::Format::eR32G32Uint;
 constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
 constexpr auto depth_format = vk::Format::eD32Sfloat;
 constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+constexpr auto users_of_tags = Stage::eComputeShader | Stage::eTransfer;
+constexpr auto uses_of_tags =
+    Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBlock> &blocks) {
@@ -158,17 +162,40 @@ std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, f
       });
 }
 
-RasterImages make_or_take(const vulkan::Device &device, vk::Extent2D extent, vk::Format format,
-                          std::optional<RasterImages> &&previous) {
-  if (previous && previous->extent == extent && previous->tag_format == format)
-    return std::move(*previous);
-  previous.reset(); // its memory first
-  return {vulkan::Image(device, extent, format,
-                        vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
-                        vk::ImageAspectFlagBits::eColor),
-          vulkan::Image(device, extent, depth_format, vk::ImageUsageFlagBits::eDepthStencilAttachment,
-                        vk::ImageAspectFlagBits::eDepth),
-          extent, format};
+// Lavapipe draws on linear images as fast as on others; GPUs may not.
+std::optional<vulkan::Image> tags_in_place(const vulkan::Device &device,
+                                           const std::vector<RasterBlock> &blocks,
+                                           const std::vector<PlannedStrip> &strips, vk::Extent2D extent,
+                                           vk::Format format, const vulkan::Buffer &tags) {
+  const bool is_packed = std::ranges::all_of(
+      strips, [&](const PlannedStrip &planned) { return extent_of(planned, blocks).width == extent.width; });
+  if (!device.is_cpu() || !is_packed)
+    return std::nullopt;
+  return vulkan::Image::on_buffer(device, extent, format, vk::ImageUsageFlagBits::eColorAttachment, tags);
+}
+
+RasterImages make_images(const vulkan::Device &device, const std::vector<RasterBlock> &blocks,
+                         const std::vector<PlannedStrip> &strips, vk::Format format,
+                         const vulkan::Buffer &tags, std::optional<RasterImages> &&previous) {
+  using Usage = vk::ImageUsageFlagBits;
+  const vk::Extent2D extent = largest_extent(blocks, strips);
+  if (previous && previous->extent != extent)
+    previous.reset(); // its memory first
+  RasterImages made{extent, format, {}, {}, false};
+  made.depth = previous ? std::move(previous->depth)
+                        : vulkan::Image(device, extent, depth_format, Usage::eDepthStencilAttachment,
+                                        vk::ImageAspectFlagBits::eDepth);
+  if (auto in_place = tags_in_place(device, blocks, strips, extent, format, tags)) {
+    made.tags = std::move(*in_place);
+    made.in_place = true;
+  } else if (previous && !previous->in_place && previous->tag_format == format) {
+    made.tags = std::move(previous->tags);
+  } else {
+    previous.reset();
+    made.tags = vulkan::Image(device, extent, format, Usage::eColorAttachment | Usage::eTransferSrc,
+                              vk::ImageAspectFlagBits::eColor);
+  }
+  return made;
 }
 
 // A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes
@@ -188,7 +215,7 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
                                const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
                                SamplePrecision precision, const std::optional<ChipGrid> &grid,
-                               std::optional<RasterImages> &&previous)
+                               const vulkan::Buffer &tags, std::optional<RasterImages> &&previous)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
@@ -205,8 +232,8 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
                   vulkan::Specialization{grid ? 1u : 0u, general_chip, keys ? 1u : 0u});
   if (keys)
     return;
-  attachments_ = make_or_take(device, largest_extent(projection.blocks, strips),
-                              grid ? record_format : tag_format, std::move(previous));
+  attachments_ = make_images(device, projection.blocks, strips, grid ? record_format : tag_format, tags,
+                             std::move(previous));
 }
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -267,27 +294,50 @@ void VisibilityPass::complete_tags(const vk::raii::CommandBuffer &commands, cons
 
 void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                                         const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  const vulkan::Image &tags_image = attachments_->tags, &depth_image = attachments_->depth;
   const vk::Extent2D extent = extent_of(planned, blocks_);
-  tags_image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
-                        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-  depth_image.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
-                         Access::eDepthStencilAttachmentWrite, depth_tests,
-                         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-  const vk::RenderingAttachmentInfo color(tags_image.view(), Layout::eColorAttachmentOptimal,
-                                          vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
-                                          vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+  const bool in_place = attachments_->in_place;
+  const auto [layout, load] = begin_tags(commands, extent, tags);
+  attachments_->depth.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
+                                 Access::eDepthStencilAttachmentWrite, depth_tests,
+                                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+  const vk::RenderingAttachmentInfo color(attachments_->tags.view(), layout, vk::ResolveModeFlagBits::eNone,
+                                          {}, Layout::eUndefined, load, vk::AttachmentStoreOp::eStore,
                                           vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
-  const vk::RenderingAttachmentInfo depth(depth_image.view(), Layout::eDepthAttachmentOptimal,
+  const vk::RenderingAttachmentInfo depth(attachments_->depth.view(), Layout::eDepthAttachmentOptimal,
                                           vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
                                           vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
                                           vk::ClearDepthStencilValue(0.0f));
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
   draw(commands, planned, scene, tags);
   commands.endRendering();
-  copy_tags(commands, extent, tags);
+  if (in_place)
+    vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                           users_of_tags, uses_of_tags);
+  else
+    copy_tags(commands, extent, tags);
   if (tags_)
     complete_tags(commands, planned, scene, tags);
+}
+
+// What was drawn before is of no use any more. Lavapipe clears images of more than 4 bytes a pixel one by
+// one, but fills buffers.
+std::pair<Layout, vk::AttachmentLoadOp> VisibilityPass::begin_tags(const vk::raii::CommandBuffer &commands,
+                                                                   vk::Extent2D extent,
+                                                                   const vulkan::Buffer &tags) const {
+  const vulkan::Image &image = attachments_->tags;
+  if (!attachments_->in_place) {
+    image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
+                     Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    return {Layout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear};
+  }
+  image.transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_tags, {}, Stage::eTransfer,
+                   Access::eTransferWrite);
+  commands.fillBuffer(tags.get(), 0,
+                      vk::DeviceSize{extent.width} * extent.height * vk::blockSize(attachments_->tag_format),
+                      0);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
+                         Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
+  return {Layout::eGeneral, vk::AttachmentLoadOp::eLoad};
 }
 
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -358,9 +408,7 @@ void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Exte
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
   commands.copyImageToBuffer(image.get(), Layout::eTransferSrcOptimal, tags.get(), region);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
-                         Stage::eComputeShader | Stage::eTransfer,
-                         Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_tags, uses_of_tags);
 }
 
 } // namespace pmdsim

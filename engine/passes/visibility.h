@@ -23,18 +23,22 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 // What the raster draws on.
 struct RasterImages {
-  vulkan::Image tags, depth;
   vk::Extent2D extent;
   vk::Format tag_format;
+  vulkan::Image depth;
+  vulkan::Image tags;
+  bool in_place; // the tags lie in the buffer that they are wanted in, and need no copy
 };
 
 class VisibilityPass {
 public:
   // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
-  // samples' records are asked for; `previous`: taken where they are the same.
+  // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
+  // same.
   VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                  const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
-                 const std::optional<ChipGrid> &grid, std::optional<RasterImages> &&previous);
+                 const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+                 std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/interface.h), or with distortion the
   // tags of its block's fragments, in `tags`, visible to compute shaders and transfers.
@@ -55,6 +59,9 @@ private:
             const vulkan::Buffer &tags) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                  const SceneBuffers &scene, const vulkan::Buffer &tags, const glm::uvec2 &tile) const;
+  // The layout in which the image of the tags is drawn on, and whether it has to be cleared before.
+  std::pair<vk::ImageLayout, vk::AttachmentLoadOp>
+  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                  const vulkan::Buffer &tags) const;
 

@@ -12,7 +12,7 @@ namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
 
-std::uint32_t memory_type(const Device &device, std::uint32_t allowed, Memory memory) {
+std::uint32_t choose_memory_type(const Device &device, std::uint32_t allowed, Memory memory) {
   const vk::MemoryPropertyFlags host = Property::eHostVisible | Property::eHostCoherent;
   switch (memory) {
   case Memory::device:
@@ -43,12 +43,12 @@ Buffer::Buffer(const Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags 
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
     const vk::MemoryAllocateFlagsInfo flags(addressed ? vk::MemoryAllocateFlagBits::eDeviceAddress
                                                       : vk::MemoryAllocateFlags());
-    const vk::MemoryAllocateInfo info(needs.size, memory_type(device, needs.memoryTypeBits, memory), &flags);
-    memory_ = vk::raii::DeviceMemory(device.get(), info);
+    memory_type_ = choose_memory_type(device, needs.memoryTypeBits, memory);
+    memory_ = vk::raii::DeviceMemory(device.get(), vk::MemoryAllocateInfo(needs.size, memory_type_, &flags));
     buffer_.bindMemory(*memory_, 0);
     if (addressed)
       address_ = device.get().getBufferAddress(vk::BufferDeviceAddressInfo(*buffer_));
-    if (!addressed || device.is_fast_for_the_host(info.memoryTypeIndex))
+    if (!addressed || device.is_fast_for_the_host(memory_type_))
       mapped_ = static_cast<std::byte *>(memory_.mapMemory(0, bytes));
   });
 }

@@ -28,6 +28,8 @@ public:
 
   vk::Buffer get() const { return *buffer_; }
   vk::DeviceSize bytes() const { return bytes_; }
+  vk::DeviceMemory memory() const { return *memory_; } // the buffer's alone, from its beginning
+  std::uint32_t memory_type() const { return memory_type_; }
   vk::DeviceAddress address() const { return address_; } // Memory::device only
   // Of upload and read; of device, too, where the host reads the device's memory as its own.
   bool is_mapped() const { return mapped_ != nullptr; }
@@ -35,6 +37,7 @@ public:
 
 private:
   vk::DeviceSize bytes_ = 0;
+  std::uint32_t memory_type_ = 0;
   vk::raii::DeviceMemory memory_ = nullptr; // before the buffer: destroyed after it
   vk::raii::Buffer buffer_ = nullptr;
   vk::DeviceAddress address_ = 0;

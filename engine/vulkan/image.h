@@ -1,8 +1,10 @@
 #pragma once
-// A two-dimensional attachment with its own memory and its view.
+// A two-dimensional attachment with its view, in its own memory or on a buffer's.
 
+#include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
 
+#include <optional>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim::vulkan {
@@ -12,6 +14,11 @@ public:
   Image() = default;
   Image(const Device &device, vk::Extent2D extent, vk::Format format, vk::ImageUsageFlags usage,
         vk::ImageAspectFlags aspect);
+  // A colour image that lies in the buffer's memory row by row, so that the buffer has in layout eGeneral
+  // what is drawn; nothing where the device has no such images, leaves gaps between rows or needs more memory
+  // than there is. No longer to be used than the buffer is.
+  static std::optional<Image> on_buffer(const Device &device, vk::Extent2D extent, vk::Format format,
+                                        vk::ImageUsageFlags usage, const Buffer &buffer);
 
   vk::Image get() const { return *image_; }
   vk::ImageView view() const { return *view_; }
@@ -22,6 +29,8 @@ public:
                   vk::AccessFlags2 used) const;
 
 private:
+  void make_view(const Device &device, vk::Format format);
+
   vk::ImageAspectFlags aspect_;
   vk::raii::DeviceMemory memory_ = nullptr;
   vk::raii::Image image_ = nullptr;
