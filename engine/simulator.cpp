@@ -271,7 +271,8 @@ void Simulator::State::measure_strip(const PlannedStrip &planned, const Progress
 
 void Simulator::State::store(const PlannedStrip &planned, Measurement &measurement) {
   const auto start = std::chrono::steady_clock::now();
-  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, measurement);
+  store_strip(planned.strip, prepared->buffers, prepared->sensor, prepared->signal, prepared->truth,
+              measurement);
   recorder.add("read_back", milliseconds_since(start));
 }
 

@@ -67,6 +67,7 @@ PMDSIM_CONSTANT plain_resolve_points = 10;
 PMDSIM_CONSTANT constant_plain_only = 16; // as constant_only
 PMDSIM_CONSTANT constant_plain_side = 17; // S
 PMDSIM_CONSTANT constant_plain_frequencies = 18; // that one dispatch resolves
+PMDSIM_CONSTANT constant_plain_one = 19; // all surfaces have one backscatter, that of PlainResolveConstants
 
 // Specialization constants of the points passes.
 PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
@@ -436,6 +437,7 @@ struct PlainResolveConstants {
   uint pixels; // of the strip
   uint padded_pixels;
   uint plane;
+  float backscatter; // as in TrianglePlane, where all surfaces have the same
 };
 
 // Pixels that wait for their samples to be summed; their numbers follow. Numbers of workgroups are counted
@@ -506,7 +508,7 @@ struct ShortWayWork {
 
 // The ground truth comes first, then the channels of each frequency, the taps (if kept) last. Channels 2 n and 2 n + 1 lie
 // side by side, a word of each for every pixel: lavapipe stores lane by lane, two words as fast as one.
-PMDSIM_CONSTANT channel_range_m = 0;
+PMDSIM_CONSTANT channel_coverage = 0;
 PMDSIM_CONSTANT channel_z_m = 1;
 PMDSIM_CONSTANT channel_triangle_id = 2;
 PMDSIM_CONSTANT channel_object_id = 3;
@@ -514,7 +516,7 @@ PMDSIM_CONSTANT truth_channels = 4;
 PMDSIM_CONSTANT channel_amplitude = 0;
 PMDSIM_CONSTANT channel_phase_rad = 1;
 PMDSIM_CONSTANT channel_distance_m = 2;
-PMDSIM_CONSTANT channel_coverage = 3; // the same of each frequency: it fills a pair
+PMDSIM_CONSTANT channel_range_m = 3; // the same of each frequency: it fills a pair
 PMDSIM_CONSTANT channel_first_tap = 4;
 
 #ifdef __cplusplus
@@ -528,7 +530,7 @@ static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
 static_assert(sizeof(VisibilityConstants) == 128 && offsetof(VisibilityConstants, slope) == 96);
-static_assert(sizeof(PlainSumConstants) == 108 && sizeof(PlainResolveConstants) == 116);
+static_assert(sizeof(PlainSumConstants) == 108 && sizeof(PlainResolveConstants) == 120);
 static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 88);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);

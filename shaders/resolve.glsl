@@ -124,7 +124,7 @@ vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
 }
 
 // `turns` in [-1, 1]; not known where nothing returns.
-void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float coverage) {
+void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
   bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
@@ -135,7 +135,14 @@ void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, 
   store_pair(to, channel + channel_amplitude, pixel, floatBitsToUint(vec2(amplitude, is_known ? phase_rad : nan())));
   Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
   float distance_m = clamp(high(distance), 0.0, frequency.below.y);
-  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), coverage)));
+  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
+}
+
+// Of what was summed over the samples hit; `samples`: S x S.
+float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
+  if (samples > 1)
+    sum = divide(sum, real(float(max(pixel.hits, 1u))));
+  return pixel.hits > 0u ? high(sum) : nan();
 }
 
 // `samples`: S x S of the pixel; of harmonics, `amplitudes` are those of the correlation function. Returns |z| over what one
@@ -156,18 +163,13 @@ float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samp
   float amplitude = scale * size;
   Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
   turns = add(add(turns, negate(round_to_whole(turns))), real(angle_turns(z)));
-  store_phase(to, frequency, pixel, amplitude, turns, float(sum.hits) / float(samples));
+  store_phase(to, frequency, pixel, amplitude, turns, mean_over_hits(sum.range, sum, samples));
   return size;
 }
 
 void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
-  if (samples > 1) {
-    Real hits = real(float(max(sum.hits, 1u)));
-    sum.range = divide(sum.range, hits);
-    sum.depth = divide(sum.depth, hits);
-  }
-  vec2 lengths = vec2(high(sum.range), high(sum.depth));
-  store_pair(to, channel_range_m, pixel, floatBitsToUint(sum.hits > 0u ? lengths : vec2(nan())));
+  vec2 truth = vec2(float(sum.hits) / float(samples), mean_over_hits(sum.depth, sum, samples));
+  store_pair(to, channel_coverage, pixel, floatBitsToUint(truth));
 }
 
 void store_lit(Channels to, uint channel, uint diodes, uint pixel, PixelSum sum) {

@@ -16,6 +16,7 @@ layout(constant_id = plain_resolve_points + constant_chip) const uint general_ch
 layout(constant_id = constant_plain_only) const uint is_only = 0;
 layout(constant_id = constant_plain_side) const uint side = 1; // S
 layout(constant_id = constant_plain_frequencies) const uint frequencies = 1;
+layout(constant_id = constant_plain_one) const uint one_backscatter = 0;
 const uint all_planes = frequencies * planes;
 
 // Of frequency f, the p-th of its planes, but for the backscatter.
@@ -24,31 +25,29 @@ vec2 load_sum(uint f, uint p, uint i) {
   return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
 }
 
-// What is known of a surface: a TrianglePlane's backscatter and object, the only ones of its members that are asked for.
-struct Surface {
-  uvec2 tag;
-  float backscatter;
-  uint object;
-};
+uint load_triangle(uint i) { return load_record_tag(constants.records, i).y; }
 
-Surface load_surface(uint i) {
-  uvec2 tag = load_record_tag(constants.records, i);
-  uvec2 words = load_tag(constants.planes, 6 * tag.y + 4);
-  return Surface(tag, uintBitsToFloat(words.x), words.y);
+// B over the cosine of the surface that sample i sees at `point`.
+float load_backscatter(uint i, vec3 ray, Real3 point) {
+  TrianglePlane plane;
+  if (one_backscatter != 0) {
+    plane.backscatter = constants.backscatter;
+    return backscatter_of(constants.shapes, constants.surfaces, ray, point, 0u, plane);
+  }
+  uint triangle = load_triangle(i);
+  plane.backscatter = uintBitsToFloat(load_tag(constants.planes, 6 * triangle + 4).x);
+  return backscatter_of(constants.shapes, constants.surfaces, ray, point, triangle, plane);
 }
 
 // `z` as in PixelSum, frequency by frequency.
-Surface add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequencies], uvec2 at) {
+void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequencies], uvec2 at) {
   uint i = at.y * constants.grid.columns + at.x;
-  Surface surface = load_surface(i);
   Real depth = load_record_depth(constants.records, i);
   Real3 ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
   Real3 point = point_at_depth(ray, depth);
   Real range = length3(point);
-  TrianglePlane plane;
-  plane.backscatter = surface.backscatter;
-  float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), point, surface.tag.y, plane);
-  bool hits = surface.tag.x != 0u && high(depth) != 0.0, shines = hits && backscatter > 0.0; // black may not be a number
+  float backscatter = load_backscatter(i, high3(ray), point);
+  bool hits = high(depth) != 0.0, shines = hits && backscatter > 0.0; // black may not be a number
   if (sum.hits == 0u)
     sum.reference_m = range;
   Real excess_m = add(range, negate(sum.reference_m));
@@ -62,7 +61,13 @@ Surface add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[fr
   sum.range = add(sum.range, hits ? range : real(0.0));
   sum.depth = add(sum.depth, hits ? depth : real(0.0));
   sum.hits += hits ? 1u : 0u;
-  return surface;
+}
+
+void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
+  store_ground_truth(to, side * side, pixel, sum);
+  uvec2 at = first + (side - 1) / 2; // of an even number of samples the upper left one
+  uvec2 tag = load_record_tag(constants.records, at.y * constants.grid.columns + at.x);
+  store_ids(to, tag, load_tag(constants.planes, 6 * tag.y + 4).y, pixel);
 }
 
 void main() {
@@ -75,24 +80,17 @@ void main() {
   uint pixel = gl_GlobalInvocationID.x;
   uint columns = constants.grid.columns / side;
   uvec2 first = side * row_by_row(min(pixel, constants.pixels - 1), columns, constants.grid.inverse_columns * float(side));
-  uint middle = (side - 1) / 2; // of an even number of samples the upper left one
   PixelSum sum;
   see_nothing(sum);
-  Surface central;
   for (uint y = 0; y < side; ++y)
-    for (uint x = 0; x < side; ++x) {
-      Surface surface = add_sample(sum, z, of, first + uvec2(x, y));
-      if (x == middle && y == middle)
-        central = surface;
-    }
+    for (uint x = 0; x < side; ++x)
+      add_sample(sum, z, of, first + uvec2(x, y));
   Channels to = Channels(constants.channels, constants.padded_pixels);
   [[unroll]] for (uint f = 0; f < frequencies; ++f) {
     [[unroll]] for (uint p = 0; p < planes; ++p)
       sum.z[p] = z[f * planes + p];
     store_return(to, of[f], constants.harmonics, side * side, pixel, sum);
   }
-  if (ground_truth != 0) {
-    store_ground_truth(to, side * side, pixel, sum);
-    store_ids(to, central.tag, central.object, pixel);
-  }
+  if (ground_truth != 0)
+    store_truth(to, pixel, first, sum);
 }

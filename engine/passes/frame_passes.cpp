@@ -2,6 +2,7 @@
 
 #include "engine/passes/occluders.h"
 #include "engine/passes/projection.h"
+#include "engine/passes/sample_precision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +18,36 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
                                                  : chip_blocks(sensor, fragments));
 }
 
+std::optional<float> one_backscatter(const CameraScene &camera,
+                                     const std::vector<shader::TrianglePlane> &planes) {
+  const auto of = [&](const CameraTriangle &triangle) { return planes[triangle.id].backscatter; };
+  const auto &triangles = camera.triangles;
+  if (triangles.empty() || !std::ranges::all_of(triangles, [&](const CameraTriangle &triangle) {
+        return of(triangle) == of(triangles.front());
+      }))
+    return std::nullopt;
+  return of(triangles.front());
+}
+
 SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
                           const Sensor &sensor, Backscatter backscatter, TextureCache &textures) {
   auto planes = triangle_planes(camera, scene, backscatter,
                                 sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
   if (planes.empty()) // what sees nothing looks the first one up
     planes.emplace_back();
-  return {vulkan::upload(device, std::as_bytes(std::span(planes))),
-          upload_paint(device, camera, scene, backscatter, textures), camera.world_rounding_m};
+  PaintBuffers paint = upload_paint(device, camera, scene, backscatter, textures);
+  const auto one = paint.painted ? std::nullopt : one_backscatter(camera, planes);
+  return {vulkan::upload(device, std::as_bytes(std::span(planes))), std::move(paint), one,
+          camera.world_rounding_m};
+}
+
+// Of one sample a pixel.
+TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOptions &options,
+                                const Scene &scene) {
+  TruthOfRecords truth{{}, uses_fp64(device, options.precision)};
+  for (std::uint32_t id = 0; id < scene.shape_count(); ++id)
+    truth.object_of_shape.push_back(scene.object_of(id));
+  return truth;
 }
 
 // The frame as the host sees it.
@@ -159,11 +182,17 @@ ListedPasses make_listed(const vulkan::Device &device, const SimulatorOptions &o
 }
 
 // Where the records are all that is kept of samples, and where it is not.
-SampleLayout plain_layout(bool single_run) {
-  return {sizeof(shader::uvec4), 0, 0, 0, single_run ? sizeof(shader::vec2) : sizeof(shader::vec4)};
+SampleLayout plain_layout(bool host_reads_tags, bool single_run) {
+  return {host_reads_tags,
+          sizeof(shader::uvec4),
+          0,
+          0,
+          0,
+          single_run ? sizeof(shader::vec2) : sizeof(shader::vec4)};
 }
-SampleLayout layout_of(std::uint32_t surface_vectors) {
-  return {sizeof(shader::uvec2), 3 * sizeof(double), sizeof(float), surface_vectors, sizeof(shader::vec4)};
+SampleLayout layout_of(bool host_reads_tags, std::uint32_t surface_vectors) {
+  return {host_reads_tags, sizeof(shader::uvec2), 3 * sizeof(double),
+          sizeof(float),   surface_vectors,       sizeof(shader::vec4)};
 }
 
 std::uint32_t shining(const DiodeGroups &groups) {
@@ -206,12 +235,16 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const auto strips = plan_strips(sensor, view.projection.blocks, samples);
   const Precision of_check = checks ? check_precision(view, plan, sensor) : plan.precision;
   const bool single_run = plan.all.runs.size() == 1;
-  StripBuffers buffers =
-      make_strip_buffers(device, strips, view.projection.blocks, view.signal,
-                         ways.plain ? plain_layout(single_run)
-                                    : layout_of(std::max(view.model.surface_vectors(plan.precision),
-                                                         view.model.surface_vectors(of_check))),
-                         options, std::move(spare.buffers));
+  std::optional<TruthOfRecords> truth;
+  if (ways.plain && sensor.samples == 1)
+    truth = truth_of_records(device, options, request.scene);
+  const bool host_reads_tags = truth || options.keep_sample_tags || options.keep_reached;
+  StripBuffers buffers = make_strip_buffers(
+      device, strips, view.projection.blocks, view.signal,
+      ways.plain ? plain_layout(host_reads_tags, single_run)
+                 : layout_of(host_reads_tags, std::max(view.model.surface_vectors(plan.precision),
+                                                       view.model.surface_vectors(of_check))),
+      options, std::move(spare.buffers));
   std::optional<ChipGrid> grid;
   if (ways.plain)
     grid.emplace(device, sensor);
@@ -235,8 +268,13 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const auto &promise = stand_in ? plan.promise : plan.promise_of_all;
   std::optional<ResolvePass::PlainScope> plain;
   if (grid)
-    plain = ResolvePass::PlainScope{*grid, sensor.samples, single_run, sensor.vignetting == Vignetting::cos4,
-                                    scene.paint.painted};
+    plain = ResolvePass::PlainScope{*grid,
+                                    sensor.samples,
+                                    single_run,
+                                    sensor.vignetting == Vignetting::cos4,
+                                    scene.paint.painted,
+                                    scene.backscatter,
+                                    truth.has_value()};
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
                             {view.signal.lit, ways.listed, plan.precision, promise, grid});
   ResolvePass resolve(device, view.signal, summed, options,
@@ -260,6 +298,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
           ways.rest || !ways.listed,
           std::move(accumulate),
           std::move(resolve),
+          std::move(truth),
           std::move(check),
           report};
 }

@@ -7,6 +7,7 @@
 #include "engine/passes/frame_plan.h"
 #include "engine/passes/lit.h"
 #include "engine/passes/points.h"
+#include "engine/passes/read_back.h"
 #include "engine/passes/resolve.h"
 #include "engine/passes/search.h"
 #include "engine/passes/short_way.h"
@@ -57,6 +58,7 @@ struct FramePasses {
   bool has_rest;                      // samples that the two below sum: list_rest, or all
   AccumulatePass accumulate;
   ResolvePass resolve;
+  std::optional<TruthOfRecords> truth; // nothing where it comes in channels
   std::optional<ExactCheck> check;
   AccuracyReport report; // what is known before the frame
 };

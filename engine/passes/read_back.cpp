@@ -10,54 +10,94 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
+#include <tbb/parallel_for.h>
 
 namespace pmdsim {
 namespace {
 
-// Where a strip's row begins in a channel of the frame.
-template <typename T>
-T *row_of(std::vector<T> &channel, const shader::Strip &strip, std::uint32_t row) {
-  return channel.data() + std::size_t{strip.row + row} * strip.resolution_x + strip.column;
+// Where a row of a strip's pixels begins, in the strip and in the frame.
+struct Row {
+  std::size_t in_strip, in_frame, pixels;
+};
+
+Row row_of(const shader::Strip &strip, std::uint32_t row) {
+  return {std::size_t{row} * strip.columns, std::size_t{strip.row + row} * strip.resolution_x + strip.column,
+          strip.columns};
 }
 
-// Copies the strip's rows of a pair of channels to their places in a frame.
 template <typename T>
-void store_rows(std::span<const shader::uvec2> pair, const shader::Strip &strip, std::vector<T> &even,
+void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<T> &even,
                 std::vector<T> &odd) {
-  for (std::uint32_t row = 0; row < strip.rows; ++row) {
-    const auto from = pair.subspan(std::size_t{row} * strip.columns, strip.columns);
-    T *const to_even = row_of(even, strip, row), *const to_odd = row_of(odd, strip, row);
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      to_even[i] = std::bit_cast<T>(from[i].x);
-      to_odd[i] = std::bit_cast<T>(from[i].y);
-    }
+  const shader::uvec2 *const from = pair.data() + row.in_strip;
+  T *const to_even = even.data() + row.in_frame, *const to_odd = odd.data() + row.in_frame;
+  for (std::size_t i = 0; i < row.pixels; ++i) {
+    to_even[i] = std::bit_cast<T>(from[i].x);
+    to_odd[i] = std::bit_cast<T>(from[i].y);
   }
 }
 
 // Of the first of a pair alone.
-void store_rows(std::span<const shader::uvec2> pair, const shader::Strip &strip, std::vector<float> &even) {
-  for (std::uint32_t row = 0; row < strip.rows; ++row) {
-    const auto from = pair.subspan(std::size_t{row} * strip.columns, strip.columns);
-    std::ranges::transform(from, row_of(even, strip, row),
-                           [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
-  }
+void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<float> &even) {
+  std::ranges::transform(pair.subspan(row.in_strip, row.pixels), even.data() + row.in_frame,
+                         [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
 }
 
 // Of a channel that a float may be too small for.
-void check_finite(const std::vector<float> &channel, const shader::Strip &strip) {
-  for (std::uint32_t row = 0; row < strip.rows; ++row) {
-    const std::size_t first = std::size_t{strip.row + row} * strip.resolution_x + strip.column;
-    if (std::ranges::any_of(std::span(channel).subspan(first, strip.columns),
-                            [](float value) { return std::isinf(value); }))
-      throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
-                                   "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
+void check_finite(const std::vector<float> &channel, const Row &row) {
+  if (std::ranges::any_of(std::span(channel).subspan(row.in_frame, row.pixels),
+                          [](float value) { return std::isinf(value); }))
+    throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
+                                 "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
+}
+
+void store_truth(std::span<const shader::uvec4> records, const Row &row, const TruthOfRecords &truth,
+                 Measurement &to) {
+  for (std::size_t i = 0; i < row.pixels; ++i) {
+    const shader::uvec4 &record = records[row.in_strip + i];
+    const float depth_m =
+        truth.has_fp64 ? static_cast<float>(std::bit_cast<double>(std::uint64_t{record.w} << 32 | record.z))
+                       : std::bit_cast<float>(record.z);
+    const std::size_t at = row.in_frame + i;
+    to.coverage[at] = depth_m != 0.0f ? 1.0f : 0.0f;
+    to.z_m[at] = depth_m != 0.0f ? depth_m : std::numeric_limits<float>::quiet_NaN();
+    to.triangle_id[at] = record.x != 0 ? record.y : no_id;
+    to.object_id[at] = record.x != 0 ? truth.object_of_shape[record.y] : no_id;
+  }
+}
+
+void store_row(const Row &row, const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
+               const std::optional<TruthOfRecords> &truth, Measurement &to) {
+  const auto store = [&](std::uint32_t channel, auto &...channels) {
+    store_pair(pair_for_host(buffers, strip, channel), row, channels...);
+  };
+  if (truth) {
+    store_truth(records_for_host(buffers), row, *truth, to);
+  } else {
+    store(shader::channel_coverage, to.coverage, to.z_m);
+    store(shader::channel_triangle_id, to.triangle_id, to.object_id);
+  }
+  if (signal.lit)
+    store(signal.lit_channel(), to.lit);
+  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
+    const std::uint32_t first = signal.first_channel(f);
+    Return &of = to.returns[f];
+    store(first + shader::channel_amplitude, of.amplitude, of.phase_rad);
+    store(first + shader::channel_distance_m, of.distance_m, to.range_m);
+    for (std::uint32_t k = 0; k + 1 < of.taps.size(); k += 2)
+      store(first + shader::channel_first_tap + k, of.taps[k], of.taps[k + 1]);
+    if (of.taps.size() % 2 == 1)
+      store(first + shader::channel_first_tap + signal.taps - 1, of.taps.back());
+    check_finite(of.amplitude, row);
+    for (const std::vector<float> &tap : of.taps)
+      check_finite(tap, row);
   }
 }
 
 // Where `tiled`, tags lie in tiles (shaders/interface.h).
-void store_sample_tags(const std::byte *from, std::size_t tag_bytes, const shader::Strip &strip, bool tiled,
-                       Measurement &to) {
+void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, const shader::Strip &strip,
+                       bool tiled, Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
   const glm::uvec2 pixels(strip.columns, strip.rows);
   for (std::uint32_t row = 0; row < samples.y; ++row)
@@ -66,7 +106,7 @@ void store_sample_tags(const std::byte *from, std::size_t tag_bytes, const shade
                                             subsample = sample % strip.samples;
       const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
       shader::uvec2 tag;
-      std::memcpy(&tag, from + (std::size_t{at.y} * samples.x + at.x) * tag_bytes, sizeof(tag));
+      std::memcpy(&tag, from.data() + (std::size_t{at.y} * samples.x + at.x) * tag_bytes, sizeof(tag));
       const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
       const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
       to.sample_pixel_id[to_at] = tag.x;
@@ -121,9 +161,9 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
     commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
                         vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
   }
-  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader,
-                         Access::eTransferWrite | Access::eShaderStorageWrite, Stage::eHost,
-                         Access::eHostRead);
+  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                         Access::eTransferWrite | Access::eShaderStorageWrite | Access::eColorAttachmentWrite,
+                         Stage::eHost, Access::eHostRead);
 }
 
 shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
@@ -133,30 +173,12 @@ shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
 }
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Signal &signal, Measurement &measurement) {
-  const auto store = [&](std::uint32_t channel, auto &...to) {
-    store_rows(pair_for_host(buffers, strip, channel), strip, to...);
-  };
-  store(shader::channel_range_m, measurement.range_m, measurement.z_m);
-  store(shader::channel_triangle_id, measurement.triangle_id, measurement.object_id);
-  if (signal.lit)
-    store(signal.lit_channel(), measurement.lit);
-  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
-    const std::uint32_t first = signal.first_channel(f);
-    Return &to = measurement.returns[f];
-    store(first + shader::channel_amplitude, to.amplitude, to.phase_rad);
-    store(first + shader::channel_distance_m, to.distance_m, measurement.coverage);
-    for (std::uint32_t k = 0; k + 1 < to.taps.size(); k += 2)
-      store(first + shader::channel_first_tap + k, to.taps[k], to.taps[k + 1]);
-    if (to.taps.size() % 2 == 1)
-      store(first + shader::channel_first_tap + signal.taps - 1, to.taps.back());
-    check_finite(to.amplitude, strip);
-    for (const std::vector<float> &tap : to.taps)
-      check_finite(tap, strip);
-  }
+                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
+  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t row) {
+    store_row(row_of(strip, row), strip, buffers, signal, truth, measurement);
+  });
   if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(buffers.tags_read.mapped().data(), buffers.tag_bytes, strip, is_tiled(sensor),
-                      measurement);
+    store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
 }
 
 } // namespace pmdsim

@@ -4,7 +4,17 @@
 #include "engine/measurement.h"
 #include "engine/passes/strip_buffers.h"
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 namespace pmdsim {
+
+// Ground truth that has no channels: of one sample a pixel, the host finds it in the sample's record.
+struct TruthOfRecords {
+  std::vector<std::uint32_t> object_of_shape;
+  bool has_fp64; // else a depth is a pair of floats
+};
 
 // A frame of the sensor's size, to be filled, in `memory`, whatever that holds.
 Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
@@ -17,7 +27,7 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
 // Once that is done: copies it to its place in the frame. Throws Error: input where light is beyond what a
 // float holds.
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Signal &signal, Measurement &measurement);
+                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement);
 
 // Of all strips since it was cleared, as read back last; only where Signal::promised.
 shader::BrokenPromise broken_promise(const StripBuffers &buffers);

@@ -24,6 +24,8 @@ public:
     std::uint32_t samples; // S
     bool single_run;
     bool vignetting, painted;
+    std::optional<float> backscatter; // as in TrianglePlane, where all surfaces have the same
+    bool keeps_truth;                 // TruthOfRecords; then it has no channels
   };
   // Which pixels, and how they were summed.
   struct Scope {

@@ -3,12 +3,15 @@
 
 #include "engine/passes/paint.h"
 
+#include <optional>
+
 namespace pmdsim {
 
 struct SceneBuffers {
   vulkan::Buffer planes; // TrianglePlane of each of the scene's shapes
   PaintBuffers paint;
-  double world_rounding_m; // as in CameraScene
+  std::optional<float> backscatter; // TrianglePlane's, where all that the lens can see has the same
+  double world_rounding_m;          // as in CameraScene
 };
 
 } // namespace pmdsim

@@ -68,7 +68,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
   made.broken_read = read(&B::broken_read, broken_bytes);
-  made.tags_read = read(&B::tags_read, options.keep_sample_tags || options.keep_reached ? tag_bytes : 0);
+  made.tags_read = read(&B::tags_read, layout.host_reads_tags && !made.tags.is_mapped() ? tag_bytes : 0);
   made.reached_read = read(&B::reached_read, options.keep_reached ? reached_bytes : 0);
   made.tag_bytes = layout.tag_bytes;
   return made;
@@ -80,6 +80,15 @@ std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const 
       buffers.channels.is_mapped() ? buffers.channels.mapped() : buffers.channels_read.mapped();
   const auto *pairs = reinterpret_cast<const shader::uvec2 *>(all.data());
   return {pairs + std::size_t{first / 2} * strip.padded_pixels, strip.padded_pixels};
+}
+
+std::span<const std::byte> tags_for_host(const StripBuffers &buffers) {
+  return buffers.tags.is_mapped() ? buffers.tags.mapped() : buffers.tags_read.mapped();
+}
+
+std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers) {
+  const std::span<const std::byte> all = tags_for_host(buffers);
+  return {reinterpret_cast<const shader::uvec4 *>(all.data()), all.size() / sizeof(shader::uvec4)};
 }
 
 std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu) {

@@ -25,7 +25,7 @@ struct StripBuffers {
   vulkan::Buffer channels; // pair by pair (shaders/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer broken_read;
-  vulkan::Buffer tags_read;    // empty unless the samples' triangles are asked for
+  vulkan::Buffer tags_read;    // empty where `tags` is mapped itself, or the host has no use for them
   vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
   std::size_t tag_bytes = 0;   // a sample, of `tags`
 };
@@ -35,8 +35,13 @@ struct StripBuffers {
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
                                              std::uint32_t first);
 
+// Likewise, a tag or a record a sample.
+std::span<const std::byte> tags_for_host(const StripBuffers &buffers);
+std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
+
 // What a strip keeps of its samples.
 struct SampleLayout {
+  bool host_reads_tags;
   std::size_t tag_bytes;      // a sample
   std::size_t position_bytes; // likewise, from here on
   std::size_t backscatter_bytes;

@@ -286,7 +286,7 @@ const std::map<std::string, HostLayout> constants_of_the_sum{
        MEMBER(PlainResolveConstants, harmonics), MEMBER(PlainResolveConstants, frequency),
        MEMBER(PlainResolveConstants, shapes), MEMBER(PlainResolveConstants, surfaces),
        MEMBER(PlainResolveConstants, pixels), MEMBER(PlainResolveConstants, padded_pixels),
-       MEMBER(PlainResolveConstants, plane)}}},
+       MEMBER(PlainResolveConstants, plane), MEMBER(PlainResolveConstants, backscatter)}}},
     {"ResolveConstants",
      {sizeof(ResolveConstants),
       {MEMBER(ResolveConstants, position), MEMBER(ResolveConstants, sum), MEMBER(ResolveConstants, tags),
