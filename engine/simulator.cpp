@@ -114,8 +114,7 @@ struct Simulator::State {
 void Simulator::State::see(const PlannedStrip &planned) {
   const StripBuffers &buffers = prepared->buffers;
   const auto *search = std::get_if<SearchPass>(&prepared->points);
-  prepared->visibility.record(recorder.commands(), planned, prepared->scene,
-                              search ? buffers.fragments : buffers.tags);
+  prepared->visibility.record(recorder.commands(), planned, prepared->scene, drawn_tags(buffers));
   recorder.end_pass("visibility");
   if (search)
     search->record(recorder.commands(), planned, buffers, prepared->scene);
@@ -196,12 +195,12 @@ void Simulator::State::sum_listed(const PlannedStrip &planned, const Progress &p
 }
 
 void Simulator::State::read_back(const PlannedStrip &planned) {
-  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
+  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal, prepared->truth);
   recorder.end_pass("read_back");
 }
 
 // lavapipe compiles a shader at its first dispatch: every pass runs once, over a single pixel, and each that
-// has a first and a later form twice.
+// has a first and a later form twice. What becomes of the pixel is of no interest.
 void Simulator::State::warm_up() {
   PlannedStrip pixel = prepared->strips.front();
   pixel.strip.columns = pixel.strip.rows = 1;
@@ -307,7 +306,7 @@ void Simulator::State::check_strip(std::size_t strip, Measurement &measurement) 
     sum(planned, windows[i], check.sum(), &check.list(), nobody);
   }
   check.record_channels(recorder.commands(), planned, prepared->buffers, prepared->scene);
-  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal);
+  record_read_back(recorder.commands(), planned.strip, prepared->buffers, prepared->signal, prepared->truth);
   recorder.finish();
   recorder.reset(times);
   check.compare(strip, planned, prepared->buffers, measurement, measurement.accuracy);

@@ -506,8 +506,9 @@ struct ShortWayWork {
   uint diodes; // of all illuminators
 };
 
-// The ground truth comes first, then the channels of each frequency, the taps (if kept) last. Channels 2 n and 2 n + 1 lie
-// side by side, a word of each for every pixel: lavapipe stores lane by lane, two words as fast as one.
+// The ground truth comes first (but for the range, and empty where the host finds it in records), then the channels of each
+// frequency, the taps (if kept) last. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores
+// lane by lane, two words as fast as one.
 PMDSIM_CONSTANT channel_coverage = 0;
 PMDSIM_CONSTANT channel_z_m = 1;
 PMDSIM_CONSTANT channel_triangle_id = 2;

@@ -60,7 +60,7 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
   }
 }
 
-// Of a block's diodes, those that reach sample i, a bit each; only asked where `shadowed`.
+// Of the diodes of a run's block, counted from the run's first, those that reach sample i, a bit each; only asked where `shadowed`.
 #ifndef REACHED_OF_BLOCK
 #define REACHED_OF_BLOCK(i, block) 0u
 #endif

@@ -25,17 +25,13 @@ vec2 load_sum(uint f, uint p, uint i) {
   return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
 }
 
-uint load_triangle(uint i) { return load_record_tag(constants.records, i).y; }
-
 // B over the cosine of the surface that sample i sees at `point`.
 float load_backscatter(uint i, vec3 ray, Real3 point) {
+  uint triangle = one_backscatter != 0 ? 0u : load_record_tag(constants.records, i).y;
   TrianglePlane plane;
-  if (one_backscatter != 0) {
-    plane.backscatter = constants.backscatter;
-    return backscatter_of(constants.shapes, constants.surfaces, ray, point, 0u, plane);
-  }
-  uint triangle = load_triangle(i);
-  plane.backscatter = uintBitsToFloat(load_tag(constants.planes, 6 * triangle + 4).x);
+  plane.backscatter = constants.backscatter;
+  if (one_backscatter == 0)
+    plane.backscatter = uintBitsToFloat(load_tag(constants.planes, 6 * triangle + 4).x);
   return backscatter_of(constants.shapes, constants.surfaces, ray, point, triangle, plane);
 }
 

@@ -45,6 +45,7 @@ SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camer
 TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOptions &options,
                                 const Scene &scene) {
   TruthOfRecords truth{{}, uses_fp64(device, options.precision)};
+  truth.object_of_shape.reserve(scene.shape_count());
   for (std::uint32_t id = 0; id < scene.shape_count(); ++id)
     truth.object_of_shape.push_back(scene.object_of(id));
   return truth;
@@ -249,8 +250,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   if (ways.plain)
     grid.emplace(device, sensor);
   VisibilityPass visibility(device, view.projection, sensor, strips, scene.paint.masked, options.precision,
-                            grid, sensor.has_distortion() ? buffers.fragments : buffers.tags,
-                            std::move(spare.images));
+                            grid, drawn_tags(buffers), std::move(spare.images));
   auto points = all_points(device, options, request, view, plan, ways, scene.paint);
   std::optional<LitPass> lit;
   if (view.signal.lit)
@@ -273,7 +273,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
                                     single_run,
                                     sensor.vignetting == Vignetting::cos4,
                                     scene.paint.painted,
-                                    scene.backscatter,
+                                    scene.backscatter.has_value(),
                                     truth.has_value()};
   AccumulatePass accumulate(device, summed, view.model, view.signal, options,
                             {view.signal.lit, ways.listed, plan.precision, promise, grid});

@@ -63,7 +63,8 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
     to.coverage[at] = depth_m != 0.0f ? 1.0f : 0.0f;
     to.z_m[at] = depth_m != 0.0f ? depth_m : std::numeric_limits<float>::quiet_NaN();
     to.triangle_id[at] = record.x != 0 ? record.y : no_id;
-    to.object_id[at] = record.x != 0 ? truth.object_of_shape[record.y] : no_id;
+    const bool is_known = record.x != 0 && record.y < truth.object_of_shape.size();
+    to.object_id[at] = is_known ? truth.object_of_shape[record.y] : no_id;
   }
 }
 
@@ -143,16 +144,17 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
 }
 
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const Signal &signal) {
+                      const StripBuffers &buffers, const Signal &signal,
+                      const std::optional<TruthOfRecords> &truth) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
-  const vk::DeviceSize channel_bytes =
-      vk::DeviceSize{strip.padded_pixels} * signal.channels() * sizeof(float);
+  const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
+  const vk::DeviceSize first = channel_bytes * (truth ? signal.first_channel(0) : 0);
   if (!buffers.channels.is_mapped())
     commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
-                        vk::BufferCopy(0, 0, channel_bytes));
+                        vk::BufferCopy(first, first, channel_bytes * signal.channels() - first));
   if (signal.promised)
     commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));

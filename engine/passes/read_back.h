@@ -1,5 +1,6 @@
 #pragma once
-// The read-back: a strip's channels from the device into the measurement.
+// The read-back: from the device into the measurement, a strip's channels and what its samples' tags or
+// records tell.
 
 #include "engine/measurement.h"
 #include "engine/passes/strip_buffers.h"
@@ -10,7 +11,8 @@
 
 namespace pmdsim {
 
-// Ground truth that has no channels: of one sample a pixel, the host finds it in the sample's record.
+// Coverage, z and ids of one sample a pixel, which the host reads off the sample's record; then their
+// channels stay empty.
 struct TruthOfRecords {
   std::vector<std::uint32_t> object_of_shape;
   bool has_fp64; // else a depth is a pair of floats
@@ -20,9 +22,11 @@ struct TruthOfRecords {
 Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
                              Measurement &&memory);
 
-// Copies what the resolve pass (and, if kept, the visibility pass) left to memory that the host can read.
+// Copies what the resolve pass (and, where the host reads them, the visibility pass) left to memory that the
+// host can read.
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const Signal &signal);
+                      const StripBuffers &buffers, const Signal &signal,
+                      const std::optional<TruthOfRecords> &truth);
 
 // Once that is done: copies it to its place in the frame. Throws Error: input where light is beyond what a
 // float holds.

@@ -38,12 +38,12 @@ std::uint32_t frequencies_at_once(const Signal &signal) {
 
 vulkan::Specialization plain_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
   const ResolvePass::PlainScope &plain = *scope.plain;
-  vulkan::Specialization constants = resolve_constants(signal, scope, first && !plain.keeps_truth);
+  vulkan::Specialization constants = resolve_constants(signal, scope, first && !plain.truth_of_records);
   const vulkan::Specialization points{0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u,
                                       0, plain.painted ? 1u : 0u,    0};
   constants.insert(constants.end(), points.begin(), points.end());
   constants.insert(constants.end(), {plain.single_run ? 1u : 0u, plain.samples, frequencies_at_once(signal),
-                                     plain.backscatter ? 1u : 0u});
+                                     plain.one_backscatter ? 1u : 0u});
   return constants;
 }
 
@@ -133,7 +133,7 @@ void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const sh
       strip.columns * strip.rows,
       strip.padded_pixels,
       plane,
-      plain_->backscatter.value_or(0.0f)};
+      scene.backscatter.value_or(0.0f)};
   (first_frequency == 0 ? first_ : later_)
       .dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
 }

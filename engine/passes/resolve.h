@@ -24,8 +24,8 @@ public:
     std::uint32_t samples; // S
     bool single_run;
     bool vignetting, painted;
-    std::optional<float> backscatter; // as in TrianglePlane, where all surfaces have the same
-    bool keeps_truth;                 // TruthOfRecords; then it has no channels
+    bool one_backscatter;  // that of SceneBuffers
+    bool truth_of_records; // leaves to the host what TruthOfRecords tells
   };
   // Which pixels, and how they were summed.
   struct Scope {

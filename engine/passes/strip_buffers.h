@@ -11,6 +11,7 @@
 namespace pmdsim {
 
 struct StripBuffers {
+  // With room for rasters that draw on them, whose rows may come in fours (VisibilityPass).
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer tags; // uvec2 a sample (shaders/interface.h): pixel id, triangle id; or its record, uvec4
   vulkan::Buffer position;    // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
@@ -34,6 +35,11 @@ struct StripBuffers {
 // each pixel a word of either.
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
                                              std::uint32_t first);
+
+// What the raster leaves its tags in.
+inline const vulkan::Buffer &drawn_tags(const StripBuffers &buffers) {
+  return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.tags;
+}
 
 // Likewise, a tag or a record a sample.
 std::span<const std::byte> tags_for_host(const StripBuffers &buffers);

@@ -162,14 +162,13 @@ std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, f
       });
 }
 
-// Lavapipe draws on linear images as fast as on others; GPUs may not.
 std::optional<vulkan::Image> tags_in_place(const vulkan::Device &device,
                                            const std::vector<RasterBlock> &blocks,
                                            const std::vector<PlannedStrip> &strips, vk::Extent2D extent,
                                            vk::Format format, const vulkan::Buffer &tags) {
   const bool is_packed = std::ranges::all_of(
       strips, [&](const PlannedStrip &planned) { return extent_of(planned, blocks).width == extent.width; });
-  if (!device.is_cpu() || !is_packed)
+  if (!is_packed)
     return std::nullopt;
   return vulkan::Image::on_buffer(device, extent, format, vk::ImageUsageFlagBits::eColorAttachment, tags);
 }
@@ -181,19 +180,20 @@ RasterImages make_images(const vulkan::Device &device, const std::vector<RasterB
   const vk::Extent2D extent = largest_extent(blocks, strips);
   if (previous && previous->extent != extent)
     previous.reset(); // its memory first
-  RasterImages made{extent, format, {}, {}, false};
+  RasterImages made{extent, format, {}, std::nullopt, false};
   made.depth = previous ? std::move(previous->depth)
                         : vulkan::Image(device, extent, depth_format, Usage::eDepthStencilAttachment,
                                         vk::ImageAspectFlagBits::eDepth);
-  if (auto in_place = tags_in_place(device, blocks, strips, extent, format, tags)) {
-    made.tags = std::move(*in_place);
-    made.in_place = true;
-  } else if (previous && !previous->in_place && previous->tag_format == format) {
+  // Lavapipe draws on linear images as fast as on others; GPUs may not.
+  if (device.is_cpu())
+    made.tags = tags_in_place(device, blocks, strips, extent, format, tags);
+  made.in_place = made.tags.has_value();
+  if (!made.in_place && previous && previous->tag_format == format)
     made.tags = std::move(previous->tags);
-  } else {
+  if (!made.tags) {
     previous.reset();
-    made.tags = vulkan::Image(device, extent, format, Usage::eColorAttachment | Usage::eTransferSrc,
-                              vk::ImageAspectFlagBits::eColor);
+    made.tags.emplace(device, extent, format, Usage::eColorAttachment | Usage::eTransferSrc,
+                      vk::ImageAspectFlagBits::eColor);
   }
   return made;
 }
@@ -234,6 +234,13 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
     return;
   attachments_ = make_images(device, projection.blocks, strips, grid ? record_format : tag_format, tags,
                              std::move(previous));
+}
+
+// Without an image that lies in a buffer: that may be gone by the time it is asked for.
+std::optional<RasterImages> VisibilityPass::release_images() {
+  if (attachments_ && attachments_->in_place)
+    attachments_->tags.reset();
+  return std::exchange(attachments_, std::nullopt);
 }
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -300,7 +307,7 @@ void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands,
   attachments_->depth.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
                                  Access::eDepthStencilAttachmentWrite, depth_tests,
                                  Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-  const vk::RenderingAttachmentInfo color(attachments_->tags.view(), layout, vk::ResolveModeFlagBits::eNone,
+  const vk::RenderingAttachmentInfo color(attachments_->tags->view(), layout, vk::ResolveModeFlagBits::eNone,
                                           {}, Layout::eUndefined, load, vk::AttachmentStoreOp::eStore,
                                           vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
   const vk::RenderingAttachmentInfo depth(attachments_->depth.view(), Layout::eDepthAttachmentOptimal,
@@ -324,7 +331,7 @@ void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands,
 std::pair<Layout, vk::AttachmentLoadOp> VisibilityPass::begin_tags(const vk::raii::CommandBuffer &commands,
                                                                    vk::Extent2D extent,
                                                                    const vulkan::Buffer &tags) const {
-  const vulkan::Image &image = attachments_->tags;
+  const vulkan::Image &image = *attachments_->tags;
   if (!attachments_->in_place) {
     image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                      Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
@@ -401,7 +408,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
 
 void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                                const vulkan::Buffer &tags) const {
-  const vulkan::Image &image = attachments_->tags;
+  const vulkan::Image &image = *attachments_->tags;
   image.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
                    Access::eTransferRead);

@@ -26,8 +26,8 @@ struct RasterImages {
   vk::Extent2D extent;
   vk::Format tag_format;
   vulkan::Image depth;
-  vulkan::Image tags;
-  bool in_place; // the tags lie in the buffer that they are wanted in, and need no copy
+  std::optional<vulkan::Image> tags; // of passes that are done with: nothing where it was in place
+  bool in_place;                     // the tags lie in the buffer that they are wanted in, and need no copy
 };
 
 class VisibilityPass {
@@ -41,11 +41,12 @@ public:
                  std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/interface.h), or with distortion the
-  // tags of its block's fragments, in `tags`, visible to compute shaders and transfers.
+  // tags of its block's fragments, in `tags`, visible to compute shaders and transfers. A strip is one of
+  // those planned, or as wide; of any other only the first row is right where the tags are drawn in place.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &tags) const;
 
-  std::optional<RasterImages> release_images() { return std::exchange(attachments_, std::nullopt); }
+  std::optional<RasterImages> release_images();
 
 private:
   std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next

@@ -79,10 +79,11 @@ ordered_json growth_json(const Growth &growth) {
   ordered_json points = ordered_json::array();
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
-    points.push_back({{"size", size},
-                      {"frame_ms_min", ms},
-                      {"marginal_ms", growth.marginal_ms[i]},
-                      {"over_line", ms / growth.line.at_ms(size)}});
+    points.push_back(
+        {{"size", size},
+         {"frame_ms_min", ms},
+         {"marginal_ms", growth.marginal_ms[i]},
+         {"over_line", i < growth.fixed ? ordered_json() : ordered_json(ms / growth.line.at_ms(size))}});
   }
   return {{"sweep", quantity_name(growth.quantity)},
           {"unit", unit_name(growth.quantity)},

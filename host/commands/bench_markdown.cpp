@@ -192,9 +192,11 @@ std::string growth_text(const Growth &growth) {
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
     const double marginal_ms = growth.marginal_ms[i];
-    text += row_text({fmt::format("{:.0f}", size), ms_text(ms),
-                      fmt::format("{:+.1f} %", 100.0 * (ms / growth.line.at_ms(size) - 1.0)),
-                      number(marginal_ms), number(marginal_ms / growth.line.slope_ms, 3)});
+    text +=
+        row_text({fmt::format("{:.0f}", size), ms_text(ms),
+                  i < growth.fixed ? "fixed cost"
+                                   : fmt::format("{:+.1f} %", 100.0 * (ms / growth.line.at_ms(size) - 1.0)),
+                  number(marginal_ms), number(marginal_ms / growth.line.slope_ms, 3)});
   }
   return text;
 }

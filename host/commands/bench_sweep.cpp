@@ -21,7 +21,7 @@ namespace {
 constexpr double checked_interactions = 1e7; // a second of the reference
 constexpr std::size_t fewest_checked = 32, most_checked = 1024;
 constexpr double prompt_frame_ms = 1000.0; // frames that take longer are timed in fewer rounds
-constexpr int rounds_of_prompt = 5, rounds_of_slow = 3;
+constexpr int rounds_of_prompt = 9, rounds_of_slow = 5;
 constexpr double visit_ms = 60.0; // frames are timed until they have taken this
 constexpr int most_frames_of_visit = 4;
 
@@ -186,11 +186,12 @@ std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
   std::vector<Growth> growths;
   for (const SweepRow &row : rows) {
     if (growths.empty() || growths.back().quantity != row.point.quantity)
-      growths.push_back({row.point.quantity, {}, {}, {}});
+      growths.push_back({row.point.quantity, {}, 0, {}, {}});
     growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.min});
   }
   for (Growth &growth : growths) {
-    growth.line = straight_line(growth.points);
+    growth.fixed = fixed_cost(growth.points);
+    growth.line = straight_line(std::span(growth.points).subspan(growth.fixed));
     growth.marginal_ms = marginal_costs_ms(growth.points);
   }
   return growths;

@@ -59,6 +59,23 @@ const std::vector<Change> &changes() {
          s.samples = 1;
          s.modulation_hz = {20e6, 60e6};
        }},
+      // Images of records have no gaps between such rows, those of tags have.
+      {"records_without_gaps",
+       [](Sensor &s) {
+         s.samples = 1;
+         s.resolution.x = 252;
+       }},
+      {"tags_with_gaps",
+       [](Sensor &s) {
+         s.samples = 1;
+         s.resolution.x = 252;
+       },
+       Shadows::off, Mode::automatic},
+      {"records_with_gaps",
+       [](Sensor &s) {
+         s.samples = 1;
+         s.resolution = {253, 191};
+       }},
       {"several_runs", [](Sensor &) {}, Shadows::off, Mode::exact, 700},
       {"square", make_square},
       {"fisheye_filled_square",

@@ -35,7 +35,8 @@ std::string bytes_with_threads(const std::string &name, unsigned threads) {
 }
 
 void check_strips(const std::string &name, const RepeatabilityFrame &frame) {
-  const std::uint32_t samples_per_row = 256 * frame.sensor.samples * frame.sensor.samples;
+  const std::uint32_t samples_per_row =
+      frame.sensor.resolution.x * frame.sensor.samples * frame.sensor.samples;
   const std::string whole = bytes_in_strips(frame);
   for (const std::uint32_t rows : {1u, 7u, 191u}) {
     INFO(name << ", strips of " << rows << " pixel rows");
