@@ -81,7 +81,7 @@ ordered_json growth_json(const Growth &growth) {
     const auto &[size, ms] = growth.points[i];
     points.push_back(
         {{"size", size},
-         {"frame_ms_min", ms},
+         {"frame_ms", ms},
          {"marginal_ms", growth.marginal_ms[i]},
          {"over_line", i < growth.fixed ? ordered_json() : ordered_json(ms / growth.line.at_ms(size))}});
   }

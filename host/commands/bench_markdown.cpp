@@ -185,10 +185,10 @@ std::string sweep_text(const std::vector<SweepRow> &rows, Mode mode) {
 
 std::string growth_text(const Growth &growth) {
   const std::string unit = unit_name(growth.quantity);
-  std::string text = fmt::format("\nLeast frame time over {}: {} ms + {} ms each.\n\n", unit,
-                                 number(growth.line.fixed_ms), number(growth.line.slope_ms)) +
-                     head_text({unit, "least frame, ms", "over the line",
-                                "each more since the row before, ms", "over the slope"});
+  std::string text =
+      fmt::format("\nMedian frame time over {}: {} ms + {} ms each.\n\n", unit, number(growth.line.fixed_ms),
+                  number(growth.line.slope_ms)) +
+      head_text({unit, "frame, ms", "over the line", "each more since the row before, ms", "over the slope"});
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
     const double marginal_ms = growth.marginal_ms[i];

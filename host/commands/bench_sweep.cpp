@@ -187,7 +187,7 @@ std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
   for (const SweepRow &row : rows) {
     if (growths.empty() || growths.back().quantity != row.point.quantity)
       growths.push_back({row.point.quantity, {}, 0, {}, {}});
-    growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.min});
+    growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.median});
   }
   for (Growth &growth : growths) {
     growth.fixed = fixed_cost(growth.points);

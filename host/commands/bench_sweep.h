@@ -39,7 +39,8 @@ std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &swee
 // Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
 double interactions_per_s(const SweepRow &row, Mode mode);
 
-// How one quantity's frame times grow: the least of each point, as what disturbs a frame only adds to it.
+// How one quantity's frame times grow: the median of each point. (Where a clock has a slow and a fast mode,
+// short frames have their least in the fast one, long ones in both.)
 struct Growth {
   SweptQuantity quantity;
   std::vector<SizeAndTime> points;
