@@ -23,36 +23,28 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <vulkan/vulkan_format_traits.hpp>
+#include <utility>
 
 namespace pmdsim {
 namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout = vk::ImageLayout;
 
 constexpr auto tag_format = vk::Format::eR32G32Uint;
 constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
-constexpr auto depth_format = vk::Format::eD32Sfloat;
 constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-constexpr auto users_of_tags = Stage::eComputeShader | Stage::eTransfer;
-constexpr auto uses_of_tags =
-    Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead;
-constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-
 vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBlock> &blocks) {
   const glm::uvec2 fragments = strip_fragments(planned.strip, blocks[planned.block]);
   return {fragments.x, fragments.y};
 }
 
-vk::Extent2D largest_extent(const std::vector<RasterBlock> &blocks, const std::vector<PlannedStrip> &strips) {
-  vk::Extent2D largest;
-  for (const PlannedStrip &planned : strips) {
-    largest.width = std::max(largest.width, extent_of(planned, blocks).width);
-    largest.height = std::max(largest.height, extent_of(planned, blocks).height);
-  }
-  return largest;
+std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
+                                     const std::vector<RasterBlock> &blocks) {
+  std::vector<vk::Extent2D> extents;
+  for (const PlannedStrip &planned : strips)
+    extents.push_back(extent_of(planned, blocks));
+  return extents;
 }
 
 vk::raii::ShaderModule shader_module(const vulkan::Device &device, std::span<const std::uint32_t> spirv) {
@@ -139,7 +131,7 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
       blend.setAttachments({});
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
-    vk::PipelineRenderingCreateInfo rendering(0, format, depth_format);
+    vk::PipelineRenderingCreateInfo rendering(0, format, RasterImages::depth_format);
     if (!attached)
       rendering.setColorAttachmentFormats({}).setDepthAttachmentFormat(vk::Format::eUndefined);
     return vk::raii::Pipeline(device.get(), nullptr,
@@ -160,42 +152,6 @@ std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, f
             make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
         return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
       });
-}
-
-std::optional<vulkan::Image> tags_in_place(const vulkan::Device &device,
-                                           const std::vector<RasterBlock> &blocks,
-                                           const std::vector<PlannedStrip> &strips, vk::Extent2D extent,
-                                           vk::Format format, const vulkan::Buffer &tags) {
-  const bool is_packed = std::ranges::all_of(
-      strips, [&](const PlannedStrip &planned) { return extent_of(planned, blocks).width == extent.width; });
-  if (!is_packed)
-    return std::nullopt;
-  return vulkan::Image::on_buffer(device, extent, format, vk::ImageUsageFlagBits::eColorAttachment, tags);
-}
-
-RasterImages make_images(const vulkan::Device &device, const std::vector<RasterBlock> &blocks,
-                         const std::vector<PlannedStrip> &strips, vk::Format format,
-                         const vulkan::Buffer &tags, std::optional<RasterImages> &&previous) {
-  using Usage = vk::ImageUsageFlagBits;
-  const vk::Extent2D extent = largest_extent(blocks, strips);
-  if (previous && previous->extent != extent)
-    previous.reset(); // its memory first
-  RasterImages made{extent, format, {}, std::nullopt, false};
-  made.depth = previous ? std::move(previous->depth)
-                        : vulkan::Image(device, extent, depth_format, Usage::eDepthStencilAttachment,
-                                        vk::ImageAspectFlagBits::eDepth);
-  // Lavapipe draws on linear images as fast as on others; GPUs may not.
-  if (device.is_cpu())
-    made.tags = tags_in_place(device, blocks, strips, extent, format, tags);
-  made.in_place = made.tags.has_value();
-  if (!made.in_place && previous && previous->tag_format == format)
-    made.tags = std::move(previous->tags);
-  if (!made.tags) {
-    previous.reset();
-    made.tags.emplace(device, extent, format, Usage::eColorAttachment | Usage::eTransferSrc,
-                      vk::ImageAspectFlagBits::eColor);
-  }
-  return made;
 }
 
 // A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes
@@ -232,21 +188,20 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
                   vulkan::Specialization{grid ? 1u : 0u, general_chip, keys ? 1u : 0u});
   if (keys)
     return;
-  attachments_ = make_images(device, projection.blocks, strips, grid ? record_format : tag_format, tags,
-                             std::move(previous));
+  images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : tag_format, tags,
+                  std::move(previous));
 }
 
-// Without an image that lies in a buffer: that may be gone by the time it is asked for.
 std::optional<RasterImages> VisibilityPass::release_images() {
-  if (attachments_ && attachments_->in_place)
-    attachments_->tags.reset();
-  return std::exchange(attachments_, std::nullopt);
+  if (images_)
+    images_->leave_buffer();
+  return std::exchange(images_, std::nullopt);
 }
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                             const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  if (attachments_)
-    record_attachments(commands, planned, scene, tags);
+  if (images_)
+    record_images(commands, planned, scene, tags);
   else
     record_keys(commands, planned, scene, tags);
 }
@@ -299,52 +254,14 @@ void VisibilityPass::complete_tags(const vk::raii::CommandBuffer &commands, cons
                          Access::eShaderStorageRead | Access::eTransferRead);
 }
 
-void VisibilityPass::record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                        const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+void VisibilityPass::record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
-  const bool in_place = attachments_->in_place;
-  const auto [layout, load] = begin_tags(commands, extent, tags);
-  attachments_->depth.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
-                                 Access::eDepthStencilAttachmentWrite, depth_tests,
-                                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-  const vk::RenderingAttachmentInfo color(attachments_->tags->view(), layout, vk::ResolveModeFlagBits::eNone,
-                                          {}, Layout::eUndefined, load, vk::AttachmentStoreOp::eStore,
-                                          vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
-  const vk::RenderingAttachmentInfo depth(attachments_->depth.view(), Layout::eDepthAttachmentOptimal,
-                                          vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
-                                          vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
-                                          vk::ClearDepthStencilValue(0.0f));
-  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
+  images_->begin(commands, extent, tags);
   draw(commands, planned, scene, tags);
-  commands.endRendering();
-  if (in_place)
-    vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-                           users_of_tags, uses_of_tags);
-  else
-    copy_tags(commands, extent, tags);
+  images_->end(commands, extent, tags);
   if (tags_)
     complete_tags(commands, planned, scene, tags);
-}
-
-// What was drawn before is of no use any more. Lavapipe clears images of more than 4 bytes a pixel one by
-// one, but fills buffers.
-std::pair<Layout, vk::AttachmentLoadOp> VisibilityPass::begin_tags(const vk::raii::CommandBuffer &commands,
-                                                                   vk::Extent2D extent,
-                                                                   const vulkan::Buffer &tags) const {
-  const vulkan::Image &image = *attachments_->tags;
-  if (!attachments_->in_place) {
-    image.transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
-                     Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    return {Layout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear};
-  }
-  image.transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_tags, {}, Stage::eTransfer,
-                   Access::eTransferWrite);
-  commands.fillBuffer(tags.get(), 0,
-                      vk::DeviceSize{extent.width} * extent.height * vk::blockSize(attachments_->tag_format),
-                      0);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
-                         Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
-  return {Layout::eGeneral, vk::AttachmentLoadOp::eLoad};
 }
 
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -404,18 +321,6 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
   commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
                                                       constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
-}
-
-void VisibilityPass::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                               const vulkan::Buffer &tags) const {
-  const vulkan::Image &image = *attachments_->tags;
-  image.transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
-                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
-                   Access::eTransferRead);
-  const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                   {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(image.get(), Layout::eTransferSrcOptimal, tags.get(), region);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_tags, uses_of_tags);
 }
 
 } // namespace pmdsim

@@ -4,31 +4,21 @@
 
 #include "engine/passes/chip_grid.h"
 #include "engine/passes/projection.h"
+#include "engine/passes/raster_images.h"
 #include "engine/passes/scene_buffers.h"
 #include "engine/passes/strip_buffers.h"
 #include "engine/simulator_options.h"
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/compute_pipeline.h"
-#include "engine/vulkan/image.h"
 
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim {
 
 // The largest raster block that the device rasterises exactly: half of its largest power-of-two viewport.
 std::uint32_t raster_block_fragments(const vulkan::Device &device);
-
-// What the raster draws on.
-struct RasterImages {
-  vk::Extent2D extent;
-  vk::Format tag_format;
-  vulkan::Image depth;
-  std::optional<vulkan::Image> tags; // of passes that are done with: nothing where it was in place
-  bool in_place;                     // the tags lie in the buffer that they are wanted in, and need no copy
-};
 
 class VisibilityPass {
 public:
@@ -41,8 +31,8 @@ public:
                  std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/interface.h), or with distortion the
-  // tags of its block's fragments, in `tags`, visible to compute shaders and transfers. A strip is one of
-  // those planned, or as wide; of any other only the first row is right where the tags are drawn in place.
+  // tags of its block's fragments, in `tags`, visible to compute shaders and transfers. Of a strip that is
+  // not one of those planned, only the first row may be right.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &tags) const;
 
@@ -50,8 +40,8 @@ public:
 
 private:
   std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next
-  void record_attachments(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
   void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                    const SceneBuffers &scene, const vulkan::Buffer &tags) const;
   void complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
@@ -60,17 +50,12 @@ private:
             const vulkan::Buffer &tags) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                  const SceneBuffers &scene, const vulkan::Buffer &tags, const glm::uvec2 &tile) const;
-  // The layout in which the image of the tags is drawn on, and whether it has to be cleared before.
-  std::pair<vk::ImageLayout, vk::AttachmentLoadOp>
-  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
-  void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                 const vulkan::Buffer &tags) const;
 
   Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
   vulkan::Buffer planes_of_blocks_;             // BlockPlane of each where shapes may have holes
-  std::optional<RasterImages> attachments_;     // nothing where fragments leave keys instead
+  std::optional<RasterImages> images_;          // nothing where fragments leave keys instead
   std::optional<vulkan::ComputePipeline> tags_; // nothing where the fragments leave all that is asked for
   std::optional<ChipGrid> grid_;
   float half_viewport_;

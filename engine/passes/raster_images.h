@@ -1,0 +1,47 @@
+#pragma once
+// What the visibility pass draws on: an image of depths, and one of tags, which lies in the very buffer that
+// the tags are wanted in where it can.
+
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/image.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim {
+
+class RasterImages {
+public:
+  static constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
+
+  // Large enough for each of `extents`. `tags`: the buffer; `previous`: of passes that are done with, whose
+  // memory is taken where it can be.
+  RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format tag_format,
+               const vulkan::Buffer &tags, std::optional<RasterImages> &&previous);
+
+  // Begins to draw on `extent`, where no tag is left from before and all depths are 0.
+  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+  // Ends that: the tags are in the buffer row by row, visible to compute shaders and transfers. Of an extent
+  // that is not one of those asked for, and not as wide, only the first row may be.
+  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+
+  // Before the buffer goes: only what may be taken by others stays.
+  void leave_buffer();
+
+private:
+  std::pair<vk::ImageLayout, vk::AttachmentLoadOp>
+  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+  void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                 const vulkan::Buffer &tags) const;
+
+  vk::Extent2D extent_;
+  vk::Format tag_format_;
+  vulkan::Image depth_;
+  std::optional<vulkan::Image> tags_; // nothing after leave_buffer
+  bool in_place_ = false;             // the tags lie in the buffer, and need no copy
+};
+
+} // namespace pmdsim
