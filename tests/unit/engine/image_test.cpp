@@ -1,0 +1,39 @@
+// Images that lie on a buffer.
+
+#include "engine/vulkan/image.h"
+
+#include <catch2/catch.hpp>
+
+using namespace pmdsim::vulkan;
+
+namespace {
+
+// Whether there is an image of 16 bytes a pixel on a buffer with room for `rows` of its rows.
+bool lies_on_buffer(const Device &device, vk::Extent2D extent, std::uint32_t rows) {
+  const Buffer buffer(device, vk::DeviceSize{16} * extent.width * rows,
+                      vk::BufferUsageFlagBits::eStorageBuffer, Memory::device);
+  return Image::on_buffer(device, extent, vk::Format::eR32G32B32A32Uint,
+                          vk::ImageUsageFlagBits::eColorAttachment, buffer)
+      .has_value();
+}
+
+} // namespace
+
+TEST_CASE(
+    "on lavapipe an image lies on a buffer where its rows have no gaps and there is room for fours of them") {
+  const Instance instance(false);
+  for (auto &physical : instance.devices()) {
+    const bool is_lavapipe =
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+            .get<vk::PhysicalDeviceDriverProperties>()
+            .driverID == vk::DriverId::eMesaLlvmpipe;
+    if (!is_lavapipe)
+      continue;
+    const Device device(instance, physical);
+    CHECK(lies_on_buffer(device, {640, 640}, 640));
+    CHECK(lies_on_buffer(device, {252, 190}, 192));
+    CHECK_FALSE(lies_on_buffer(device, {252, 190}, 190));
+    CHECK_FALSE(lies_on_buffer(device, {253, 192}, 192));
+    CHECK_FALSE(lies_on_buffer(device, {40000, 4}, 4)); // no such image
+  }
+}
