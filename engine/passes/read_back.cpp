@@ -44,10 +44,11 @@ void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector
                          [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
 }
 
-// Of a channel that a float may be too small for.
+// Of a channel that a float may be too small for. Counted, not searched, as the compiler makes vectors of
+// that.
 void check_finite(const std::vector<float> &channel, const Row &row) {
-  if (std::ranges::any_of(std::span(channel).subspan(row.in_frame, row.pixels),
-                          [](float value) { return std::isinf(value); }))
+  const auto values = std::span(channel).subspan(row.in_frame, row.pixels);
+  if (std::ranges::count_if(values, [](float value) { return std::isinf(value); }) > 0)
     throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
                                  "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
 }
