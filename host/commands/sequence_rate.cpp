@@ -7,10 +7,10 @@
 #include "host/commands/interruption.h"
 #include "host/commands/progress_bar.h"
 #include "host/commands/rendered_frame.h"
-#include "host/output/output_file.h"
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
@@ -49,27 +49,12 @@ private:
   fs::path path_;
 };
 
-// Makes the operating system find memory for all that is written as NPY. In one file, as file systems are
-// slow to make new files where many have just gone.
-void find_memory_for_files(const Setup &setup) {
-  std::size_t bytes = 0;
-  for (const Sensor &sensor : setup.start.sensors)
-    bytes += setup.frames.count * bytes_of_frame(sensor, true);
-  const std::string chunk(std::size_t{1} << 20, '\0');
-  const TemporaryDirectory directory;
-  OutputFile file(directory.path() / "memory");
-  for (std::size_t written = 0; written < bytes; written += chunk.size()) {
-    throw_if_interrupted();
-    file.write(chunk);
-  }
-}
-
 // One setup on one device.
 class TimedSequences {
 public:
   TimedSequences(const Setup &setup, const Options &options)
       : setup_(setup), exposures_(setup, options.device, true, options.accuracy),
-        bar_((3.0 * setup.frames.count + 1.0) * samples_of_frame(setup)), run_{"render",
+        bar_((4.0 * setup.frames.count + 1.0) * samples_of_frame(setup)), run_{"render",
                                                                                exposures_.camera().device(),
                                                                                exposures_.camera().driver(),
                                                                                options.accuracy,
@@ -82,8 +67,7 @@ public:
   }
 
   // Frames a second.
-  double rate(const std::string &what, const std::set<Format> &formats) {
-    const TemporaryDirectory directory;
+  double rate(const std::string &what, const std::set<Format> &formats, const TemporaryDirectory &directory) {
     const auto start = std::chrono::steady_clock::now();
     FrameSequence sequence(setup_, {0, setup_.frames.count}, directory.path() / "frames", run_);
     const auto measure = [&](const SensorFrame &at) {
@@ -117,10 +101,11 @@ SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, s
   several.frames.count = frames;
   TimedSequences sequences(several, options);
   sequences.warm_up();
-  const double measured_per_s = sequences.rate("not written", {});
-  find_memory_for_files(several);
-  const double npy_per_s = sequences.rate("written as NPY", {Format::npy});
-  const double exr_per_s = sequences.rate("written as EXR", {Format::exr});
+  const TemporaryDirectory directory;
+  const double measured_per_s = sequences.rate("not written", {}, directory);
+  sequences.rate("written as NPY, once before", {Format::npy}, directory);
+  const double npy_per_s = sequences.rate("written as NPY", {Format::npy}, directory);
+  const double exr_per_s = sequences.rate("written as EXR", {Format::exr}, directory);
   return {measured_per_s, npy_per_s, exr_per_s, frames};
 }
 
