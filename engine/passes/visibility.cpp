@@ -34,6 +34,7 @@ using Access = vk::AccessFlagBits2;
 constexpr auto tag_format = vk::Format::eR32G32Uint;
 constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
 constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
 vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBlock> &blocks) {
   const glm::uvec2 fragments = strip_fragments(planned.strip, blocks[planned.block]);
   return {fragments.x, fragments.y};

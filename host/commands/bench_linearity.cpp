@@ -37,7 +37,7 @@ StraightLine straight_line(std::span<const SizeAndTime> points) {
 
 std::size_t fixed_cost(std::span<const SizeAndTime> points) {
   const auto past = std::ranges::find_if(
-      points, [&](const SizeAndTime &point) { return point.ms >= 1.25 * points.front().ms; });
+      points, [&](const SizeAndTime &point) { return point.ms >= 1.15 * points.front().ms; });
   const auto fixed = static_cast<std::size_t>(past - points.begin());
   return fixed > 1 && points.size() - fixed >= 3 ? fixed : 0;
 }

@@ -21,7 +21,7 @@ struct StraightLine {
 // Of at least one point of positive size and time; one alone has no fixed part.
 StraightLine straight_line(std::span<const SizeAndTime> points);
 
-// How many of the first points are nothing but fixed cost: those that take less than a quarter more than the
+// How many of the first points are nothing but fixed cost: those that take less than 15 % more than the
 // first. None where that is the first alone, or where fewer than three would be left. Sizes rise.
 std::size_t fixed_cost(std::span<const SizeAndTime> points);
 

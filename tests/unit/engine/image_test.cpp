@@ -22,6 +22,7 @@ bool lies_on_buffer(const Device &device, vk::Extent2D extent, std::uint32_t row
 TEST_CASE(
     "on lavapipe an image lies on a buffer where its rows have no gaps and there is room for fours of them") {
   const Instance instance(false);
+  int tested = 0;
   for (auto &physical : instance.devices()) {
     const bool is_lavapipe =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
@@ -29,11 +30,14 @@ TEST_CASE(
             .driverID == vk::DriverId::eMesaLlvmpipe;
     if (!is_lavapipe)
       continue;
+    ++tested;
     const Device device(instance, physical);
     CHECK(lies_on_buffer(device, {640, 640}, 640));
     CHECK(lies_on_buffer(device, {252, 190}, 192));
     CHECK_FALSE(lies_on_buffer(device, {252, 190}, 190));
-    CHECK_FALSE(lies_on_buffer(device, {253, 192}, 192));
-    CHECK_FALSE(lies_on_buffer(device, {40000, 4}, 4)); // no such image
+    CHECK_FALSE(lies_on_buffer(device, {253, 192}, 200)); // gaps
+    CHECK_FALSE(lies_on_buffer(device, {40000, 4}, 4));   // no such image
   }
+  if (tested == 0)
+    WARN("no lavapipe: nothing tested");
 }
