@@ -43,6 +43,7 @@ vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBloc
 std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
                                      const std::vector<RasterBlock> &blocks) {
   std::vector<vk::Extent2D> extents;
+  extents.reserve(strips.size());
   for (const PlannedStrip &planned : strips)
     extents.push_back(extent_of(planned, blocks));
   return extents;
