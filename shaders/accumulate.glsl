@@ -6,6 +6,7 @@
 #include "compensated.glsl"
 #include "pixel_list.glsl"
 #include "position.glsl"
+#include "specialization.glsl"
 
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
 layout(constant_id = constant_first) const uint is_first = 0;

@@ -9,6 +9,7 @@
 #include "compensated.glsl"
 #include "grid.glsl"
 #include "meet.glsl"
+#include "specialization.glsl"
 
 layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
 layout(constant_id = constant_first) const uint is_first = 0;

@@ -1,4 +1,4 @@
-// What the host and the shaders agree on: structs, workgroup sizes, specialization constants. Read by GLSL
+// What the host and the shaders agree on: structs, workgroup sizes, values of specialization constants. Read by GLSL
 // and C++ alike. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them out in the
 // same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a uvec2.
 #ifndef PMDSIM_INTERFACE_H
@@ -26,69 +26,6 @@ PMDSIM_CONSTANT diodes_per_block = 16;
 // A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
-
-// Specialization constants of the accumulate pass, by moments and direct.
-PMDSIM_CONSTANT constant_moments = 0;     // by moments: K, the number of moments
-PMDSIM_CONSTANT constant_backscatter = 1; // one of backscatter_*
-PMDSIM_CONSTANT constant_pattern = 2;     // one of pattern_*
-PMDSIM_CONSTANT constant_order = 3;       // of pattern_power
-PMDSIM_CONSTANT constant_blocks = 4;      // blocks of diodes that one dispatch sums
-PMDSIM_CONSTANT constant_first = 5;       // 1: of the frame's runs this is the first, there is no sum yet
-PMDSIM_CONSTANT constant_tones = 6;       // by moments: tones that one dispatch sums
-PMDSIM_CONSTANT constant_waveform = 7;    // direct: one of waveform_*
-PMDSIM_CONSTANT constant_taps = 8;        // direct, square waveform: N
-PMDSIM_CONSTANT constant_distinct = 9;    // direct: taps that are summed, N or N / 2; of a sine 1
-PMDSIM_CONSTANT constant_phased = 10;     // 1: an illuminator has a modulation phase
-PMDSIM_CONSTANT constant_shadowed = 11;   // 1: not every diode reaches every sample
-PMDSIM_CONSTANT constant_listed = 12;     // 1: only the samples of a list of pixels
-PMDSIM_CONSTANT constant_promised = 13;   // 1: keep what the terms come to without their phases
-PMDSIM_CONSTANT constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
-PMDSIM_CONSTANT constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
-PMDSIM_CONSTANT constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
-// And of its plain form:
-PMDSIM_CONSTANT constant_only = 17;         // 1: the frame has no other run
-PMDSIM_CONSTANT constant_general_chip = 18; // 1: the chip stands anyhow; 0: nominal
-
-// Specialization constants of the resolve pass.
-PMDSIM_CONSTANT constant_planes = 0;           // of the sum that belong to one frequency
-PMDSIM_CONSTANT constant_resolve_waveform = 1; // one of waveform_*
-PMDSIM_CONSTANT constant_resolve_taps = 2;     // N
-PMDSIM_CONSTANT constant_keep_taps = 3;        // 1: the taps are channels, too
-PMDSIM_CONSTANT constant_ground_truth = 4;     // 1: store the ground truth, too
-PMDSIM_CONSTANT constant_resolve_tiled = 5;    // 1: the tags lie in tiles
-PMDSIM_CONSTANT constant_resolve_lit = 6;      // 1: store how much of the light reaches the pixel, too
-PMDSIM_CONSTANT constant_resolve_listed = 7;   // 1: only the pixels of a list
-PMDSIM_CONSTANT constant_resolve_promised = 8; // 1: an error was promised
-PMDSIM_CONSTANT constant_resolve_precise = 9;  // 1: samples' returns are turned and added in Real
-
-// Specialization constants of the plain resolve pass: those of the resolve and the points pass, one after the other, then its
-// own.
-PMDSIM_CONSTANT plain_resolve_points = 10;
-PMDSIM_CONSTANT constant_plain_only = 16; // as constant_only
-PMDSIM_CONSTANT constant_plain_side = 17; // S
-PMDSIM_CONSTANT constant_plain_frequencies = 18; // that one dispatch resolves
-PMDSIM_CONSTANT constant_plain_one = 19; // all surfaces have one backscatter, that of PlainResolveConstants
-
-// Specialization constants of the points passes.
-PMDSIM_CONSTANT constant_surfaces = 0;   // vectors a sample that the sum asks for: 0, 1 or, precise, 2
-PMDSIM_CONSTANT constant_vignetting = 1; // 1: cos^4
-PMDSIM_CONSTANT constant_chip = 2;       // points: 1: the chip stands anyhow or is filled in part; 0: nominal
-PMDSIM_CONSTANT constant_tiled = 3;      // points: 1: the tags lie in tiles
-PMDSIM_CONSTANT constant_distortion = 2; // search: one of distortion_*
-PMDSIM_CONSTANT constant_painted = 4;    // 1: shapes have paint
-PMDSIM_CONSTANT constant_masked = 3;     // search: 1: shapes may have holes
-PMDSIM_CONSTANT constant_points_listed = 5; // points: 1: only the samples of a list of pixels
-
-// Specialization constants of the short way: those of the accumulate, the resolve and the points pass, one
-// after the other, then its own.
-PMDSIM_CONSTANT short_way_resolve = 17;
-PMDSIM_CONSTANT short_way_points = 27;
-PMDSIM_CONSTANT constant_runs = 33;    // of diodes; 0: no pixel goes the short way, they are only listed
-PMDSIM_CONSTANT constant_samples = 34; // S
-PMDSIM_CONSTANT constant_places = 35;  // at which a pixel of several samples is evaluated: 1, its centre; 4,
-                                      // only pixels of list_few; 0: at its samples, elsewhere
-PMDSIM_CONSTANT constant_lists_pixels = 36; // 0: all pixels go the short way and none can break the promise
-PMDSIM_CONSTANT constant_few_follow = 37;   // 1: list_few is for pixels that one place does not do for
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;

@@ -5,6 +5,7 @@
 
 #include "buffers.glsl"
 #include "real.glsl"
+#include "specialization.glsl"
 
 layout(constant_id = constant_distortion) const uint distortion = distortion_brown;
 const uint newton_steps = 6;

@@ -7,6 +7,7 @@
 #include "paint.glsl"
 #include "position.glsl"
 #include "real.glsl"
+#include "specialization.glsl"
 
 #ifndef POINTS_BASE // the first specialization constant's number
 #define POINTS_BASE 0

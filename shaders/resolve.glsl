@@ -6,6 +6,7 @@
 #include "compensated.glsl"
 #include "elementary.glsl"
 #include "real.glsl"
+#include "specialization.glsl"
 
 #ifndef RESOLVE_BASE // the first specialization constant's number
 #define RESOLVE_BASE 0

@@ -6,6 +6,7 @@
 #include "buffers.glsl"
 #include "elementary.glsl"
 #include "real.glsl"
+#include "specialization.glsl"
 
 layout(local_size_x = workgroup_size) in;
 layout(constant_id = constant_backscatter) const uint backscatter_model = backscatter_flat;

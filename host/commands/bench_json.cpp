@@ -79,11 +79,10 @@ ordered_json growth_json(const Growth &growth) {
   ordered_json points = ordered_json::array();
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
-    points.push_back(
-        {{"size", size},
-         {"frame_ms", ms},
-         {"marginal_ms", growth.marginal_ms[i]},
-         {"over_line", i < growth.fixed ? ordered_json() : ordered_json(ms / growth.line.at_ms(size))}});
+    points.push_back({{"size", size},
+                      {"frame_ms", ms},
+                      {"marginal_ms", growth.marginal_ms[i]},
+                      {"over_line", ms / growth.line.at_ms(size)}});
   }
   return {{"sweep", quantity_name(growth.quantity)},
           {"unit", unit_name(growth.quantity)},
@@ -113,6 +112,7 @@ ordered_json native_json(const NativeBench &native) {
 ordered_json sequence_json(const SequenceRate &rate) {
   return {{"frames", rate.frames},
           {"measured_per_s", rate.measured_per_s},
+          {"npy_new_files_per_s", rate.npy_new_files_per_s},
           {"npy_per_s", rate.npy_per_s},
           {"exr_per_s", rate.exr_per_s}};
 }

@@ -1,6 +1,5 @@
 #include "host/commands/bench_linearity.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace pmdsim {
@@ -33,13 +32,6 @@ StraightLine straight_line(std::span<const SizeAndTime> points) {
   if (line.slope_ms < 0.0)
     return {a / aa, 0.0};
   return line;
-}
-
-std::size_t fixed_cost(std::span<const SizeAndTime> points) {
-  const auto past = std::ranges::find_if(
-      points, [&](const SizeAndTime &point) { return point.ms >= 1.15 * points.front().ms; });
-  const auto fixed = static_cast<std::size_t>(past - points.begin());
-  return fixed > 1 && points.size() - fixed >= 3 ? fixed : 0;
 }
 
 std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points) {

@@ -1,7 +1,6 @@
 #pragma once
 // Whether time grows linearly with what a frame consists of.
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,10 +19,6 @@ struct StraightLine {
 
 // Of at least one point of positive size and time; one alone has no fixed part.
 StraightLine straight_line(std::span<const SizeAndTime> points);
-
-// How many of the first points are nothing but fixed cost: those that take less than 15 % more than the
-// first. None where that is the first alone, or where fewer than three would be left. Sizes rise.
-std::size_t fixed_cost(std::span<const SizeAndTime> points);
 
 // What each point took more than the one before it, a unit of size; NaN of the first.
 std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points);

@@ -152,8 +152,9 @@ std::string setup_text(const SetupBench &bench) {
 std::string sequence_text(const SequenceRate &rate, Mode mode) {
   return fmt::format("\nA sequence of {} frames in mode {}, frames/s by the clock.\n\n", rate.frames,
                      mode_name(mode)) +
-         head_text({"not written", "as NPY", "as EXR"}) +
-         row_text({number(rate.measured_per_s), number(rate.npy_per_s), number(rate.exr_per_s)});
+         head_text({"not written", "as NPY, new files", "as NPY, files replaced", "as EXR, new files"}) +
+         row_text({number(rate.measured_per_s), number(rate.npy_new_files_per_s), number(rate.npy_per_s),
+                   number(rate.exr_per_s)});
 }
 
 std::string pass_cell(const Timing &timing, const std::string &name) {
@@ -192,11 +193,9 @@ std::string growth_text(const Growth &growth) {
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
     const double marginal_ms = growth.marginal_ms[i];
-    text +=
-        row_text({fmt::format("{:.0f}", size), ms_text(ms),
-                  i < growth.fixed ? "fixed cost"
-                                   : fmt::format("{:+.1f} %", 100.0 * (ms / growth.line.at_ms(size) - 1.0)),
-                  number(marginal_ms), number(marginal_ms / growth.line.slope_ms, 3)});
+    text += row_text({fmt::format("{:.0f}", size), ms_text(ms),
+                      fmt::format("{:+.1f} %", 100.0 * (ms / growth.line.at_ms(size) - 1.0)),
+                      number(marginal_ms), number(marginal_ms / growth.line.slope_ms, 3)});
   }
   return text;
 }

@@ -186,12 +186,11 @@ std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
   std::vector<Growth> growths;
   for (const SweepRow &row : rows) {
     if (growths.empty() || growths.back().quantity != row.point.quantity)
-      growths.push_back({row.point.quantity, {}, 0, {}, {}});
+      growths.push_back({row.point.quantity, {}, {}, {}});
     growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.median});
   }
   for (Growth &growth : growths) {
-    growth.fixed = fixed_cost(growth.points);
-    growth.line = straight_line(std::span(growth.points).subspan(growth.fixed));
+    growth.line = straight_line(growth.points);
     growth.marginal_ms = marginal_costs_ms(growth.points);
   }
   return growths;

@@ -44,7 +44,6 @@ double interactions_per_s(const SweepRow &row, Mode mode);
 struct Growth {
   SweptQuantity quantity;
   std::vector<SizeAndTime> points;
-  std::size_t fixed = 0; // of the first points, which are fixed cost and not on the line
   StraightLine line;
   std::vector<double> marginal_ms; // beside the points
 };

@@ -153,11 +153,3 @@ TEST_CASE("a straight line fits points on one, and none goes below zero") {
   CHECK(falling.fixed_ms > 2.0);
   CHECK(straight_line(std::vector<SizeAndTime>{{4.0, 8.0}}).slope_ms == Approx(2.0));
 }
-
-TEST_CASE("what the first sizes hardly add to is fixed cost") {
-  const auto of = [](const std::vector<SizeAndTime> &points) { return fixed_cost(points); };
-  CHECK(of({{1.0, 10.0}, {4.0, 10.1}, {60.0, 11.4}, {240.0, 20.0}, {960.0, 50.0}, {3840.0, 170.0}}) == 3);
-  CHECK(of({{1.0, 10.0}, {4.0, 40.0}, {16.0, 160.0}, {64.0, 640.0}}) == 0);
-  CHECK(of({{1.0, 10.0}, {2.0, 11.0}, {4.0, 20.0}, {8.0, 40.0}}) == 0); // two points are always on a line
-  CHECK(of({{1.0, 10.0}, {2.0, 11.0}}) == 0);
-}
