@@ -23,7 +23,7 @@ void main() {
   Point point;
   ReferencePath path = load_point(i, run, point);
   float moment[moments];
-  sum_run(i, point, run, Diodes(constants.diodes), 0u, constants.blocks, moment);
+  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
 
   float backscatter = Floats(constants.backscatter).at[i];
   add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));

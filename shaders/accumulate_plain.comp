@@ -12,7 +12,6 @@
 #include "specialization.glsl"
 
 layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
-layout(constant_id = constant_first) const uint is_first = 0;
 layout(constant_id = constant_only) const uint is_only = 0;
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 #define DIAGRAM_VALUES constants.diagrams
@@ -34,12 +33,13 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run) {
   vec2 value = tone_return(moment, path, run, Tones(constants.tones).at[t]);
   uint at = t * constants.plane + i;
-  if (is_only != 0)
+  if (is_only != 0) {
     store_tag(constants.sum, at, floatBitsToUint(value));
-  else if (is_first != 0)
-    store_vec4(constants.sum, at, vec4(value, 0.0, 0.0));
-  else
-    store_vec4(constants.sum, at, compensated_add(load_vec4(constants.sum, at), value));
+  } else {
+    // One pipeline for all runs: long ones take their time to compile.
+    vec4 before = mix(load_vec4(constants.sum, at), vec4(0.0), bvec4(constants.is_first != 0));
+    store_vec4(constants.sum, at, compensated_add(before, value));
+  }
 }
 
 // More of them would take long to compile, and are seldom.
@@ -51,7 +51,7 @@ void main() {
   Point point;
   ReferencePath path = load_point(i, run, point);
   float moment[moments];
-  sum_run(i, point, run, Diodes(constants.diodes), 0u, constants.blocks, moment);
+  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)
       add_tone(t, i, moment, path, run);

@@ -23,6 +23,7 @@ PMDSIM_CONSTANT workgroup_size = 64;
 // Diodes are summed in blocks of this size; the blocks' sums are then added (a two-level sum keeps float32
 // exact to a few units in the last place).
 PMDSIM_CONSTANT diodes_per_block = 16;
+PMDSIM_CONSTANT blocks_per_stretch = 16; // of a run, which are summed for themselves
 // A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
@@ -296,7 +297,8 @@ struct AccumulateConstants {
   uvec2 backscatter;
   uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
   uvec2 run;      // in: LightRun
-  uvec2 diodes;   // in: GroupDiode[] or, precise, PreciseDiode[], the run's
+  uvec2 diodes;   // in: the run's, GroupDiode[] or, precise, PreciseDiode[]; of alike ones (constant_alike) only the
+                  // positions, vec4[], which take a fifth of a processor's cache
   uvec2 tones;    // in: Tone[]
   uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
   uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
@@ -357,7 +359,8 @@ struct PlainSumConstants {
   uvec2 diagrams;
   uint blocks;
   uint plane;
-  uint samples; // of the strip, in all
+  uint samples;  // of the strip, in all
+  uint is_first; // of the frame's runs: nothing is in the sum yet
 };
 
 struct PlainResolveConstants {
@@ -431,7 +434,7 @@ struct ShortWayConstants {
   uvec2 surfaces;
   uvec2 lit;      // in, where shadowed: uint a sample, the diodes that reach it
   uvec2 light;    // in: ShortWayLight and its LightRuns
-  uvec2 diodes;   // in: GroupDiode[], run by run
+  uvec2 diodes;   // in, as in AccumulateConstants, run by run
   uvec2 channels; // out, as in ResolveConstants
   uvec2 work;     // in and out: ShortWayWork
 };
@@ -468,7 +471,7 @@ static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
 static_assert(sizeof(VisibilityConstants) == 128 && offsetof(VisibilityConstants, slope) == 96);
-static_assert(sizeof(PlainSumConstants) == 108 && sizeof(PlainResolveConstants) == 120);
+static_assert(sizeof(PlainSumConstants) == 112 && sizeof(PlainResolveConstants) == 120);
 static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 88);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);

@@ -15,12 +15,21 @@ const uint sums = powers > 0 ? powers : moments;
 // Of alike diodes S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
 const bool linear_known = alike != 0 && powers > 2;
 
-void add_block(inout float total[sums], Point point, Diodes diodes, uint block, uint reached) {
+// Of diodes that are alike only the places are there.
+GroupDiode load_diode(uvec2 diodes, uint i) {
+  if (alike == 0)
+    return Diodes(diodes).at[i];
+  GroupDiode diode;
+  diode.position = Vec4s(diodes).at[i];
+  return diode;
+}
+
+void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, uint reached) {
   float part[sums];
   [[unroll]] for (uint k = 0; k < sums; ++k)
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
-    GroupDiode diode = diodes.at[block * diodes_per_block + d];
+    GroupDiode diode = load_diode(diodes, block * diodes_per_block + d);
     bool is_reached = (reached & 1u << d) != 0u;
     vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_excess(point, diode, is_reached);
     float term = factors.x;
@@ -65,17 +74,27 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
 #define REACHED_OF_BLOCK(i, block) 0u
 #endif
 
-// The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form.
-void sum_run(uint i, Point point, LightRun run, Diodes diodes, uint first, uint blocks, out float moment[moments]) {
-  float total[sums];
+// The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form. Long runs are
+// summed stretch by stretch, so that rounding is no worse than of short ones.
+void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments]) {
+  float total[sums], stretch[sums];
   [[unroll]] for (uint k = 0; k < sums; ++k)
-    total[k] = 0.0;
+    total[k] = stretch[k] = 0.0;
 #ifdef STRAIGHT_LINE
   [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
 #else
   for (uint block = 0; block < blocks; ++block)
 #endif
-    add_block(total, point, diodes, first + block, REACHED_OF_BLOCK(i, block));
+  {
+    add_block(stretch, point, diodes, first + block, REACHED_OF_BLOCK(i, block));
+    bool ends = block % blocks_per_stretch == blocks_per_stretch - 1;
+    [[unroll]] for (uint k = 0; k < sums; ++k) {
+      total[k] += ends ? stretch[k] : 0.0;
+      stretch[k] = ends ? 0.0 : stretch[k];
+    }
+  }
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    total[k] += stretch[k];
   find_moments(total, point, run, moment);
 }
 

@@ -97,7 +97,7 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
     Point point;
     ReferencePath path = see_point(position, surface, run, point);
     float moment[moments];
-    sum_run(0u, point, run, Diodes(constants.diodes), r * unrolled_blocks, unrolled_blocks, moment);
+    sum_run(0u, point, run, constants.diodes, r * unrolled_blocks, unrolled_blocks, moment);
     terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
     [[unroll]] for (uint t = 0; t < tones; ++t) {
       vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);

@@ -54,11 +54,6 @@ const Forms &forms_of(const Signal &signal, const AccumulatePass::Scope &scope) 
                                               : moment_forms;
 }
 
-vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, Precision precision) {
-  return vulkan::upload(device, precision == Precision::fp64 ? std::as_bytes(std::span(groups.precise_diodes))
-                                                             : std::as_bytes(std::span(groups.diodes)));
-}
-
 } // namespace
 
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
@@ -68,16 +63,28 @@ vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) 
 
 namespace {
 
-// Whether all weights but for the distance are those of the strongest diode, or none.
-bool is_alike(const DiodeGroups &groups, const SumModel &model, const AccumulatePass::Scope &scope) {
-  return groups.power_sums.powers > 0 && model.backscatter == shader::backscatter_flat &&
-         model.pattern == shader::pattern_isotropic && !scope.shadowed &&
-         std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
-           return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
-         });
+bool sums_alike(const DiodeGroups &groups, const AccumulatePass::Scope &scope) {
+  return groups.power_sums.alike && !scope.shadowed;
+}
+
+vk::DeviceSize diode_bytes(const DiodeGroups &groups, const AccumulatePass::Scope &scope) {
+  return scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
+         : sums_alike(groups, scope)        ? sizeof(shader::vec4)
+                                            : sizeof(shader::GroupDiode);
 }
 
 } // namespace
+
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
+                             const AccumulatePass::Scope &scope) {
+  if (scope.precision == Precision::fp64)
+    return vulkan::upload(device, std::as_bytes(std::span(groups.precise_diodes)));
+  if (!sums_alike(groups, scope))
+    return vulkan::upload(device, std::as_bytes(std::span(groups.diodes)));
+  std::vector<shader::vec4> positions(groups.diodes.size());
+  std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupDiode::position);
+  return vulkan::upload(device, std::as_bytes(std::span(positions)));
+}
 
 vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
                                      const AccumulatePass::Scope &scope, bool first) {
@@ -96,7 +103,7 @@ vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &
           scope.listed ? 1u : 0u,
           signal.promised ? 1u : 0u,
           groups.power_sums.powers,
-          is_alike(groups, model, scope) ? 1u : 0u,
+          sums_alike(groups, scope) ? 1u : 0u,
           groups.power_sums.planar ? 1u : 0u};
 }
 
@@ -164,6 +171,13 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
 
 namespace {
 
+bool are_alike(const DiodeGroups &groups, const SumModel &model) {
+  return model.backscatter == shader::backscatter_flat && model.pattern == shader::pattern_isotropic &&
+         std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+           return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
+         });
+}
+
 // Of a diode that shines, relative to the strongest.
 double least_intensity(const DiodeGroups &groups) {
   double least = 1.0;
@@ -182,10 +196,11 @@ void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber
   if (const auto powers = inverse_powers(model))
     groups.power_sums =
         power_sums(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
-  groups.power_sums.planar =
-      groups.power_sums.powers > 0 && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
-        return diode.position.z == 0.0f;
-      });
+  if (groups.power_sums.powers == 0)
+    return;
+  groups.power_sums.alike = are_alike(groups, model);
+  groups.power_sums.planar = std::ranges::all_of(
+      groups.diodes, [](const shader::GroupDiode &diode) { return diode.position.z == 0.0f; });
 }
 
 Precision sum_precision(const Signal &signal, Precision wanted) {
@@ -261,13 +276,12 @@ AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &
                                const Signal &signal, const SimulatorOptions &options, const Scope &scope)
     : plain_(scope.plain), runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      diode_bytes_(scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
-                                                      : sizeof(shader::GroupDiode)),
-      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
-      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, scope.precision)),
+      diode_bytes_(diode_bytes(groups, scope)), dispatches_(signal.by_moments ? 1 : signal.frequencies()),
+      planes_(signal.planes), tones_(upload_tones(device, signal)),
+      diodes_(upload_diodes(device, groups, scope)),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
       first_(make_pipeline(device, groups, model, signal, options, scope, true)) {
-  if (runs_.size() > 1)
+  if (runs_.size() > 1 && !plain_)
     later_ = make_pipeline(device, groups, model, signal, options, scope, false);
 }
 
@@ -323,8 +337,9 @@ void AccumulatePass::record_plain(const vk::raii::CommandBuffer &commands, const
                                             words(diagrams_.address()),
                                             blocks_per_run_,
                                             plane,
-                                            strip.columns * strip.rows * strip.samples * strip.samples};
-  (run == 0 ? first_ : later_).dispatch(commands, constants, plane, shader::workgroup_size);
+                                            strip.columns * strip.rows * strip.samples * strip.samples,
+                                            run == 0 ? 1u : 0u};
+  first_.dispatch(commands, constants, plane, shader::workgroup_size);
 }
 
 } // namespace pmdsim

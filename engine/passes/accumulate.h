@@ -78,7 +78,7 @@ private:
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
   vulkan::Buffer diagrams_;
-  vulkan::ComputePipeline first_; // of a frame's runs
+  vulkan::ComputePipeline first_; // of a frame's runs; the plain way all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
@@ -86,10 +86,12 @@ private:
 // promise's bound counts as light.
 std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise);
 
-// Of the moments' forms and what they share with other sums: specialization constants, and the tones that
-// they read.
+// Of the moments' forms and what they share with other sums: specialization constants, and the diodes and
+// tones that they read.
 vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
                                      const AccumulatePass::Scope &scope, bool first);
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
+                             const AccumulatePass::Scope &scope);
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal);
 
 } // namespace pmdsim

@@ -15,7 +15,7 @@ namespace {
 constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 // A straight line in fp64 takes several times as long to compile as one in float.
-constexpr std::uint32_t largest_run_blocks = 16, largest_precise_run_blocks = 4;
+constexpr std::uint32_t largest_precise_run_blocks = 4;
 // What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
 constexpr std::uint64_t run_overhead_blocks = 4;
 // Of the strongest diode's intensity: what is weaker would leave float's range on its way over distances.
@@ -241,8 +241,8 @@ std::uint32_t moments_needed(double phase_rad, double remainder) {
 }
 
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                         Precision precision) {
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
+                         std::uint32_t most_blocks) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
@@ -267,7 +267,7 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
   }
   result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
   result.blocks_per_run = cheapest_run_blocks(
-      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : largest_run_blocks);
+      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks);
   DiagramTables diagrams;
   for (const Group &group : grouping.groups())
     add_runs(group, precision, result, diagrams);

@@ -47,11 +47,15 @@ struct DiodeGroups {
   PowerSums power_sums;           // what the moments are summed by, run by run
 };
 
+// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike (PowerSums),
+// which take little of it.
+constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
+
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
 // that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
 DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                         Precision precision = Precision::fp32);
+                         Precision precision = Precision::fp32, std::uint32_t most_blocks = usual_run_blocks);
 
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);

@@ -84,10 +84,15 @@ Promise worse_of(const Promise &a, const Promise &b) {
 DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
                       Precision precision) {
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
-  DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision);
-  if (precision == Precision::fp32 && view.signal.by_moments)
-    sum_by_powers(groups, view.model, wavenumber_rad_m);
-  return groups;
+  const auto in_runs_of = [&](std::uint32_t most_blocks) {
+    DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
+    if (precision == Precision::fp32 && view.signal.by_moments)
+      sum_by_powers(groups, view.model, wavenumber_rad_m);
+    return groups;
+  };
+  DiodeGroups groups = in_runs_of(usual_run_blocks);
+  const bool long_runs = groups.power_sums.alike && groups.runs.size() > 1 && !view.signal.lit;
+  return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 
 // All diodes as they are summed in a precision, and what rounding may do to that.

@@ -199,11 +199,14 @@ public:
   }
 
 private:
-  // Sums of nonnegative terms: within blocks, then of blocks (in fp64 one after the other), then of runs and
-  // samples, where only a rest is rounded.
+  // Sums of nonnegative terms: within blocks, then of blocks, then of their stretches (in fp64 one after the
+  // other), then of runs and samples, where only a rest is rounded.
   double summation() const {
     const double blocks = groups_.blocks_per_run;
-    const double of_run = scope_.precision == Precision::fp64 ? block * blocks : block + blocks;
+    const double stretch = std::min(blocks, static_cast<double>(shader::blocks_per_stretch));
+    const double of_run = scope_.precision == Precision::fp64
+                              ? block * blocks
+                              : block + stretch + std::ceil(blocks / stretch) - 1.0;
     const double samples = scope_.samples;
     return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
   }

@@ -69,11 +69,6 @@ vulkan::Buffer upload_light(const vulkan::Device &device, shader::ShortWayLight 
   return vulkan::upload(device, bytes);
 }
 
-template <typename T>
-vulkan::Buffer upload_all(const vulkan::Device &device, const std::vector<T> &records) {
-  return vulkan::upload(device, std::as_bytes(std::span(records)));
-}
-
 } // namespace
 
 bool ShortWay::can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
@@ -87,7 +82,8 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
                    const Promise &promise, const SimulatorOptions &options, const ShortWayOptions &ways,
                    const PixelLists &lists)
     : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
-      diodes_(upload_all(device, groups.diodes)), diagrams_(upload_all(device, groups.diagrams)),
+      diodes_(upload_diodes(device, groups, {})),
+      diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
       pipeline_(device, forms.choose(device, options), sizeof(shader::ShortWayConstants),
                 constants_of(sensor, groups, model, signal, ways)) {
   shader::ShortWayLight light = light_record(extent, signal, groups.phased);
