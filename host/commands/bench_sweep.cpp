@@ -20,8 +20,7 @@ namespace {
 
 constexpr double checked_interactions = 1e7; // a second of the reference
 constexpr std::size_t fewest_checked = 32, most_checked = 1024;
-constexpr double prompt_frame_ms = 1000.0; // frames that take longer are timed in fewer rounds
-constexpr int rounds_of_prompt = 9, rounds_of_slow = 5;
+constexpr int sweep_rounds = 9;
 constexpr double visit_ms = 60.0; // frames are timed until they have taken this
 constexpr int most_frames_of_visit = 4;
 
@@ -32,11 +31,7 @@ double expected_s(const Setup &setup) {
 }
 
 // Of all that is done with a point.
-double expected_s(const SweepPoint &point) {
-  const double frame_s = expected_s(swept_setup(point));
-  const bool prompt = 1e3 * frame_s < prompt_frame_ms;
-  return frame_s * (1 + (prompt ? rounds_of_prompt * 3 : rounds_of_slow * 2));
-}
+double expected_s(const SweepPoint &point) { return expected_s(swept_setup(point)) * (1 + 3 * sweep_rounds); }
 
 // As in accuracy_check.cpp: float32 holds a distance to 6e-8 of the ambiguity range.
 double largest_plausible_error_m(const Sensor &sensor, std::size_t frequency, const Measurement &found) {
@@ -56,20 +51,15 @@ public:
   std::vector<SweepRow> measure(ProgressBar &bar) {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       begin(i, bar);
-    for (int round = 1; round <= rounds_of_prompt; ++round)
+    for (int round = 1; round <= sweep_rounds; ++round)
       for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (round <= rounds(i))
-          visit(i, round, bar);
+        visit(i, round, bar);
     for (std::size_t i = 0; i < rows_.size(); ++i)
       rows_[i].prepare_ms = spread_of(prepares_ms_[i]).median;
     return std::move(rows_);
   }
 
 private:
-  int rounds(std::size_t i) const {
-    return once_ms_[i] < prompt_frame_ms ? rounds_of_prompt : rounds_of_slow;
-  }
-
   // The time that it takes.
   double prepare(std::size_t i) {
     const auto start = std::chrono::steady_clock::now();
@@ -97,7 +87,6 @@ private:
     const Measurement first = frame(i, "first frame", bar);
     row.first_frame_ms = ms_since(start);
     row.peak_memory_bytes = peak_memory_bytes();
-    once_ms_.push_back(first.frame_ms);
     prepares_ms_.emplace_back();
     bar.begin(row.point.name() + ", checking", 0.0);
     const auto [error_m, pixels] = check_at_random(setups_[i], first, camera_->device());
@@ -107,7 +96,7 @@ private:
 
   void visit(std::size_t i, int round, ProgressBar &bar) {
     prepares_ms_[i].push_back(prepare(i));
-    const std::string what = fmt::format("timing {}/{}", round, rounds(i));
+    const std::string what = fmt::format("timing {}/{}", round, sweep_rounds);
     camera_->reuse(frame(i, what, bar)); // the first is cold
     double spent_ms = 0.0;
     for (int k = 0; k < most_frames_of_visit && spent_ms < visit_ms; ++k) {
@@ -124,9 +113,7 @@ private:
   std::optional<Camera> camera_;
   std::vector<Setup> setups_;
   std::vector<SweepRow> rows_;
-  // Beside the rows.
-  std::vector<double> once_ms_;
-  std::vector<std::vector<double>> prepares_ms_;
+  std::vector<std::vector<double>> prepares_ms_; // beside the rows
 };
 
 } // namespace

@@ -83,6 +83,19 @@ TEST_CASE("the paper's ring is one group around the lens, summed in one run") {
   CHECK(groups.moments == 4);
 }
 
+TEST_CASE("a group is cut into runs of equal length, of as many blocks as may be at most") {
+  const auto cut = [](int diodes, std::uint32_t most_blocks) {
+    const auto groups = group_diodes(one(ring(diodes, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m,
+                                     Precision::fp32, most_blocks);
+    CHECK(groups.diodes.size() == groups.runs.size() * groups.blocks_per_run * shader::diodes_per_block);
+    return std::pair(groups.runs.size(), groups.blocks_per_run);
+  };
+  CHECK(cut(960, usual_run_blocks) == std::pair(std::size_t{4}, 15u));
+  CHECK(cut(960, long_run_blocks) == std::pair(std::size_t{1}, 60u));
+  CHECK(cut(1030, long_run_blocks) == std::pair(std::size_t{2}, 33u));
+  CHECK(cut(240, long_run_blocks) == std::pair(std::size_t{1}, 15u));
+}
+
 TEST_CASE("the remainder is within its bound over everything visible") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(-1.0, 1.0);

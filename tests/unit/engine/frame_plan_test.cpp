@@ -108,6 +108,26 @@ TEST_CASE("the ring within a micrometre takes few diodes in float and surely kee
   CHECK(*few.claimed_m > 0.0);
 }
 
+TEST_CASE("of many diodes those that are alike stand in long runs") {
+  Setup many;
+  const std::vector<Diode> ring = many.lights[0].diodes;
+  for (const double z_m : {-0.01, -0.02})
+    for (Diode diode : ring) {
+      diode.position_m.z = z_m;
+      many.lights[0].diodes.push_back(diode);
+    }
+  const FramePlan alike = plan(many, {});
+  CHECK(alike.all.power_sums.alike);
+  CHECK(alike.all.runs.size() == 1);
+  CHECK(alike.all.blocks_per_run == 45);
+  CHECK(alike.all.power_sums.tables.size() == 1);
+  many.lights[0].diodes[3].intensity_w_sr = 0.5;
+  const FramePlan unequal = plan(many, {});
+  CHECK_FALSE(unequal.all.power_sums.alike);
+  CHECK(unequal.all.blocks_per_run == 15);
+  CHECK(*alike.claimed_m < 1.2 * *unequal.claimed_m); // rounding of long runs is hardly worse
+}
+
 TEST_CASE("stand-ins shine as much as all diodes do") {
   const auto light_of = [](const DiodeGroups &groups) {
     double sum_w_sr = 0.0;
