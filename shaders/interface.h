@@ -20,10 +20,10 @@ using glm::vec4;
 #endif
 
 PMDSIM_CONSTANT workgroup_size = 64;
-// Diodes are summed in blocks of this size; the blocks' sums are then added (a two-level sum keeps float32
-// exact to a few units in the last place).
+// Diodes are summed in blocks of this size, the blocks' sums in stretches of a run, whose sums are then added
+// (a sum of three levels keeps float32 exact to a few units in the last place).
 PMDSIM_CONSTANT diodes_per_block = 16;
-PMDSIM_CONSTANT blocks_per_stretch = 16; // of a run, which are summed for themselves
+PMDSIM_CONSTANT blocks_per_stretch = 16;
 // A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;

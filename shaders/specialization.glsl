@@ -8,7 +8,7 @@ const uint constant_backscatter = 1; // one of backscatter_*
 const uint constant_pattern = 2;     // one of pattern_*
 const uint constant_order = 3;       // of pattern_power
 const uint constant_blocks = 4;      // blocks of diodes that one dispatch sums
-const uint constant_first = 5;       // 1: of the frame's runs this is the first, there is no sum yet
+const uint constant_first = 5;       // but for the plain form: 1: of the frame's runs this is the first, there is no sum yet
 const uint constant_tones = 6;       // by moments: tones that one dispatch sums
 const uint constant_waveform = 7;    // direct: one of waveform_*
 const uint constant_taps = 8;        // direct, square waveform: N
@@ -18,7 +18,7 @@ const uint constant_shadowed = 11;   // 1: not every diode reaches every sample
 const uint constant_listed = 12;     // 1: only the samples of a list of pixels
 const uint constant_promised = 13;   // 1: keep what the terms come to without their phases
 const uint constant_powers = 14;     // by moments: powers of q that are summed for them; 0: none, but e's
-const uint constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance
+const uint constant_alike = 15;      // by powers: 1: every diode has the same weight but for its distance, and is there as a position
 const uint constant_planar = 16;     // by powers: 1: all diodes of a run lie in the reference's plane across the view
 // And of its plain form:
 const uint constant_only = 17;         // 1: the frame has no other run

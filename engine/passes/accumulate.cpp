@@ -67,12 +67,6 @@ bool sums_alike(const DiodeGroups &groups, const AccumulatePass::Scope &scope) {
   return groups.power_sums.alike && !scope.shadowed;
 }
 
-vk::DeviceSize diode_bytes(const DiodeGroups &groups, const AccumulatePass::Scope &scope) {
-  return scope.precision == Precision::fp64 ? sizeof(shader::PreciseDiode)
-         : sums_alike(groups, scope)        ? sizeof(shader::vec4)
-                                            : sizeof(shader::GroupDiode);
-}
-
 } // namespace
 
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
@@ -276,9 +270,9 @@ AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &
                                const Signal &signal, const SimulatorOptions &options, const Scope &scope)
     : plain_(scope.plain), runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      diode_bytes_(diode_bytes(groups, scope)), dispatches_(signal.by_moments ? 1 : signal.frequencies()),
-      planes_(signal.planes), tones_(upload_tones(device, signal)),
-      diodes_(upload_diodes(device, groups, scope)),
+      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
+      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, scope)),
+      diode_bytes_(diodes_.bytes() / groups.diodes.size()),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
       first_(make_pipeline(device, groups, model, signal, options, scope, true)) {
   if (runs_.size() > 1 && !plain_)

@@ -72,13 +72,13 @@ private:
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_;
   std::uint32_t bundles_per_run_;
-  vk::DeviceSize diode_bytes_; // of a diode's record
-  std::uint32_t dispatches_;   // a run: one by moments, else one for each frequency
-  std::uint32_t planes_;       // of the sum, of each frequency
+  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_;
   vulkan::Buffer diodes_;
+  vk::DeviceSize diode_bytes_; // of each
   vulkan::Buffer diagrams_;
-  vulkan::ComputePipeline first_; // of a frame's runs; the plain way all
+  vulkan::ComputePipeline first_; // of a frame's runs; on the plain way, of all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 

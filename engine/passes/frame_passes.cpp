@@ -223,7 +223,7 @@ FramePasses prepare_passes(const vulkan::Device &device, const SimulatorOptions 
   const Sensor &sensor = request.sensor;
   HostView view = look(device, options, request);
   FramePlan plan = plan_frame({view.camera, view.lights, view.projection.visible, sensor, view.signal,
-                               view.model, request.backscatter},
+                               view.model, request.backscatter, device.is_cpu()},
                               request.accuracy, attempt);
   view.signal.promised = plan.promise.has_value();
   std::vector<LitWindow> windows = view.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};

@@ -91,7 +91,9 @@ DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> 
     return groups;
   };
   DiodeGroups groups = in_runs_of(usual_run_blocks);
-  const bool long_runs = groups.power_sums.alike && groups.runs.size() > 1 && !view.signal.lit;
+  // A window of shadows' bits holds no long run.
+  const bool long_runs =
+      view.long_runs && groups.power_sums.alike && groups.runs.size() > 1 && !view.signal.lit;
   return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 

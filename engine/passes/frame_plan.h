@@ -21,6 +21,7 @@ struct LitView {
   const Signal &signal;
   SumModel model; // of all diodes
   Backscatter backscatter;
+  bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
 };
 
 struct FramePlan {

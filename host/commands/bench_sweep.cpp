@@ -31,7 +31,11 @@ double expected_s(const Setup &setup) {
 }
 
 // Of all that is done with a point.
-double expected_s(const SweepPoint &point) { return expected_s(swept_setup(point)) * (1 + 3 * sweep_rounds); }
+double expected_s(const SweepPoint &point) {
+  const double frame_s = expected_s(swept_setup(point));
+  const double warm = std::clamp(1e-3 * visit_ms / frame_s, 1.0, double{most_frames_of_visit});
+  return frame_s * (1.0 + sweep_rounds * (1.0 + warm));
+}
 
 // As in accuracy_check.cpp: float32 holds a distance to 6e-8 of the ambiguity range.
 double largest_plausible_error_m(const Sensor &sensor, std::size_t frequency, const Measurement &found) {

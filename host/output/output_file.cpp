@@ -6,12 +6,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <random>
+#include <sys/uio.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
 namespace pmdsim {
 namespace {
+
+constexpr std::size_t many_bytes = std::size_t{1} << 18;
+// RWF_DONTCACHE of Linux 6.14, which older headers lack: pages are written to the disk at once and then given
+// back, so that the next ones need no new memory.
+constexpr int uncached = 0x80;
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
@@ -58,7 +64,25 @@ void OutputFile::reserve(std::uint64_t bytes) {
     fail(first_error_ = errno);
 }
 
+std::size_t OutputFile::write_uncached(std::string_view bytes) {
+  const off_t start = std::fflush(stream_) == 0 ? ::ftello(stream_) : -1;
+  std::size_t written = 0;
+  while (start >= 0 && written < bytes.size()) {
+    iovec rest{const_cast<char *>(bytes.data()) + written, bytes.size() - written};
+    const ssize_t count =
+        ::pwritev2(::fileno(stream_), &rest, 1, start + static_cast<off_t>(written), uncached);
+    if (count <= 0)
+      break; // not every system can; what else may be wrong, writing the rest tells
+    written += static_cast<std::size_t>(count);
+  }
+  if (written > 0)
+    seek(static_cast<std::uint64_t>(start) + written);
+  return written;
+}
+
 void OutputFile::write(std::string_view bytes) {
+  if (bytes.size() >= many_bytes)
+    bytes.remove_prefix(write_uncached(bytes));
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
     return;
   if (first_error_ == 0)

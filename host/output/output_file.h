@@ -1,6 +1,7 @@
 #pragma once
 // One file that is written whole or not at all: under a temporary name in the same directory, then renamed.
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -29,6 +30,7 @@ public:
   // Reserves the file's whole length, where it is known before anything is written: it is found out at once
   // whether the disk has room, and the writing takes about half as long.
   void reserve(std::uint64_t bytes);
+  // Many bytes at once go past the page cache where the system can (Linux 6.14), which a sequence would fill.
   void write(std::string_view bytes);
   void seek(std::uint64_t offset);
   std::uint64_t tell() const;
@@ -43,6 +45,8 @@ public:
 
 private:
   [[noreturn]] void fail(int error_number) const;
+  // How many of the first bytes are written then.
+  std::size_t write_uncached(std::string_view bytes);
 
   std::filesystem::path path_;
   std::filesystem::path temporary_; // empty once renamed or removed

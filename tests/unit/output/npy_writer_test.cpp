@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 using namespace pmdsim;
@@ -30,6 +31,22 @@ TEST_CASE("an array of floats is NumPy's version 1.0, byte by byte") {
   const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
   CHECK(bytes.substr(10, 118) == header + std::string(117 - header.size(), ' ') + "\n");
   CHECK(bytes.substr(128, 8) == std::string("\x00\x00\x80\x3f\x00\x00\x00\xc0", 8)); // 1, -2
+}
+
+TEST_CASE("a large array is there to its last byte, beside whatever is written before and after it") {
+  std::vector<float> values(700 * 301);
+  std::iota(values.begin(), values.end(), 1.0f);
+  const std::string bytes = npy_bytes({"z_m", "m", std::span<const float>(values)}, {700, 301});
+  REQUIRE(bytes.size() == 128 + values.size() * sizeof(float));
+  CHECK(std::memcmp(bytes.data() + 128, values.data(), values.size() * sizeof(float)) == 0);
+  const pmdsim::test::TemporaryFolder temporary;
+  OutputFile file(temporary.path() / "parts");
+  const std::string large(1 << 20, 'x');
+  for (const std::string &part : {std::string("before"), large, std::string("after")})
+    file.write(part);
+  file.close();
+  file.publish();
+  CHECK(content_of(file.path()) == "before" + large + "after");
 }
 
 TEST_CASE("an array of ids is unsigned") {

@@ -188,6 +188,16 @@ TEST_CASE("a full disk is an error even where a library swallowed it") {
   CHECK(names_in(temporary.path()).empty());
 }
 
+TEST_CASE("a disk that is full within a large array is an error") {
+  const pmdsim::test::TemporaryFolder temporary;
+  OutputSet outputs(temporary.path());
+  const FileSizeLimit limit(1000000);
+  CHECK(output_error([&] {
+          outputs.add("large.npy", [](OutputFile &file) { file.write(std::string(2000000, 'x')); });
+        }) == (temporary.path() / "large.npy").string() + ": cannot be written: File too large");
+  CHECK(names_in(temporary.path()).empty());
+}
+
 TEST_CASE("a disk without room for a file says so before it is written") {
   const pmdsim::test::TemporaryFolder temporary;
   OutputSet outputs(temporary.path());
