@@ -112,7 +112,6 @@ ordered_json native_json(const NativeBench &native) {
 ordered_json sequence_json(const SequenceRate &rate) {
   return {{"frames", rate.frames},
           {"measured_per_s", rate.measured_per_s},
-          {"npy_new_files_per_s", rate.npy_new_files_per_s},
           {"npy_per_s", rate.npy_per_s},
           {"exr_per_s", rate.exr_per_s}};
 }

@@ -10,18 +10,16 @@ namespace pmdsim {
 
 // Whole frames, all sensors of each, by the clock: from the first's measurement to the last's publication.
 struct SequenceRate {
-  double measured_per_s;      // nothing written
-  double npy_new_files_per_s; // NPY
-  double npy_per_s;           // NPY, whose files replace those
-  double exr_per_s;           // EXR, new files
-  std::uint32_t frames;       // that each is the rate of
+  double measured_per_s; // nothing written
+  double npy_per_s;      // NPY
+  double exr_per_s;      // EXR
+  std::uint32_t frames;  // that each is the rate of
 };
 
 // Runs that many frames of the setup, at its rate and from its start whatever its own count is, as `render`
 // does, on the options' device and in their mode. One frame goes before, which compiles what is not compiled
-// yet. New files need new memory, which in a virtual machine takes longer to find than to fill. The files go
-// to a temporary directory that is removed, however this ends; what they cost is the way to the operating
-// system, not to the disk behind it. Throws Error, interrupted among others.
+// yet. The files are new, in a temporary directory that is removed, however this ends. Throws Error,
+// interrupted among others.
 SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, std::uint32_t frames);
 
 } // namespace pmdsim

@@ -19,6 +19,7 @@ struct Case {
   double wall_m = 2.0;
   std::vector<Illuminator> lights;
   Backscatter backscatter = Backscatter::constant;
+  Distortion distortion{}; // with one the points are kept
 };
 
 Illuminator ring_light(double radius_m, int count, const Pattern &pattern = {}, double z_m = 0.0) {
@@ -49,6 +50,11 @@ std::vector<Case> cases() {
           {"alike, one long run", 2.0, {ring_light(0.166, 500)}},
           {"alike, two long runs, padded", 2.0, {ring_light(0.166, 1030)}},
           {"alike, two lights of long runs", 2.0, {ring_light(0.166, 300), ring_light(0.05, 500, {}, -3.0)}},
+          {"alike, two long runs, points",
+           2.0,
+           {ring_light(0.166, 1030)},
+           Backscatter::constant,
+           BrownConrady{.k1 = -0.1}},
           {"unequal", 2.0, {unequal(ring_light(0.166, 48))}},
           {"Lambert", 2.0, {ring_light(0.166, 48)}, lambert},
           {"Lambert, cos^3, unequal", 2.0, {unequal(ring_light(0.166, 48, cubed))}, lambert},
@@ -69,6 +75,7 @@ TEST_CASE("frames of one sample a pixel, however their diodes are summed") {
     sensor.resolution = {40, 32};
     sensor.pixel_pitch_m = glm::dvec2(500e-6);
     sensor.focal_length_m = 0.02;
+    sensor.distortion = of.distortion;
     const Scene scene = wall_at(of.wall_m);
     const auto expected = reference::simulate(scene, sensor, of.lights, of.backscatter);
     for (const SimulatorOptions &options : all_variants()) {
