@@ -351,6 +351,7 @@ Measurement Simulator::State::measure(const Progress &progress) {
   const auto start = std::chrono::steady_clock::now();
   recorder.reset();
   Measurement measurement = make_measurement(prepared->sensor, prepared->signal, options, spare_memory());
+  const double memory_ms = milliseconds_since(start); // of a first frame, to which the system gives it
   measurement.accuracy = prepared->report;
   if (prepared->shadows != Shadows::automatic)
     measurement.lit.clear();
@@ -369,6 +370,7 @@ Measurement Simulator::State::measure(const Progress &progress) {
   }
   if (prepared->shadows == Shadows::automatic)
     finish_lit(*prepared, measurement);
+  recorder.add("read_back", memory_ms);
   measurement.passes = recorder.times();
   measurement.frame_ms = milliseconds_since(start) - measurement.accuracy.check_ms;
   return measurement;
