@@ -78,7 +78,7 @@ private:
   vulkan::Buffer diodes_;
   vk::DeviceSize diode_bytes_; // of each
   vulkan::Buffer diagrams_;
-  vulkan::ComputePipeline first_; // of a frame's runs; on the plain way, of all
+  vulkan::ComputePipeline first_; // the first of a frame's runs; on the plain way all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 

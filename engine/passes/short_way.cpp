@@ -18,8 +18,6 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t most_blocks = 16; // as one straight line
-
 const Forms forms{shader::short_way_straight_fp64_spirv, shader::short_way_straight_double_float_spirv,
                   shader::short_way_looped_fp64_spirv, shader::short_way_looped_double_float_spirv};
 
@@ -74,7 +72,7 @@ vulkan::Buffer upload_light(const vulkan::Device &device, shader::ShortWayLight 
 bool ShortWay::can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
   return signal.waveform == shader::waveform_sine && signal.by_moments && !sensor.has_distortion() &&
          signal.frequencies() <= shader::short_way_tones &&
-         groups.runs.size() * groups.blocks_per_run <= most_blocks;
+         groups.runs.size() * groups.blocks_per_run <= usual_run_blocks; // as one straight line
 }
 
 ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
