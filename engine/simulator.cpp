@@ -1,10 +1,10 @@
 #include "engine/simulator.h"
 
-#include "engine/error.h"
-#include "engine/passes/frame_passes.h"
-#include "engine/passes/promise_breach.h"
-#include "engine/passes/reached.h"
-#include "engine/passes/read_back.h"
+#include "engine/error_budget/budget.h"
+#include "engine/frame/frame_passes.h"
+#include "engine/model/error.h"
+#include "engine/shadow/visibility_bits.h"
+#include "engine/signal/read_back.h"
 #include "engine/vulkan/device_choice.h"
 #include "engine/vulkan/pass_recorder.h"
 

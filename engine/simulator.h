@@ -1,14 +1,14 @@
 #pragma once
 // The simulator: runs the passes of one frame on a Vulkan device, in order, and reads the measurement back.
 
-#include "engine/accuracy.h"
-#include "engine/device_info.h"
-#include "engine/illuminator.h"
-#include "engine/measurement.h"
-#include "engine/scene.h"
-#include "engine/sensor.h"
-#include "engine/shadows.h"
-#include "engine/simulator_options.h"
+#include "engine/model/accuracy.h"
+#include "engine/model/device_info.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/measurement.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
+#include "engine/model/shadows.h"
+#include "engine/model/simulator_options.h"
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "host/accuracy_options.h"
 
-#include "engine/error.h"
-#include "host/input/input_error.h"
+#include "engine/model/error.h"
+#include "host/input/file/input_error.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>

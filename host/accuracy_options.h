@@ -1,7 +1,7 @@
 #pragma once
 // What the command line says about accuracy.
 
-#include "engine/accuracy.h"
+#include "engine/model/accuracy.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
-#include "engine/error.h"
+#include "engine/model/error.h"
+#include "host/capture/interruption.h"
 #include "host/commands/commands.h"
-#include "host/commands/interruption.h"
 #include "host/options.h"
 #include "host/vector_width.h"
 

@@ -1,10 +1,10 @@
 #include "host/options.h"
 
-#include "engine/error.h"
+#include "engine/model/error.h"
 #include "host/accuracy_options.h"
-#include "host/commands/camera.h"
-#include "host/input/calibration_sensor.h"
-#include "host/input/limits.h"
+#include "host/capture/camera.h"
+#include "host/input/calibration/calibration_sensor.h"
+#include "host/input/setup/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 // The command line, parsed and checked.
 
-#include "engine/accuracy.h"
-#include "host/input/sample_choice.h"
+#include "engine/model/accuracy.h"
+#include "host/input/setup/sample_choice.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,13 +1,13 @@
 #include "engine/reference/reference.h"
 
-#include "engine/reference/camera_frame.h"
-#include "engine/reference/channels.h"
 #include "engine/reference/for_each_row.h"
-#include "engine/reference/lens_model.h"
-#include "engine/reference/light_paths.h"
-#include "engine/reference/ray_caster.h"
-#include "engine/reference/shadow_caster.h"
-#include "engine/reference/surface_colours.h"
+#include "engine/reference/light/light_paths.h"
+#include "engine/reference/shadow/shadow_caster.h"
+#include "engine/reference/signal/channels.h"
+#include "engine/reference/view/camera_frame.h"
+#include "engine/reference/view/lens_model.h"
+#include "engine/reference/view/ray_caster.h"
+#include "engine/reference/view/surface_colours.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,12 +1,13 @@
 #pragma once
 // The judge: the same measurement by the CPU in double precision, with its own ray casting and the standard
-// library's trigonometry. Shares no code with the shaders, the passes, their projection or engine/lens.h.
+// library's trigonometry. Shares no code with the shaders, the passes, their projection or
+// engine/model/lens.h.
 
-#include "engine/illuminator.h"
-#include "engine/measurement.h"
-#include "engine/scene.h"
-#include "engine/sensor.h"
-#include "engine/shadows.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/measurement.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
+#include "engine/model/shadows.h"
 
 #include <complex>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "engine/vulkan/device_choice.h"
 
-#include "engine/error.h"
+#include "engine/model/error.h"
 
 #include <algorithm>
 #include <array>

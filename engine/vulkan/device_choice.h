@@ -1,7 +1,7 @@
 #pragma once
 // Which of Vulkan's devices to use.
 
-#include "engine/device_info.h"
+#include "engine/model/device_info.h"
 #include "engine/vulkan/device.h"
 
 #include <string>

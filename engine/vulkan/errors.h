@@ -1,7 +1,7 @@
 #pragma once
 // Vulkan's failures as our errors, so that nothing outside this folder names a Vulkan type.
 
-#include "engine/error.h"
+#include "engine/model/error.h"
 
 #include <type_traits>
 #include <utility>

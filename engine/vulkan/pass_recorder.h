@@ -1,7 +1,7 @@
 #pragma once
 // Records a strip's passes, sends them to the device and adds up what each took.
 
-#include "engine/pass_time.h"
+#include "engine/model/pass_time.h"
 #include "engine/vulkan/commands.h"
 
 #include <chrono>

@@ -1,7 +1,7 @@
-#include "host/commands/bench_report.h"
+#include "host/bench/results.h"
+#include "host/capture/loaded_setup.h"
 #include "host/commands/commands.h"
-#include "host/commands/loaded_setup.h"
-#include "host/commands/report.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
+#include "host/capture/loaded_setup.h"
 #include "host/commands/commands.h"
-#include "host/commands/findings.h"
-#include "host/commands/loaded_setup.h"
-#include "host/commands/report.h"
-#include "host/output/manifest.h"
+#include "host/output/files/manifest.h"
+#include "host/report/findings.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "engine/simulator.h"
 #include "host/commands/commands.h"
-#include "host/commands/report.h"
+#include "host/report/report.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "host/commands/commands.h"
-#include "host/commands/report.h"
-#include "host/input/calibration_sensor.h"
+#include "host/input/calibration/calibration_sensor.h"
+#include "host/report/report.h"
 
 #include <fmt/format.h>
 

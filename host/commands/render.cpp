@@ -1,11 +1,11 @@
+#include "host/capture/exposure.h"
+#include "host/capture/frame_sequence.h"
+#include "host/capture/frame_writer.h"
+#include "host/capture/loaded_setup.h"
+#include "host/capture/progress_bar.h"
+#include "host/capture/rendered_frame.h"
 #include "host/commands/commands.h"
-#include "host/commands/exposure.h"
-#include "host/commands/frame_sequence.h"
-#include "host/commands/frame_writer.h"
-#include "host/commands/loaded_setup.h"
-#include "host/commands/progress_bar.h"
-#include "host/commands/rendered_frame.h"
-#include "host/commands/report.h"
+#include "host/report/report.h"
 
 #include <cmath>
 #include <fmt/format.h>

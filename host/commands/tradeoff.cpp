@@ -1,15 +1,15 @@
-#include "host/output/tradeoff.h"
+#include "host/output/tables/tradeoff.h"
 
-#include "engine/error.h"
-#include "host/commands/camera.h"
+#include "engine/model/error.h"
+#include "host/bench/distance_errors.h"
+#include "host/capture/camera.h"
+#include "host/capture/interruption.h"
+#include "host/capture/loaded_setup.h"
+#include "host/capture/progress_bar.h"
 #include "host/commands/commands.h"
-#include "host/commands/distance_errors.h"
-#include "host/commands/interruption.h"
-#include "host/commands/loaded_setup.h"
-#include "host/commands/progress_bar.h"
-#include "host/commands/report.h"
-#include "host/output/manifest.h"
-#include "host/output/output_set.h"
+#include "host/output/files/manifest.h"
+#include "host/output/files/output_set.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <array>

@@ -30,7 +30,7 @@ const std::string public_engine = "engine/([a-z_]+|reference/reference)\\.h";
 const std::vector<Rule> rules{
     {"engine/vulkan/", {"engine/vulkan/.*", "engine/(device_info|error|pass_time)\\.h", "vulkan/.*"}},
     // The one file of the passes that Embree helps: it builds the tree.
-    {"engine/passes/occluder_tree.cpp",
+    {"engine/shadow/occluder_tree.cpp",
      {"engine/passes/occluder_tree\\.h", "engine/error\\.h", "embree3/rtcore\\.h"}},
     {"engine/passes/",
      {"engine/passes/.*", "engine/vulkan/.*", plain_engine, lens, "shaders/(lit_)?interface\\.h", "spirv/.*",
@@ -41,7 +41,7 @@ const std::vector<Rule> rules{
     {"host/input/", {"host/input/.*", public_engine}},
     {"host/output/", {"host/output/.*", public_engine}},
     {"host/", {"host/.*", public_engine}}, // never Vulkan, never the engine's inside
-    {"shaders/lit_interface.h", {"shaders/interface\\.h"}},
+    {"shaders/shadow/lit_interface.h", {"shaders/interface\\.h"}},
     {"shaders/", {}},
 };
 
@@ -91,14 +91,14 @@ TEST_CASE("includes follow the allowed arrows") {
 
 TEST_CASE("an arrow against the architecture is noticed") {
   CHECK_FALSE(is_allowed("host/main.cpp", "vulkan/vulkan_raii.hpp"));
-  CHECK_FALSE(is_allowed("host/commands/render.cpp", "engine/passes/points.h"));
-  CHECK_FALSE(is_allowed("engine/reference/return_sum.cpp", "shaders/interface.h"));
-  CHECK_FALSE(is_allowed("engine/reference/camera_frame.cpp", "engine/lens.h"));
-  CHECK_FALSE(is_allowed("engine/vulkan/device.cpp", "engine/sensor.h"));
+  CHECK_FALSE(is_allowed("host/commands/render.cpp", "engine/view/points_pass.h"));
+  CHECK_FALSE(is_allowed("engine/reference/light/return_sum.cpp", "shaders/shared/interface.h"));
+  CHECK_FALSE(is_allowed("engine/reference/view/camera_frame.cpp", "engine/model/lens.h"));
+  CHECK_FALSE(is_allowed("engine/vulkan/device.cpp", "engine/model/sensor.h"));
   CHECK_FALSE(is_allowed("engine/simulator.h", "vulkan/vulkan.h"));
-  CHECK_FALSE(is_allowed("engine/passes/lit.cpp", "embree3/rtcore.h"));
+  CHECK_FALSE(is_allowed("engine/shadow/tile_shadow_pass.cpp", "embree3/rtcore.h"));
   CHECK_FALSE(is_allowed("engine/simulator.cpp", "embree3/rtcore.h"));
   CHECK_FALSE(is_allowed("host/main.cpp", "embree3/rtcore.h"));
-  CHECK(is_allowed("engine/simulator.cpp", "engine/passes/points.h"));
-  CHECK(is_allowed("engine/passes/occluder_tree.cpp", "embree3/rtcore.h"));
+  CHECK(is_allowed("engine/simulator.cpp", "engine/view/points_pass.h"));
+  CHECK(is_allowed("engine/shadow/occluder_tree.cpp", "embree3/rtcore.h"));
 }

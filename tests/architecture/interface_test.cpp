@@ -1,13 +1,13 @@
-// shaders/interface.h is read by GLSL and by C++: both must lay its structs out alike. Every member of every
-// struct that a compiled shader carries is compared with the compiler's.
+// shaders/shared/interface.h is read by GLSL and by C++: both must lay its structs out alike. Every member of
+// every struct that a compiled shader carries is compared with the compiler's.
 
-#include "shaders/lit_interface.h"
-#include "spirv/accumulate_direct_looped_double_float.h"
-#include "spirv/accumulate_direct_looped_fp64.h"
-#include "spirv/accumulate_direct_straight_double_float.h"
-#include "spirv/accumulate_direct_straight_fp64.h"
+#include "shaders/shadow/lit_interface.h"
 #include "spirv/accumulate_looped_double_float.h"
 #include "spirv/accumulate_looped_fp64.h"
+#include "spirv/accumulate_per_diode_looped_double_float.h"
+#include "spirv/accumulate_per_diode_looped_fp64.h"
+#include "spirv/accumulate_per_diode_straight_double_float.h"
+#include "spirv/accumulate_per_diode_straight_fp64.h"
 #include "spirv/accumulate_plain_looped_double_float.h"
 #include "spirv/accumulate_plain_looped_fp64.h"
 #include "spirv/accumulate_plain_straight_double_float.h"
@@ -342,19 +342,19 @@ struct Shader {
 };
 
 const std::vector<Shader> shaders{
-    {"visibility.vert", visibility_vert_spirv},
-    {"visibility.frag", visibility_frag_spirv},
-    {"visibility.vert, depths, fp64", visibility_depth_vert_fp64_spirv},
-    {"visibility.vert, depths, float pairs", visibility_depth_vert_double_float_spirv},
-    {"visibility_depth.frag, fp64", visibility_depth_frag_fp64_spirv},
-    {"visibility_depth.frag, float pairs", visibility_depth_frag_double_float_spirv},
-    {"visibility_depth.frag, masked, fp64", visibility_depth_masked_fp64_spirv},
-    {"visibility_depth.frag, masked, float pairs", visibility_depth_masked_double_float_spirv},
-    {"visibility_masked.frag, fp64", visibility_masked_fp64_spirv},
-    {"visibility_masked.frag, float pairs", visibility_masked_double_float_spirv},
-    {"visibility.frag, keys", visibility_keys_frag_spirv},
-    {"visibility_masked.frag, keys, fp64", visibility_keys_masked_fp64_spirv},
-    {"visibility_masked.frag, keys, float pairs", visibility_keys_masked_double_float_spirv},
+    {"id_raster.vert", visibility_vert_spirv},
+    {"id_raster.frag", visibility_frag_spirv},
+    {"id_raster.vert, depths, fp64", visibility_depth_vert_fp64_spirv},
+    {"id_raster.vert, depths, float pairs", visibility_depth_vert_double_float_spirv},
+    {"id_raster_depth.frag, fp64", visibility_depth_frag_fp64_spirv},
+    {"id_raster_depth.frag, float pairs", visibility_depth_frag_double_float_spirv},
+    {"id_raster_depth.frag, masked, fp64", visibility_depth_masked_fp64_spirv},
+    {"id_raster_depth.frag, masked, float pairs", visibility_depth_masked_double_float_spirv},
+    {"id_raster_masked.frag, fp64", visibility_masked_fp64_spirv},
+    {"id_raster_masked.frag, float pairs", visibility_masked_double_float_spirv},
+    {"id_raster.frag, keys", visibility_keys_frag_spirv},
+    {"id_raster_masked.frag, keys, fp64", visibility_keys_masked_fp64_spirv},
+    {"id_raster_masked.frag, keys, float pairs", visibility_keys_masked_double_float_spirv},
     {"tags, fp64", tags_fp64_spirv},
     {"tags, float pairs", tags_double_float_spirv},
     {"points, fp64", points_fp64_spirv},
@@ -384,10 +384,10 @@ const std::vector<Shader> shaders{
     {"accumulate precise, straight, fp64", accumulate_precise_straight_fp64_spirv},
     {"accumulate precise, looped, fp64", accumulate_precise_looped_fp64_spirv},
     {"accumulate precise, looped, float pairs", accumulate_precise_looped_double_float_spirv},
-    {"accumulate direct, straight, fp64", accumulate_direct_straight_fp64_spirv},
-    {"accumulate direct, straight, float pairs", accumulate_direct_straight_double_float_spirv},
-    {"accumulate direct, looped, fp64", accumulate_direct_looped_fp64_spirv},
-    {"accumulate direct, looped, float pairs", accumulate_direct_looped_double_float_spirv},
+    {"accumulate direct, straight, fp64", accumulate_per_diode_straight_fp64_spirv},
+    {"accumulate direct, straight, float pairs", accumulate_per_diode_straight_double_float_spirv},
+    {"accumulate direct, looped, fp64", accumulate_per_diode_looped_fp64_spirv},
+    {"accumulate direct, looped, float pairs", accumulate_per_diode_looped_double_float_spirv},
     {"short way, straight, fp64", short_way_straight_fp64_spirv},
     {"short way, straight, float pairs", short_way_straight_double_float_spirv},
     {"short way, looped, fp64", short_way_looped_fp64_spirv},

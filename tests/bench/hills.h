@@ -1,7 +1,7 @@
 #pragma once
 // A scene of a million triangles for which nothing has to be loaded.
 
-#include "engine/scene.h"
+#include "engine/model/scene.h"
 
 namespace pmdsim::bench {
 

@@ -4,7 +4,7 @@
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"
-#include "host/input/setup.h"
+#include "host/input/setup/setup.h"
 #include "tests/bench/hills.h"
 #include "tests/bench/times.h"
 

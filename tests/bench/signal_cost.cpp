@@ -3,7 +3,7 @@
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"
-#include "host/input/setup.h"
+#include "host/input/setup/setup.h"
 #include "tests/bench/accumulate_times.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Random but repeatable cameras.
 
-#include "engine/sensor.h"
+#include "engine/model/sensor.h"
 #include "tests/support/random_scenes.h"
 
 namespace pmdsim::test {

@@ -1,7 +1,7 @@
 #pragma once
 // Random but repeatable measured diagrams.
 
-#include "engine/illuminator.h"
+#include "engine/model/illuminator.h"
 #include "tests/support/random_scenes.h"
 
 #include <memory>

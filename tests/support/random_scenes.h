@@ -2,8 +2,8 @@
 // Random but repeatable scenes, poses and lights: the same seed gives the same values with every standard
 // library.
 
-#include "engine/illuminator.h"
-#include "engine/scene.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/scene.h"
 
 #include <cstdint>
 #include <random>

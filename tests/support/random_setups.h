@@ -1,10 +1,10 @@
 #pragma once
 // Random but repeatable setups of every kind there is, small enough for the reference.
 
-#include "engine/illuminator.h"
-#include "engine/scene.h"
-#include "engine/sensor.h"
-#include "engine/shadows.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
+#include "engine/model/shadows.h"
 
 #include <cstdint>
 #include <string>

@@ -2,9 +2,9 @@
 // Small scenes, cameras and lights for tests, built from shapes in the camera's frame (x right, y down, z
 // forward).
 
-#include "engine/illuminator.h"
-#include "engine/scene.h"
-#include "engine/sensor.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
 
 namespace pmdsim::test {
 

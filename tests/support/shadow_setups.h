@@ -1,9 +1,9 @@
 #pragma once
 // Random but repeatable scenes where anything may stand in anything's light.
 
-#include "engine/illuminator.h"
-#include "engine/scene.h"
-#include "engine/sensor.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,0 +1,274 @@
+#include "engine/error_budget/plan.h"
+
+#include "engine/error_budget/rounding_bound.h"
+#include "engine/light/pattern_slope.h"
+#include "engine/model/error.h"
+#include "engine/reduction/reduced_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace pmdsim {
+namespace {
+
+// Of what rounding leaves of the error asked for, how much the stand-ins may take in each plan. The rest is
+// for pixels whose returns cancel in part.
+constexpr double share_of_stand_ins[frame_plans] = {0.5, 0.02, 0.0};
+
+// Of paint, texture and vignetting, relative.
+constexpr double painted_backscatter_error = 0x1p-21;
+
+std::vector<double> wavenumbers_rad_m(const Signal &signal) {
+  std::vector<double> result;
+  for (const double modulation_hz : signal.modulation_hz)
+    result.push_back(2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s);
+  return result;
+}
+
+// Of a pixel, seen from the lens; at most.
+double pixel_rad(const Sensor &sensor) {
+  if (sensor.has_distortion() || !sensor.chip.is_nominal())
+    return std::numeric_limits<double>::infinity();
+  return glm::length(sensor.pixel_pitch_m * sensor.fill_factor) / sensor.image_distance_m();
+}
+
+std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision,
+                                      std::uint32_t samples,
+                                      std::optional<double> sample_spread_m = std::nullopt) {
+  RoundingScope scope;
+  scope.sample_spread_m = sample_spread_m;
+  scope.precision = precision;
+  scope.samples = samples;
+  scope.pixel_rad = pixel_rad(view.sensor);
+  scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
+  scope.emission_cosine = least_emission_cosine(groups, view.visible);
+  scope.rims_are_terms = scope.emission_cosine < beam_cosine;
+  scope.backscatter_error = painted_backscatter_error;
+  return rounding_bound(groups, view.visible, view.model, view.signal, scope);
+}
+
+bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
+  return bound.distance_m(1.0) < accuracy.max_error_m && bound.amplitude(1.0) < accuracy.max_amplitude_error;
+}
+
+[[noreturn]] void refuse(const Accuracy &accuracy, const std::string &why) {
+  throw Error(ExitCode::accuracy, fmt::format("a distance error of at most {:.6g} mm cannot be promised: {}",
+                                              1e3 * accuracy.max_error_m, why));
+}
+
+[[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound) {
+  if (bound.distance_m(1.0) >= accuracy.max_error_m)
+    refuse(accuracy, fmt::format("rounding alone may come to {:.6g} mm", 1e3 * bound.distance_m(1.0)));
+  throw Error(
+      ExitCode::accuracy,
+      fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
+                  "come to {:.3g}",
+                  accuracy.max_amplitude_error, bound.amplitude(1.0)));
+}
+
+// Of pixels of which some keep the one and some the other.
+Promise worse_of(const Promise &a, const Promise &b) {
+  return {a.limit_m,
+          std::max(a.fixed_m, b.fixed_m),
+          std::max(a.per_condition_m, b.per_condition_m),
+          a.amplitude_limit,
+          std::max(a.amplitude_fixed, b.amplitude_fixed),
+          std::max(a.amplitude_per_condition, b.amplitude_per_condition),
+          std::max(a.terms_per_weight_error, b.terms_per_weight_error),
+          std::max(a.terms_of_rims, b.terms_of_rims)};
+}
+
+DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
+                      Precision precision) {
+  const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
+  const auto in_runs_of = [&](std::uint32_t most_blocks) {
+    DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
+    if (precision == Precision::fp32 && view.signal.by_moments)
+      sum_by_powers(groups, view.model, wavenumber_rad_m);
+    return groups;
+  };
+  DiodeGroups groups = in_runs_of(usual_run_blocks);
+  // A window of shadows' bits holds no long run.
+  const bool long_runs =
+      view.long_runs && groups.power_sums.alike && groups.runs.size() > 1 && !view.signal.lit;
+  return long_runs ? in_runs_of(long_run_blocks) : groups;
+}
+
+// All diodes as they are summed in a precision, and what rounding may do to that.
+struct RoundedSum {
+  Precision precision;
+  DiodeGroups groups;
+  RoundingBound bound;
+};
+
+// In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
+RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+  std::optional<RoundingBound> last;
+  const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
+  for (const Precision wanted :
+       {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
+    const Precision precision = sum_precision(view.signal, wanted);
+    DiodeGroups groups = groups_of(view, view.lights, precision);
+    const auto bound = bound_of(view, groups, precision, view.sensor.samples);
+    if (bound && is_within(*bound, accuracy))
+      return {precision, std::move(groups), *bound};
+    last = bound;
+  }
+  if (last)
+    refuse(accuracy, *last);
+  refuse(accuracy, "a measured diagram that varies about its own axis has no bound");
+}
+
+Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
+  Promise promise{accuracy.max_error_m,
+                  rounding.fixed_m,
+                  rounding.per_condition_m + light.error_per_condition_m,
+                  accuracy.max_amplitude_error,
+                  rounding.amplitude_fixed,
+                  rounding.amplitude_per_condition + light.amplitude_error_per_condition,
+                  0.0,
+                  0.0};
+  if (rounding.per_weight_m > 0.0)
+    promise.terms_per_weight_error = rounding.per_weight_m / promise.per_condition_m;
+  if (std::isfinite(promise.amplitude_limit))
+    promise.terms_per_weight_error = std::max(
+        promise.terms_per_weight_error, rounding.amplitude_per_weight / promise.amplitude_per_condition);
+  promise.terms_of_rims = promise.terms_per_weight_error * rounding.rim_error;
+  return promise;
+}
+
+// At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
+// counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
+std::optional<double> largest_condition(const LitView &view, const FramePlan &plan) {
+  const double wavenumber = view.signal.largest_wavenumber_rad_m();
+  const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
+  if (view.sensor.samples > 1 || plan.all.phased || half_rad > 1.0 ||
+      view.signal.waveform != shader::waveform_sine ||
+      view.model.backscatter == shader::backscatter_lambert || view.model.pattern == shader::pattern_axial ||
+      view.model.pattern == shader::pattern_any)
+    return std::nullopt;
+  return 1.0 / std::cos(half_rad);
+}
+
+// What no pixel is off by more than, if that is known before the frame.
+struct SureBound {
+  double distance_m, amplitude;
+};
+
+// As errors_of in shaders/signal/resolve.glsl.
+std::optional<SureBound> sure_bound(const LitView &view, const Promise &bound, const FramePlan &plan) {
+  const auto condition = largest_condition(view, plan);
+  if (!condition || bound.terms_of_rims > 0.0)
+    return std::nullopt;
+  const double relative = bound.amplitude_per_condition * *condition;
+  if (!(relative < 1.0))
+    return std::nullopt;
+  return SureBound{bound.fixed_m + bound.per_condition_m * *condition / (1.0 - relative),
+                   bound.amplitude_fixed + relative};
+}
+
+// Of what is asked for, every pixel makes sure, where it is not known before.
+void claim_within_limits(const LitView &view, const Promise &bound, FramePlan &plan) {
+  const auto sure = sure_bound(view, bound, plan);
+  plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
+  plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
+  if (sure || std::isfinite(bound.amplitude_limit))
+    plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
+}
+
+// All diodes for themselves.
+ReducedLight whole_light(const LitView &view) {
+  ReducedLight light{view.lights, {glm::dvec3(std::numeric_limits<double>::infinity()), {}}};
+  light.lights.high_m = -light.lights.low_m;
+  for (const CameraIlluminator &illuminator : view.lights)
+    for (const Diode &diode : illuminator.diodes)
+      light.lights = {glm::min(light.lights.low_m, diode.position_m),
+                      glm::max(light.lights.high_m, diode.position_m)};
+  return light;
+}
+
+ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const RoundingBound &rounding,
+                          double share) {
+  if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
+    return whole_light(view);
+  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.signal),
+                       share * (accuracy.max_error_m - rounding.distance_m(1.0)),
+                       share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
+}
+
+bool is_kept_by_some(const Promise &promise) {
+  return promise.fixed_m + promise.per_condition_m <= promise.limit_m &&
+         promise.amplitude_fixed + promise.amplitude_per_condition <= promise.amplitude_limit;
+}
+
+// One place in float, or four, whatever the precision of the others.
+void plan_short_way(const LitView &view, const Accuracy &accuracy, const ReducedLight &light,
+                    FramePlan &plan) {
+  const bool in_float = accuracy.precision != Precision::fp64;
+  if (in_float)
+    plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
+  // How much light a sample has is counted in these, also where pixels are only listed.
+  plan.short_groups.diode_count = plan.all.diode_count;
+  if (!in_float)
+    return;
+  const auto promised = [&](std::uint32_t side, double spread_m) -> std::optional<Promise> {
+    const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, side, spread_m);
+    if (!rounding)
+      return std::nullopt;
+    const Promise promise = promise_of(accuracy, *rounding, light);
+    return is_kept_by_some(promise) ? std::optional(promise) : std::nullopt;
+  };
+  plan.short_promise = promised(1, 0.0);
+  if (plan.short_promise && view.sensor.samples > 1)
+    plan.few_promise = promised(2, place_spread_m);
+}
+
+FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
+  FramePlan plan;
+  plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
+  plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
+  const ReducedLight light = whole_light(view);
+  plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
+  if (const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples)) {
+    const Promise bound = promise_of(accuracy, *rounding, light);
+    if (view.sensor.adaptive_samples)
+      plan.promise = plan.promise_of_all = bound;
+    // Where samples adapt, pixels that may break the promise are summed in full: nothing is claimed of them.
+    if (const auto sure = sure_bound(view, bound, plan); sure && !plan.promise) {
+      plan.claimed_m = sure->distance_m;
+      plan.claimed_amplitude = sure->amplitude;
+    }
+  }
+  if (plan.promise && plan.precision == Precision::fp32)
+    plan_short_way(view, accuracy, light, plan);
+  return plan;
+}
+
+} // namespace
+
+FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+  if (accuracy.mode == Mode::exact)
+    return exact_plan(view, accuracy);
+  FramePlan plan;
+  RoundedSum sum = choose_precision(view, accuracy, attempt);
+  const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_stand_ins[attempt]);
+  plan.precision = sum.precision;
+  plan.all = std::move(sum.groups);
+  plan.stand_ins = groups_of(view, light.illuminators, plan.precision);
+  plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
+  plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
+  plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view));
+  const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
+  plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
+  plan_short_way(view, accuracy, light, plan);
+  Promise worst = worse_of(*plan.promise, plan.short_promise.value_or(*plan.promise));
+  if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)
+    worst = worse_of(worst, *plan.promise_of_all);
+  claim_within_limits(view, worst, plan);
+  return plan;
+}
+
+} // namespace pmdsim

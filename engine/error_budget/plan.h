@@ -1,0 +1,55 @@
+#pragma once
+// How a frame is summed within the error asked for: which diodes stand in for all, in which precision, and
+// what can be promised of it.
+
+#include "engine/error_budget/promise.h"
+#include "engine/frame/uniform_pixels_pass.h"
+#include "engine/light/accumulate_pass.h"
+#include "engine/light/source_groups.h"
+#include "engine/model/accuracy.h"
+
+#include <optional>
+
+namespace pmdsim {
+
+// A frame's light and what it falls on.
+struct LitView {
+  const CameraScene &camera;
+  const std::vector<CameraIlluminator> &lights;
+  const std::vector<VisibleBox> &visible;
+  const Sensor &sensor;
+  const Signal &signal;
+  SumModel model; // of all diodes
+  Backscatter backscatter;
+  bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
+};
+
+struct FramePlan {
+  Precision precision = Precision::fp32;
+  DiodeGroups all;          // every diode
+  DiodeGroups stand_ins;    // of those, with other intensities, that do where all light and face a point
+  DiodeGroups short_groups; // the stand-ins in float, for the short way
+  LightExtent extent;       // of the light, as the stand-ins' bound has it
+  // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
+  std::optional<Promise> promise, promise_of_all;
+  // Of what the short way sums; nothing where that is not exact enough.
+  std::optional<Promise> short_promise;
+  // Likewise of pixels of several samples that it sums at four places.
+  std::optional<Promise> few_promise;
+  bool surely_kept = false; // by every pixel, which is known before the frame
+  // Before the frame; nothing where theory knows no bound.
+  std::optional<double> claimed_m, claimed_amplitude;
+
+  bool is_reduced() const { return stand_ins.diodes.size() < all.diodes.size(); }
+};
+
+// Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
+inline constexpr double place_spread_m = 0.1;
+
+// Plans for the same frame, each more exact and dearer than the one before.
+inline constexpr std::uint32_t frame_plans = 3;
+
+// The `attempt`-th of them. Throws Error (accuracy) where none can promise what is asked for.
+FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
+
+} // namespace pmdsim

@@ -1,0 +1,393 @@
+#include "engine/error_budget/rounding_bound.h"
+
+#include "engine/light/path_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+// The sum is z = sum_m w_m exp(j phi_m). An error of each weight, w_m (1 + a_m), turns z by sum w_m a_m
+// sin(phi_m - arg z) / |z|, at most
+//   condition * a * min(kappa * spread, 1)       spread: of the paths, m
+// since arg z lies among the phi_m; an error of each path by b_m metres turns it by condition * kappa * b.
+// Half of the angle over kappa is distance. Below, a and b are counted operation by operation in units of u:
+// 2^-24 of float, 2^-45 of fp64 and of pairs of floats. Vulkan allows a division 2.5 units in the last place,
+// 5 u, and a square root, an inverse one inverted, 4.5.
+
+namespace pmdsim {
+namespace {
+
+constexpr double float_rounding = 0x1p-24, precise_rounding = 0x1p-45;
+constexpr double division = 5.0, root = 9.0;  // u
+constexpr double largest_exponent = 87.0;     // of e that float holds
+constexpr double pair_rounding = 0x1p-38;     // of ranges: pairs of floats, planes seen at 89 degrees
+constexpr double phasor = 10.0;               // u: a phase as a float, its cosine and sine, their product
+constexpr double angle = 6.0;                 // u: z as floats, its angle
+constexpr double amplitude_of_a_pixel = 24.0; // u: |z|, its scale, the output
+constexpr double block = shader::diodes_per_block;
+
+// How far apart things are, m.
+struct Lengths {
+  double range_m = 0.0;  // at most, of what is visible
+  double detour_m = 0.0; // at most, |rho - range| over all groups' reference points
+  double spread_m = 0.0; // at most, of the paths to all diodes and reference points
+  double sample_spread_m = 0.0;
+};
+
+double farthest_m(const VisibleBox &box) {
+  return glm::length(glm::max(glm::abs(box.low_m), glm::abs(box.high_m)));
+}
+
+double nearest_m(const VisibleBox &box) {
+  return glm::length(glm::clamp(glm::dvec3(0.0), box.low_m, box.high_m));
+}
+
+std::vector<glm::dvec3> lit_places(const DiodeGroups &groups) {
+  std::vector<glm::dvec3> places_m;
+  for (const DiodePlace &place : groups.places)
+    if (place.number != no_id)
+      places_m.push_back(place.position_m);
+  return places_m;
+}
+
+VisibleBox box_around(const std::vector<glm::dvec3> &places_m) {
+  VisibleBox box{places_m.front(), places_m.front()};
+  for (const glm::dvec3 &place_m : places_m)
+    box = {glm::min(box.low_m, place_m), glm::max(box.high_m, place_m)};
+  return box;
+}
+
+Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+                   const RoundingScope &scope) {
+  Lengths result;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const VisibleBox &box : visible) {
+    result.range_m = std::max(result.range_m, farthest_m(box));
+    nearest = std::min(nearest, nearest_m(box));
+  }
+  std::vector<glm::dvec3> references_m;
+  for (const DiodeRun &run : groups.runs)
+    references_m.push_back(run.reference_m);
+  result.detour_m = excess_of(glm::dvec3(0.0), references_m, visible).excess_m;
+  const std::vector<glm::dvec3> places_m = lit_places(groups);
+  const VisibleBox box = box_around(places_m);
+  const double about_middle_m = excess_of(0.5 * (box.low_m + box.high_m), places_m, visible).excess_m;
+  const double about_lens_m = excess_of(glm::dvec3(0.0), places_m, visible).excess_m;
+  const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
+  result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.excess_m;
+  if (scope.samples > 1)
+    result.sample_spread_m = scope.sample_spread_m.value_or(std::max(0.0, result.range_m - nearest));
+  return result;
+}
+
+// What is left of r^2 = rho^2 + q, u; t is the largest radius of a group over its range, so that r >= (1 - t)
+// rho. |q| <= 2 rho R + R^2, and six roundings are in its larger part, two in its smaller.
+double squared_range_error(double t) {
+  return 1.0 + (3.0 + 12.0 * t + 2.0 * t * t) / ((1.0 - t) * (1.0 - t));
+}
+
+// An inner product with a unit vector, `count` roundings of the length rho, as a cosine: over r.
+double cosine_error(double count, double t) { return count / (1.0 - t); }
+
+// Of the cosine to a diode's axis.
+double along_error(double t) { return cosine_error(6.0 + 2.0 * t, t); }
+
+// cos^n = exp(n / 2 log(1 - sin^2)), u.
+double real_power_error(double order, double t, double least_cosine) {
+  const double c = std::max(least_cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
+  const double s2 = std::min(0.5, 1.0 - c * c), r2 = squared_range_error(t);
+  const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
+  double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);
+  if (c * c < 0.5)
+    log_error = std::max(log_error, 2.0 * along_error(t) / c + r2 + 9.0);
+  const double exponent = -order * std::log(c);
+  return 0.5 * order * log_error + 14.0 * exponent + 6.0;
+}
+
+// Beyond beam_cosine a power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14
+// / (e cos): over the order, times the cosine.
+double rim_error(const SumModel &model, double t) {
+  return along_error(t) + (model.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
+}
+
+double pattern_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
+  const double t = groups.radius_over_range;
+  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
+  if (model.pattern == shader::pattern_isotropic)
+    return 0.0;
+  if (model.pattern == shader::pattern_power) {
+    const double cosine = along_error(t) / least_cosine;
+    return model.order * (cosine + 0.5 * squared_range_error(t) + root + division + 5.0);
+  }
+  double largest = 0.0;
+  for (const shader::GroupDiode &diode : groups.diodes)
+    largest = std::max(largest, static_cast<double>(diode.order));
+  return real_power_error(largest, t, least_cosine);
+}
+
+// What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and three in its
+// smaller; 1 / rho^2 is a product and a division of the rounded rho.
+constexpr double inverse_square = division + 3.0;
+double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
+
+// Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
+// as many sums.
+double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.power_sums.powers; }
+
+// a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
+// u)^(-p/2).
+double power_weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope,
+                          double inverse_powers) {
+  const double t = groups.radius_over_range;
+  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
+  double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division + 2.0) +
+                 groups.power_sums.growth * polynomial_error(groups) +
+                 0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
+  if (model.pattern == shader::pattern_power)
+    error += model.order * (along_error(t) / least_cosine + 1.0);
+  if (model.backscatter == shader::backscatter_lambert)
+    error += 2.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
+  return error;
+}
+
+// a of I J cos / r^2, u.
+double weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
+  const double t = groups.radius_over_range, r2 = squared_range_error(t);
+  if (groups.power_sums.powers > 0)
+    return power_weight_error(groups, model, scope, inverse_powers(model).value());
+  double error = r2 + division + 4.0 + pattern_error(groups, model, scope);
+  if (model.backscatter == shader::backscatter_lambert)
+    error += 0.5 * r2 + root + division + 6.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
+  return error;
+}
+
+// b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
+double excess_error_m(const DiodeGroups &groups) {
+  const double t = groups.radius_over_range;
+  if (groups.power_sums.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
+    return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
+           groups.excess_m *
+               (groups.power_sums.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
+  return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
+         groups.excess_m * (0.25 * squared_range_error(t) + 0.5 * root + division + 4.5);
+}
+
+// Of every term: its weight, relative, and its path.
+struct TermError {
+  double weight, path_m;
+
+  // `turning`: at most, |sin| of the angle between a term and the sum.
+  double angle_rad(double wavenumber_rad_m, double turning) const {
+    return weight * turning + wavenumber_rad_m * path_m;
+  }
+};
+
+class Bound {
+public:
+  Bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
+        const Signal &signal, const RoundingScope &scope)
+      : groups_(groups), model_(model), signal_(signal), scope_(scope),
+        lengths_(lengths_of(groups, visible, scope)),
+        u_(scope.precision == Precision::fp64 ? precise_rounding : float_rounding),
+        // One sample's backscatter is common to all its terms.
+        weight_(u_ * weight_error(groups, model, scope) +
+                (scope.samples > 1 ? scope.backscatter_error : 0.0)) {}
+
+  RoundingBound of(double frequency_hz) const {
+    const double wavenumber_rad_m = 2.0 * std::numbers::pi * frequency_hz / speed_of_light_m_s;
+    return signal_.waveform == shader::waveform_square ? of_square(wavenumber_rad_m)
+                                                       : of_tones(wavenumber_rad_m);
+  }
+
+private:
+  // Sums of nonnegative terms: within blocks, then of blocks, then of their stretches (in fp64 one after the
+  // other), then of runs and samples, where only a rest is rounded.
+  double summation() const {
+    const double blocks = groups_.blocks_per_run;
+    const double stretch = std::min(blocks, static_cast<double>(shader::blocks_per_stretch));
+    const double of_run = scope_.precision == Precision::fp64
+                              ? block * blocks
+                              : block + stretch + std::ceil(blocks / stretch) - 1.0;
+    const double samples = scope_.samples;
+    return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
+  }
+
+  // Phases that differ by more than the paths': as bad as any.
+  double spread_m() const {
+    const auto other = [&](const DiodeRun &run) { return run.phase_turns != groups_.runs[0].phase_turns; };
+    return std::ranges::any_of(groups_.runs, other) ? std::numeric_limits<double>::infinity()
+                                                    : lengths_.spread_m + 2.0 * lengths_.sample_spread_m;
+  }
+
+  // z's own angle, over kappa: relative to twice a range for a sine without a phase.
+  double relative_m() const {
+    return signal_.waveform != shader::waveform_sine || groups_.phased
+               ? std::numeric_limits<double>::infinity()
+               : lengths_.detour_m + groups_.excess_m + 2.0 * lengths_.sample_spread_m;
+  }
+
+  // By moments: e^k adds k - 1 products, so that errors of e, and with Horner's rule of each power (11 u),
+  // grow as the exponential's derivative does.
+  TermError of_tone(double wavenumber_rad_m) const {
+    const double phase_rad = wavenumber_rad_m * groups_.excess_m, growth = std::exp(phase_rad);
+    double left_out = 1.0;
+    for (std::uint32_t k = 1; k <= groups_.moments; ++k)
+      left_out *= phase_rad / k;
+    const PowerSums &powers = groups_.power_sums;
+    TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
+    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
+                   growth * (summation() * powers.growth * groups_.excess_m + left_out / wavenumber_rad_m) +
+                   powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
+    const double turned_m = lengths_.detour_m + groups_.excess_m;
+    error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
+    if (scope_.samples > 1) // turned again, to the pixel's first
+      error.path_m +=
+          phasor * u_ * std::min(turned_m + 2.0 * lengths_.sample_spread_m, 1.0 / wavenumber_rad_m);
+    return error;
+  }
+
+  // What the camera takes from the sum.
+  RoundingBound fixed(double wavenumber_rad_m) const {
+    const double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
+    const double distance_m =
+        groups_.phased ? ambiguity_m
+                       : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.excess_m);
+    RoundingBound bound{};
+    bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
+                    0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
+    bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
+    if (scope_.rims_are_terms)
+      bound.rim_error = u_ * rim_error(model_, groups_.radius_over_range);
+    return bound;
+  }
+
+  // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
+  // fundamental's have phases of their own.
+  RoundingBound of_tones(double wavenumber_rad_m) const {
+    const double rotation = signal_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const TermError fundamental = of_tone(wavenumber_rad_m);
+    double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
+    double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;
+    double amplitude = fundamental.angle_rad(wavenumber_rad_m, 1.0) + rotation;
+    for (std::uint32_t h = 2; h <= signal_.tones; ++h) {
+      if (h % signal_.taps != 1 && h % signal_.taps != signal_.taps - 1)
+        continue;
+      const TermError alias = of_tone(h * wavenumber_rad_m);
+      const double any_rad = alias.angle_rad(h * wavenumber_rad_m, 1.0) + rotation;
+      turning = 1.0;
+      angle_rad = std::max(angle_rad, any_rad);
+      amplitude = std::max(amplitude, any_rad);
+    }
+    RoundingBound bound = fixed(wavenumber_rad_m);
+    bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
+    bound.amplitude_per_condition = amplitude;
+    bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.amplitude_per_weight = 1.0;
+    return bound;
+  }
+
+  // A tap sums 4 w ||x| - 1/2| - w, x in turns, |x| <= 1; z is 2 / N times the sum of N taps.
+  RoundingBound of_square(double wavenumber_rad_m) const {
+    RoundingBound bound = fixed(wavenumber_rad_m);
+    const double place_turns = float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
+                                                    (excess_error_m(groups_) + 2.0 * groups_.excess_m);
+    const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
+    const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
+    // The wave's corners turn z at most twice as fast as the path's phase.
+    const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
+    bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
+    bound.amplitude_per_condition = z + 2.0 * weight_;
+    bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.amplitude_per_weight = 2.0;
+    return bound;
+  }
+
+  const DiodeGroups &groups_;
+  const SumModel &model_;
+  const Signal &signal_;
+  const RoundingScope &scope_;
+  Lengths lengths_;
+  double u_;
+  double weight_; // relative error of each
+};
+
+// Of all that lies in `box`, seen from diodes within `from`: the cosine to `axis`, at least.
+double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const VisibleBox &box) {
+  const glm::dvec3 low_m = box.low_m - from.high_m, high_m = box.high_m - from.low_m;
+  const glm::dvec3 along_m = glm::min(axis * low_m, axis * high_m);
+  const double height_m = along_m.x + along_m.y + along_m.z;
+  return height_m / glm::length(glm::max(glm::abs(low_m), glm::abs(high_m)));
+}
+
+// Some `most` boxes that hold all of `boxes`.
+std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t most) {
+  const std::size_t each = (boxes.size() + most - 1) / most;
+  std::vector<VisibleBox> result;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (i % each == 0)
+      result.push_back(boxes[i]);
+    else
+      result.back() = {glm::min(result.back().low_m, boxes[i].low_m),
+                       glm::max(result.back().high_m, boxes[i].high_m)};
+  return result;
+}
+
+} // namespace
+
+std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+                                            const SumModel &model, const Signal &signal,
+                                            const RoundingScope &scope) {
+  if (!std::ranges::all_of(groups.places,
+                           [](const DiodePlace &place) { return std::isfinite(place.diagram_error); }))
+    return std::nullopt;
+  const Bound bound(groups, visible, model, signal, scope);
+  RoundingBound largest{};
+  for (const double frequency_hz : signal.modulation_hz) {
+    const RoundingBound of_frequency = bound.of(frequency_hz);
+    largest.fixed_m = std::max(largest.fixed_m, of_frequency.fixed_m);
+    largest.per_condition_m = std::max(largest.per_condition_m, of_frequency.per_condition_m);
+    largest.amplitude_fixed = std::max(largest.amplitude_fixed, of_frequency.amplitude_fixed);
+    largest.amplitude_per_condition =
+        std::max(largest.amplitude_per_condition, of_frequency.amplitude_per_condition);
+    largest.per_weight_m = std::max(largest.per_weight_m, of_frequency.per_weight_m);
+    largest.amplitude_per_weight = std::max(largest.amplitude_per_weight, of_frequency.amplitude_per_weight);
+    largest.rim_error = of_frequency.rim_error;
+  }
+  return largest;
+}
+
+double least_emission_cosine(const DiodeGroups &groups, const std::vector<VisibleBox> &visible) {
+  constexpr std::size_t most_boxes = 64;
+  const std::vector<VisibleBox> boxes = merged(visible, most_boxes);
+  double least = 1.0;
+  for (std::size_t i = 0; i < groups.diodes.size() && least > grazing_cosine; ++i) {
+    const glm::dvec3 &place_m = groups.places[i].position_m;
+    if (groups.places[i].number == no_id || groups.diodes[i].order < 0.0f)
+      continue;
+    for (const VisibleBox &box : boxes)
+      least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));
+  }
+  return std::max(least, grazing_cosine);
+}
+
+double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
+                              const std::vector<VisibleBox> &visible) {
+  const VisibleBox diodes = box_around(lit_places(groups));
+  double farthest = 0.0;
+  for (const VisibleBox &box : visible)
+    farthest = std::max(farthest, farthest_m(box));
+  farthest += farthest_m(diodes);
+  double least = 1.0;
+  for (std::size_t i = 0; i < camera.triangles.size() && least > grazing_cosine; ++i) {
+    const Plane &plane = camera.planes[i];
+    const glm::dvec3 along_m = glm::min(plane.normal * diodes.low_m, plane.normal * diodes.high_m);
+    double range_m = 0.0; // of its corners from the diodes, at most
+    for (const glm::dvec3 &corner_m : camera.triangles[i].corners_m)
+      range_m = std::max(range_m, farthest_m({diodes.low_m - corner_m, diodes.high_m - corner_m}));
+    least =
+        std::min(least, (along_m.x + along_m.y + along_m.z - plane.offset_m) / std::min(range_m, farthest));
+  }
+  return std::max(least, grazing_cosine);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,64 @@
+#pragma once
+// What rounding may do to a frame, from theory: known before the frame, from the light and from boxes around
+// what is visible.
+
+#include "engine/light/accumulate_pass.h"
+#include "engine/model/accuracy.h"
+#include "engine/view/camera_scene.h"
+
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// Of any pixel, against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms| over
+// |sum|, >= 1; for harmonics the terms are those of all harmonics, each times its amplitude.
+struct RoundingBound {
+  double fixed_m, per_condition_m;
+  double amplitude_fixed, amplitude_per_condition;
+  // Included above: what a relative error of every weight does, over that error.
+  double per_weight_m, amplitude_per_weight;
+  // Not included where RoundingScope::rims_are_terms: the relative error of J, times the cosine to the
+  // diode's axis and over the order.
+  double rim_error;
+
+  double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
+  double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
+};
+
+inline constexpr double grazing_cosine = 0.01;
+inline constexpr double beam_cosine = std::numbers::sqrt2 / 2.0; // beside it a beam's rim begins
+
+// The pixels that the bound is for, and how they are summed.
+struct RoundingScope {
+  Precision precision = Precision::fp32; // the groups', too
+  std::uint32_t samples = 1;             // S
+  // How much the ranges of a pixel's samples may differ; nothing: as much as the boxes allow. Not asked for
+  // with one sample.
+  std::optional<double> sample_spread_m = std::nullopt;
+  // How far apart a pixel's samples are across the view, over their range; likewise.
+  double pixel_rad = std::numeric_limits<double>::infinity();
+  // Every diode that lights the pixel does so at these cosines at least: to the surface's normal, which
+  // matters to Lambert's law, and to its own axis.
+  double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
+  // What is more than 45 degrees off a diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
+  bool rims_are_terms = false;
+  // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
+  double backscatter_error = 0x1p-24;
+};
+
+// Nothing where a measured diagram is infinitely steep; else what is off in diagrams is in the pixel's terms
+// (shaders/light/sum.glsl), as grazing light is where the scope's cosine is 1.
+std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+                                            const SumModel &model, const Signal &signal,
+                                            const RoundingScope &scope);
+
+// For RoundingScope: bounds from below over all that is visible, at least grazing_cosine; where that is more
+// than is true, pixels in grazing light have no bound.
+double least_emission_cosine(const DiodeGroups &groups, const std::vector<VisibleBox> &visible);
+double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
+                              const std::vector<VisibleBox> &visible);
+
+} // namespace pmdsim

@@ -1,0 +1,115 @@
+#include "engine/frame/spot_check.h"
+
+#include "engine/sampling/raster_blocks.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::uint32_t checked_pixels = 1024;
+
+// Of a frame, row by row; each once, as two invocations must not work on the same sample.
+std::set<std::uint32_t> choose_pixels(std::uint64_t count) {
+  std::mt19937_64 random(1); // whose numbers the standard fixes
+  std::set<std::uint32_t> pixels;
+  while (pixels.size() < std::min<std::uint64_t>(count, checked_pixels))
+    pixels.insert(static_cast<std::uint32_t>(random() % count));
+  return pixels;
+}
+
+std::vector<std::vector<std::uint32_t>> by_strip(const std::set<std::uint32_t> &pixels,
+                                                 const std::vector<PlannedStrip> &strips) {
+  std::vector<std::vector<std::uint32_t>> result(strips.size());
+  for (const std::uint32_t pixel : pixels)
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const shader::Strip &strip = strips[i].strip;
+      const std::uint32_t column = pixel % strip.resolution_x - strip.column;
+      const std::uint32_t row = pixel / strip.resolution_x - strip.row; // wraps where it is before the strip
+      if (column < strip.columns && row < strip.rows)
+        result[i].push_back(row * strip.columns + column);
+    }
+  return result;
+}
+
+float channel_value(const StripBuffers &buffers, const shader::Strip &strip, std::uint32_t channel,
+                    std::uint32_t pixel) {
+  const shader::uvec2 pair = pair_for_host(buffers, strip, channel / 2 * 2)[pixel];
+  return std::bit_cast<float>(channel % 2 == 0 ? pair.x : pair.y);
+}
+
+// 0 where neither is known, infinite where only one is.
+double difference(float found, float exact) {
+  if (std::isnan(found) || std::isnan(exact))
+    return std::isnan(found) && std::isnan(exact) ? 0.0 : std::numeric_limits<double>::infinity();
+  return std::abs(static_cast<double>(found) - static_cast<double>(exact));
+}
+
+double relative_difference(float found, float exact) {
+  const double apart = difference(found, exact);
+  return apart == 0.0 ? 0.0 : apart / std::abs(static_cast<double>(exact));
+}
+
+double wrapped(double difference_m, double ambiguity_m) {
+  return std::isfinite(difference_m) ? std::abs(std::remainder(difference_m, ambiguity_m)) : difference_m;
+}
+
+} // namespace
+
+ExactCheck::ExactCheck(const vulkan::Device &device, const Sensor &sensor,
+                       const std::vector<PlannedStrip> &strips, const Signal &signal, const SumModel &model,
+                       DiodeGroups groups, const SimulatorOptions &options, const Scope &scope)
+    : signal_(signal), pixels_(std::min<std::uint64_t>(sensor.pixel_count(), checked_pixels)),
+      of_strip_(by_strip(choose_pixels(sensor.pixel_count()), strips)), groups_(std::move(groups)),
+      list_(make_pixel_list(device, checked_pixels)),
+      sum_(device, groups_, model, signal, options, {signal.lit, true, scope.precision}),
+      resolve_(device, signal, groups_, options, {is_tiled(sensor), true, scope.precision, {}}) {
+  if (scope.makes_points)
+    points_.emplace(device, sensor, model.surface_vectors(scope.precision), scope.painted, options.precision,
+                    true);
+}
+
+void ExactCheck::record_points(const vk::raii::CommandBuffer &commands, std::size_t strip,
+                               const PlannedStrip &planned, const StripBuffers &buffers,
+                               const SceneBuffers &scene) const {
+  const std::uint32_t side = planned.strip.samples;
+  record_fill(commands, list_, of_strip_[strip], side * side);
+  if (points_)
+    points_->record(commands, planned.strip, buffers, scene, &list_);
+}
+
+void ExactCheck::record_channels(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                 const StripBuffers &buffers, const SceneBuffers &scene) const {
+  resolve_.record(commands, planned.strip, buffers, scene, &list_);
+}
+
+void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
+                         const Measurement &measured, AccuracyReport &report) const {
+  const shader::Strip &of = planned.strip;
+  double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
+  for (const std::uint32_t pixel : of_strip_[strip])
+    for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
+      const std::size_t at =
+          std::size_t{of.row + pixel / of.columns} * of.resolution_x + of.column + pixel % of.columns;
+      const auto exact = [&](std::uint32_t channel) {
+        return channel_value(buffers, of, signal_.first_channel(f) + channel, pixel);
+      };
+      const double ambiguity_m = speed_of_light_m_s / (2.0 * signal_.modulation_hz[f]);
+      const Return &found = measured.returns[f];
+      distance_m =
+          std::max(distance_m,
+                   wrapped(difference(found.distance_m[at], exact(shader::channel_distance_m)), ambiguity_m));
+      amplitude =
+          std::max(amplitude, relative_difference(found.amplitude[at], exact(shader::channel_amplitude)));
+    }
+  report.found_m = distance_m;
+  report.found_amplitude = amplitude;
+  report.checked_pixels += of_strip_[strip].size();
+}
+
+} // namespace pmdsim

@@ -1,0 +1,98 @@
+#pragma once
+// The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
+// moments, which serve every tone at once, or diode by diode for one frequency at a time.
+
+#include "engine/error_budget/promise.h"
+#include "engine/light/source_windows.h"
+#include "engine/light/tones.h"
+#include "engine/model/accuracy.h"
+#include "engine/model/scene.h"
+#include "engine/model/simulator_options.h"
+#include "engine/sampling/chip_grid.h"
+#include "engine/sampling/pixel_lists.h"
+#include "engine/sampling/strip_memory.h"
+#include "engine/view/scene_buffers.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+#include <optional>
+
+namespace pmdsim {
+
+// What the sum has to model; what a setup does not need is compiled out.
+struct SumModel {
+  std::uint32_t backscatter; // shader::backscatter_*
+  std::uint32_t pattern;     // shader::pattern_*
+  std::uint32_t order;       // of shader::pattern_power
+
+  // Of normals and heights a sample: none, one, or, to double precision, two.
+  std::uint32_t surface_vectors(Precision precision) const {
+    return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
+  }
+};
+
+// The powers of 1 / r in a diode's weight; nothing where it is no product of such a power and of lengths.
+std::optional<std::uint32_t> inverse_powers(const SumModel &model);
+
+// Has the moments of `groups` summed by powers where the model allows and it is worth it
+// (moment_polynomials.h).
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m);
+
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light);
+
+// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
+Precision sum_precision(const Signal &signal, Precision wanted);
+
+class AccumulatePass {
+public:
+  // `shadowed`: not every diode reaches every sample; `listed`: only of lists of pixels; `precision` is the
+  // one of the groups and of the surfaces' vectors; `promise`: what the sum's error is to be held against.
+  struct Scope {
+    bool shadowed = false, listed = false;
+    Precision precision = Precision::fp32;
+    std::optional<Promise> promise{};
+    std::optional<ChipGrid> plain{}; // where the samples' records are all that is known of them
+  };
+  AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
+                 const Signal &signal, const SimulatorOptions &options, const Scope &scope);
+
+  std::uint32_t runs() const { return static_cast<std::uint32_t>(runs_.size()); }
+  // Interactions (samples times diodes, padding included) of one run over `strip`.
+  std::uint64_t interactions_per_run(const shader::Strip &strip) const;
+  // Adds the runs first ... last - 1 of the window to the strip's sums.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window,
+              std::uint32_t first, std::uint32_t last, const vulkan::Buffer *list = nullptr) const;
+
+private:
+  void record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, const SceneBuffers &scene, std::uint32_t run) const;
+
+  std::optional<ChipGrid> plain_;
+  std::vector<DiodeRun> runs_;
+  vulkan::Buffer light_runs_; // shader::LightRun of each
+  std::uint32_t blocks_per_run_;
+  std::uint32_t bundles_per_run_;
+  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;     // of the sum, of each frequency
+  vulkan::Buffer tones_;
+  vulkan::Buffer diodes_;
+  vk::DeviceSize diode_bytes_; // of each
+  vulkan::Buffer diagrams_;
+  vulkan::ComputePipeline first_; // the first of a frame's runs; on the plain way all
+  vulkan::ComputePipeline later_; // all the others; empty where there are none
+};
+
+// What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
+// promise's bound counts as light.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise);
+
+// Of the moments' forms and what they share with other sums: specialization constants, and the diodes and
+// tones that they read.
+vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Scope &scope, bool first);
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
+                             const AccumulatePass::Scope &scope);
+vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal);
+
+} // namespace pmdsim

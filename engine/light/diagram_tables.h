@@ -1,0 +1,47 @@
+#pragma once
+// Measured diagrams as the accumulate pass reads them: on even grids, all in one table.
+
+#include "engine/model/illuminator.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace pmdsim {
+
+// A diagram's part of the table; J is 0 below the first theta and beyond the last. Where it is the same for
+// all phi: J on an even grid of theta, linear between. Else three parts, one behind the other: on an even
+// grid of theta which of the diagram's own angles (a fraction between two) it is, likewise of phi, and J at
+// its own angles, a row of thetas for each phi, the first two again at the end.
+struct DiagramGrid {
+  std::uint32_t first_value = 0; // index into the table
+  double first_theta_rad = 0.0;
+  double theta_steps_per_rad = 0.0;
+  std::uint32_t theta_steps = 0; // one more value than these
+  double first_phi_rad = 0.0;
+  std::uint32_t phi_steps = 0;  // that a turn has
+  std::uint32_t row_length = 0; // angles to the axis; 0: the same for all phi
+  double error = 0.0; // of J, at most, as the even grid and rounding make it; infinite where J is a step
+};
+
+class DiagramTables {
+public:
+  // The same grid for the same diagram.
+  DiagramGrid grid_of(const std::shared_ptr<const Diagram> &diagram);
+
+  // Each value with the next one.
+  const std::vector<glm::vec2> &values() const { return values_; }
+
+private:
+  // `theta_place`: which of the diagram's angles a step of theta is.
+  void append_both(const Diagram &diagram, const std::function<double(std::uint32_t)> &theta_place,
+                   DiagramGrid &grid);
+
+  std::map<std::shared_ptr<const Diagram>, DiagramGrid> grids_;
+  std::vector<glm::vec2> values_;
+};
+
+} // namespace pmdsim

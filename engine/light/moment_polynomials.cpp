@@ -1,0 +1,178 @@
+#include "engine/light/moment_polynomials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::uint32_t most_powers = shader::largest_powers;
+constexpr std::uint32_t probes =
+    97; // where errors are looked for; between the zeros of any of the polynomials
+
+// Of the cosines that a weight's factors are, the least that matters (shaders/light/sum.glsl: where beams
+// end).
+constexpr double least_cosine = 1e-4;
+constexpr double smallest_float = 1e-30,
+                 largest_float = 1e36; // what is much smaller than others does not count
+
+// Of u.
+struct Interval {
+  double low, high;
+
+  double at(double t) const { return 0.5 * (low + high) + 0.5 * (high - low) * t; } // t from -1 to 1
+};
+
+// A hair wider, as the shader's q is rounded; a single point where all diodes stand in the reference's place.
+Interval interval_of(const Excess &reach) {
+  const double rounding = 1e-6 * std::max(reach.most_stretch, -reach.least_stretch);
+  return {reach.least_stretch - rounding, reach.most_stretch + rounding};
+}
+
+double moment_factor(double u, std::uint32_t inverse_powers, std::uint32_t k) {
+  return std::pow(1.0 + u, -0.5 * inverse_powers) * std::pow(std::sqrt(1.0 + u) - 1.0, k);
+}
+
+using Coefficients = std::array<double, most_powers>; // of 1, u, u^2, ...
+
+double value(const Coefficients &a, double u) {
+  double sum = 0.0;
+  for (std::size_t i = a.size(); i-- > 0;)
+    sum = sum * u + a[i];
+  return sum;
+}
+
+// Newton's divided differences, multiplied out; the coefficients as the shader has them, rounded to float.
+Coefficients interpolate(const Interval &interval, std::uint32_t inverse_powers, std::uint32_t k,
+                         std::uint32_t powers) {
+  std::array<double, most_powers> nodes{}, differences{};
+  for (std::uint32_t j = 0; j < powers; ++j) {
+    nodes[j] = interval.at(std::cos(std::numbers::pi * (j + 0.5) / powers));
+    differences[j] = moment_factor(nodes[j], inverse_powers, k);
+  }
+  for (std::uint32_t order = 1; order < powers; ++order)
+    for (std::uint32_t j = powers - 1; j >= order; --j)
+      differences[j] = (differences[j] - differences[j - 1]) / (nodes[j] - nodes[j - order]);
+  Coefficients a{};
+  for (std::uint32_t j = powers; j-- > 0;) { // a = a (u - node) + difference
+    for (std::uint32_t i = powers - 1; i > 0; --i)
+      a[i] = a[i - 1] - nodes[j] * a[i];
+    a[0] = differences[j] - nodes[j] * a[0];
+  }
+  for (double &coefficient : a)
+    coefficient = static_cast<double>(static_cast<float>(coefficient));
+  return a;
+}
+
+// Of one moment, at most, over the interval, relative to the weight.
+struct Fit {
+  double error = 0.0; // of the polynomial
+  double terms = 0.0; // sum_i |a_i u^i|
+};
+
+// At least `so_far`; what is no number is as bad as can be.
+void raise(double &so_far, double value) {
+  if (!(value <= so_far))
+    so_far = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
+Fit judge(const Coefficients &a, const Interval &interval, std::uint32_t inverse_powers, std::uint32_t k) {
+  Coefficients sizes{};
+  std::ranges::transform(a, sizes.begin(), [](double coefficient) { return std::abs(coefficient); });
+  Fit fit;
+  for (std::uint32_t i = 0; i < probes; ++i) {
+    const double u = interval.at(std::cos(std::numbers::pi * i / (probes - 1)));
+    const double weight = moment_factor(u, inverse_powers, 0);
+    raise(fit.error, std::abs(value(a, u) - moment_factor(u, inverse_powers, k)) / weight);
+    raise(fit.terms, value(sizes, std::abs(u)) / weight);
+  }
+  return fit;
+}
+
+// A run's polynomials, judged.
+struct Run {
+  PowerSums::Table table{};
+  double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
+};
+
+Run make_run(const Excess &reach, std::uint32_t inverse_powers, std::uint32_t moments, std::uint32_t powers,
+             double wavenumber_rad_m) {
+  Run run;
+  const Interval interval = interval_of(reach);
+  const double largest = std::max(std::sqrt(1.0 + interval.high) - 1.0, 1.0 - std::sqrt(1.0 + interval.low));
+  double phase_power = 1.0, largest_power = 1.0; // (kappa rho)^k / k!, and of e / rho
+  for (std::uint32_t k = 0; k < moments; ++k) {
+    const Coefficients a = interpolate(interval, inverse_powers, k, powers);
+    for (std::uint32_t i = 0; i < powers; ++i)
+      run.table[shader::largest_powers / 4 * k + i / 4][static_cast<int>(i % 4)] = static_cast<float>(a[i]);
+    const Fit fit = judge(a, interval, inverse_powers, k);
+    if (fit.terms > 0.0)
+      raise(run.growth, fit.terms / largest_power);
+    (k == 0 ? run.weight_error : run.angle_error_rad) += phase_power * fit.error;
+    phase_power *= wavenumber_rad_m * reach.farthest_m / (k + 1);
+    largest_power *= largest;
+  }
+  return run;
+}
+
+// As good as float32's own rounding, and where a wavelength is long no more than 2^-18 of e.
+bool is_exact_enough(const Run &run, double phase_rad) {
+  return run.weight_error <= 0x1p-23 && run.angle_error_rad <= std::min(0x1p-24, 0x1p-18 * phase_rad);
+}
+
+// With the fewest powers that are exact enough.
+std::optional<std::pair<std::uint32_t, Run>> shortest_run(const Excess &reach, std::uint32_t inverse_powers,
+                                                          std::uint32_t moments, double wavenumber_rad_m) {
+  if (!std::isfinite(reach.most_stretch))
+    return std::nullopt;
+  for (std::uint32_t powers = 1; powers <= most_powers; ++powers) {
+    const Run run = make_run(reach, inverse_powers, moments, powers, wavenumber_rad_m);
+    if (is_exact_enough(run, wavenumber_rad_m * reach.excess_m))
+      return std::pair(powers, run);
+  }
+  return std::nullopt;
+}
+
+// W is a product of an intensity and lengths, each a range times a cosine; q = u rho^2.
+bool fits_floats(const Excess &reach, std::uint32_t lengths, std::uint32_t powers, double least_intensity) {
+  const double near_m = std::min(1.0, reach.range_m - reach.radius_m);
+  const double far_m = std::max(1.0, reach.farthest_m + reach.radius_m);
+  const double of_q = std::max(2.0 * (powers - 1.0), 2.0);
+  return least_intensity * std::pow(near_m * least_cosine, lengths) * std::pow(near_m, of_q) >
+             smallest_float &&
+         std::pow(far_m, lengths + of_q) < largest_float;
+}
+
+} // namespace
+
+PowerSums power_sums(std::span<const Excess> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
+                     double wavenumber_rad_m, double least_intensity) {
+  if (moments > shader::largest_moments)
+    return {};
+  PowerSums sums;
+  for (const Excess &reach : reaches) {
+    if (!sums.tables.empty() && reach == reaches[sums.tables.size() - 1]) {
+      sums.tables.push_back(sums.tables.back());
+      continue;
+    }
+    const auto shortest = shortest_run(reach, inverse_powers, moments, wavenumber_rad_m);
+    if (!shortest)
+      return {};
+    const auto &[powers, run] = *shortest;
+    sums.powers = std::max(sums.powers, powers);
+    sums.tables.push_back(run.table);
+    sums.weight_error = std::max(sums.weight_error, run.weight_error);
+    sums.angle_error_rad = std::max(sums.angle_error_rad, run.angle_error_rad);
+    sums.growth = std::max(sums.growth, run.growth);
+  }
+  const bool fits = std::ranges::all_of(reaches, [&](const Excess &reach) {
+    return fits_floats(reach, inverse_powers - 2, sums.powers, least_intensity);
+  });
+  return fits ? sums : PowerSums{};
+}
+
+} // namespace pmdsim

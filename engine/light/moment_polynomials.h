@@ -1,0 +1,43 @@
+#pragma once
+// Moments without roots: over all that is visible the weights and the excess of a group's diodes are smooth
+// functions of u = q / rho^2, q = r_nm^2 - rho^2 = |I|^2 - 2 P.I, so that polynomials in u stand for them.
+// The loop over the diodes sums powers of q, and the moments follow from these sums once a sample.
+//
+// With p the powers of 1 / r_nm in a weight w = W r_nm^-p and e = r_nm - rho,
+//   sum w e^k = rho^(k - p) sum_i a_ki S_i / rho^(2 i),   S_i = sum W q^i,
+// a_ki the coefficients of the polynomial that interpolates (1 + u)^(-p/2) (sqrt(1 + u) - 1)^k at Chebyshev's
+// points.
+
+#include "engine/light/path_difference.h"
+#include "shaders/shared/interface.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+struct PowerSums {
+  // LightRun::moments_of_powers.
+  using Table = std::array<glm::vec4, std::size_t{shader::largest_moments} * shader::largest_powers / 4>;
+
+  std::uint32_t powers = 0;  // S_0 ... S_(powers - 1) are summed; 0: e and its powers, as they are
+  std::vector<Table> tables; // beside the runs
+  bool planar = false;       // the diodes of each run lie in its reference point's plane across the view
+  // Where no shadow falls, the diodes' weights differ by their distances only; those that pad a run have
+  // none.
+  bool alike = false;
+  // At most, of any run. What the polynomials are off by, of the sum of the weights: by itself, and as an
+  // angle at the highest frequency; and what rounding grows by, as the terms of a moment's sum over i, all
+  // taken as positive, may come to more than the weights times the largest |e|^k.
+  double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
+};
+
+// `reaches` are the runs'; `moments` and wavenumber_rad_m as in DiodeGroups, `least_intensity` that of a
+// diode that shines, relative. None where the polynomials would be longer than is worth it, or where W could
+// leave float's range.
+PowerSums power_sums(std::span<const Excess> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
+                     double wavenumber_rad_m, double least_intensity);
+
+} // namespace pmdsim

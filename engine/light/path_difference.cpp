@@ -1,0 +1,87 @@
+#include "engine/light/path_difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pmdsim {
+namespace {
+
+// How far diodes reach from a reference point, along each axis and across it.
+struct Reach {
+  glm::dvec3 along_m{0.0};
+  glm::dvec3 across_m{0.0};
+
+  void add(const glm::dvec3 &p) {
+    along_m = glm::max(along_m, glm::abs(p));
+    across_m =
+        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
+  }
+};
+
+// A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
+// Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
+// exact.)
+double largest_product(const glm::dvec3 &p, const Reach &reach) {
+  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
+  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
+  return std::min({bounds.x, bounds.y, bounds.z});
+}
+
+// A bound of |I|^2 - 2 P.I from below, likewise: of the part along an axis and the part across it, each at
+// its worst.
+double least_difference_m2(const glm::dvec3 &p, const Reach &reach) {
+  const auto part = [](double place_m, double reach_m) { // i^2 - 2 p i for i up to reach_m
+    const double worst_m = std::min(place_m, reach_m);
+    return worst_m * (worst_m - 2.0 * place_m);
+  };
+  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
+  double best = -std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    best = std::max(best, part(p[axis], reach.along_m[axis]) + part(across[axis], reach.across_m[axis]));
+  return best;
+}
+
+// |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
+// across the view (`product_m2` bounds |P.I|); it is never more than |I|.
+double excess_at_most_m(double radius_m, double product_m2, double rho_m) {
+  const double q_m2 = radius_m * radius_m + 2.0 * product_m2;
+  const double sum_m = rho_m + std::max(0.0, rho_m - radius_m);
+  return sum_m > 0.0 ? std::min(radius_m, q_m2 / sum_m) : radius_m;
+}
+
+// q / rho^2; r is between rho - |I| and rho + |I|.
+void widen_stretch(double radius_m, double least_m2, double product_m2, double rho_m, Excess &result) {
+  const double rho2 = rho_m * rho_m, t = radius_m / rho_m;
+  if (!(t < 1.0)) {
+    result.most_stretch = std::numeric_limits<double>::infinity();
+    return;
+  }
+  result.least_stretch = std::min(result.least_stretch, std::max(least_m2 / rho2, -t * (2.0 - t)));
+  result.most_stretch =
+      std::max(result.most_stretch, std::min((radius_m * radius_m + 2.0 * product_m2) / rho2, t * (2.0 + t)));
+}
+
+} // namespace
+
+Excess excess_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
+                 const std::vector<VisibleBox> &visible) {
+  Excess result;
+  Reach reach;
+  for (const glm::dvec3 &diode_m : diodes_m) {
+    result.radius_m = std::max(result.radius_m, glm::distance(reference_m, diode_m));
+    reach.add(diode_m - reference_m);
+  }
+  for (const VisibleBox &seen : visible) {
+    const double rho_m = glm::distance(reference_m, glm::clamp(reference_m, seen.low_m, seen.high_m));
+    const glm::dvec3 farthest_m =
+        glm::max(glm::abs(seen.low_m - reference_m), glm::abs(seen.high_m - reference_m));
+    const double product_m2 = largest_product(farthest_m, reach);
+    result.range_m = std::min(result.range_m, rho_m);
+    result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
+    result.excess_m = std::max(result.excess_m, excess_at_most_m(result.radius_m, product_m2, rho_m));
+    widen_stretch(result.radius_m, least_difference_m2(farthest_m, reach), product_m2, rho_m, result);
+  }
+  return result;
+}
+
+} // namespace pmdsim

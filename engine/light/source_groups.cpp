@@ -1,0 +1,278 @@
+#include "engine/light/source_groups.h"
+
+#include "engine/light/diagram_tables.h"
+#include "engine/light/path_difference.h"
+#include "engine/model/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace pmdsim {
+namespace {
+
+constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
+constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
+// A straight line in fp64 takes several times as long to compile as one in float.
+constexpr std::uint32_t largest_precise_run_blocks = 4;
+// What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
+constexpr std::uint64_t run_overhead_blocks = 4;
+// Of the strongest diode's intensity: what is weaker would leave float's range on its way over distances.
+constexpr double weakest_intensity = 1e-25;
+
+struct NumberedDiode : Diode {
+  std::uint32_t number; // among those of all illuminators
+};
+
+struct Box {
+  glm::dvec3 low_m, high_m;
+};
+
+Box box_of(std::span<const NumberedDiode> diodes) {
+  Box box{diodes.front().position_m, diodes.front().position_m};
+  for (const Diode &diode : diodes) {
+    box.low_m = glm::min(box.low_m, diode.position_m);
+    box.high_m = glm::max(box.high_m, diode.position_m);
+  }
+  return box;
+}
+
+struct Group {
+  std::span<NumberedDiode> diodes;
+  double phase_turns; // the illuminator's
+  glm::dvec3 reference_m;
+  Excess reach; // of its diodes
+};
+
+Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
+  const Box box = box_of(diodes);
+  // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
+  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
+  std::vector<glm::dvec3> places_m;
+  for (const Diode &diode : diodes)
+    places_m.push_back(diode.position_m);
+  group.reach = excess_of(group.reference_m, places_m, visible);
+  return group;
+}
+
+// Of GroupDiode::order.
+constexpr float isotropic_order = -1.0f, diagram_order = -2.0f;
+
+shader::GroupDiode dark_diode() {
+  shader::GroupDiode diode{};
+  diode.axis = {0, 0, 1, 0};
+  diode.order = isotropic_order;
+  return diode;
+}
+
+void set_diagram(const Diode &diode, const DiagramGrid &grid, shader::GroupDiode &record) {
+  // Turned so that phi counts from the grid's first.
+  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
+                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
+  record.order = diagram_order;
+  record.diagram = grid.first_value;
+  record.theta_steps = static_cast<float>(grid.theta_steps);
+  record.first_theta = static_cast<float>(grid.first_theta_rad);
+  record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
+  record.row_length = grid.row_length;
+  record.across = glm::vec4(across, grid.phi_steps);
+}
+
+shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
+                               double largest_intensity_w_sr, DiagramTables &diagrams) {
+  const glm::dvec3 position_m = diode.position_m - reference_m;
+  shader::GroupDiode record = dark_diode();
+  record.position = glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m));
+  record.axis = glm::vec4(diode.axis, glm::dot(diode.axis, position_m));
+  if (largest_intensity_w_sr > 0.0)
+    record.intensity = static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order = static_cast<float>(diode.pattern.order);
+  if (diode.pattern.kind == Pattern::Kind::diagram)
+    set_diagram(diode, diagrams.grid_of(diode.pattern.diagram), record);
+  return record;
+}
+
+// A dark diode may stand beside any other.
+void check_intensities(std::span<const NumberedDiode> diodes, double largest_w_sr) {
+  if (std::ranges::any_of(diodes, [&](const Diode &diode) {
+        return diode.intensity_w_sr > 0.0 && diode.intensity_w_sr < weakest_intensity * largest_w_sr;
+      }))
+    throw Error(ExitCode::input, "the strongest diode is more than 1e25 times as strong as the weakest: "
+                                 "expected intensities closer to each other, or 0");
+}
+
+float rest(double value, float rounded) { return static_cast<float>(value - static_cast<double>(rounded)); }
+
+glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
+  return glm::vec4(value - glm::dvec4(rounded));
+}
+
+// What rounding to `rounded` took; nothing of a dark one.
+shader::PreciseDiode precise_diode(const shader::GroupDiode &rounded, const Diode &diode,
+                                   const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
+  shader::PreciseDiode record{};
+  record.rounded = rounded;
+  if (rounded.intensity == 0.0f)
+    return record;
+  const glm::dvec3 position_m = diode.position_m - reference_m;
+  record.position_rest =
+      rest(glm::dvec4(-2.0 * position_m, glm::dot(position_m, position_m)), rounded.position);
+  record.axis_rest = rest(glm::dvec4(diode.axis, glm::dot(diode.axis, position_m)), rounded.axis);
+  record.intensity_rest = rest(diode.intensity_w_sr / largest_intensity_w_sr, rounded.intensity);
+  if (diode.pattern.kind == Pattern::Kind::cosine)
+    record.order_rest = rest(diode.pattern.order, rounded.order);
+  return record;
+}
+
+std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illuminators) {
+  std::vector<NumberedDiode> all;
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes)
+      all.push_back({diode, static_cast<std::uint32_t>(all.size())});
+  return all;
+}
+
+// Brings `first` diodes to the front so that a plane across the longest side of their box parts them from the
+// rest.
+void part_in_two(std::span<NumberedDiode> diodes, std::size_t first) {
+  const Box box = box_of(diodes);
+  const glm::dvec3 spread = box.high_m - box.low_m;
+  const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
+  std::ranges::nth_element(diodes, diodes.begin() + static_cast<std::ptrdiff_t>(first), {},
+                           [axis](const Diode &diode) { return diode.position_m[axis]; });
+}
+
+// Orders a group's diodes so that those that share a bundle stand together: then they mostly reach the same
+// samples.
+void order_by_bundles(std::span<NumberedDiode> diodes) {
+  if (diodes.size() <= shader::diodes_per_bundle)
+    return;
+  const std::size_t bundles = (diodes.size() - 1) / shader::diodes_per_bundle + 1;
+  const std::size_t first = bundles / 2 * shader::diodes_per_bundle;
+  part_in_two(diodes, first);
+  order_by_bundles(diodes.first(first));
+  order_by_bundles(diodes.subspan(first));
+}
+
+class Grouping {
+public:
+  Grouping(const std::vector<VisibleBox> &visible, double wavenumber_rad_m)
+      : visible_(visible), wavenumber_rad_m_(wavenumber_rad_m) {}
+
+  // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
+  void split(std::span<NumberedDiode> diodes, double phase_turns) {
+    const Group group = group_of(diodes, phase_turns, visible_);
+    if (is_small_enough(group)) {
+      order_by_bundles(diodes);
+      groups_.push_back(group);
+      return;
+    }
+    part_in_two(diodes, diodes.size() / 2);
+    split(diodes.first(diodes.size() / 2), phase_turns);
+    split(diodes.subspan(diodes.size() / 2), phase_turns);
+  }
+
+  const std::vector<Group> &groups() const { return groups_; }
+
+private:
+  bool is_small_enough(const Group &group) const {
+    return wavenumber_rad_m_ * group.reach.excess_m <= largest_phase_rad &&
+           group.reach.radius_m <= largest_radius_over_range * group.reach.range_m;
+  }
+
+  const std::vector<VisibleBox> &visible_;
+  double wavenumber_rad_m_;
+  std::vector<Group> groups_;
+};
+
+std::uint32_t blocks_for(std::size_t diodes) {
+  return static_cast<std::uint32_t>((diodes + shader::diodes_per_block - 1) / shader::diodes_per_block);
+}
+
+// All runs have the same length, so short groups are padded and long ones cut: the length that costs least.
+std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_t most) {
+  const auto cost = [&](std::uint32_t run_blocks) {
+    std::uint64_t runs = 0;
+    for (const Group &group : groups)
+      runs += (blocks_for(group.diodes.size()) + run_blocks - 1) / run_blocks;
+    return runs * (run_blocks + run_overhead_blocks);
+  };
+  std::uint32_t cheapest = 1;
+  for (std::uint32_t run_blocks = 2; run_blocks <= most; ++run_blocks)
+    if (cost(run_blocks) < cost(cheapest))
+      cheapest = run_blocks;
+  return cheapest;
+}
+
+double diagram_error(const Diode &diode, DiagramTables &diagrams) {
+  return diode.pattern.kind == Pattern::Kind::diagram ? diagrams.grid_of(diode.pattern.diagram).error : 0.0;
+}
+
+void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
+  const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
+  for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
+    result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
+                           group.phase_turns, group.reach});
+    for (std::size_t i = first; i < first + run_diodes; ++i) {
+      const bool dark = i >= group.diodes.size();
+      const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];
+      result.diodes.push_back(
+          dark ? dark_diode()
+               : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams));
+      if (precision == Precision::fp64)
+        result.precise_diodes.push_back(
+            precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
+      result.places.push_back(
+          {diode.position_m, dark ? no_id : diode.number, diagram_error(diode, diagrams)});
+    }
+  }
+}
+
+} // namespace
+
+std::uint32_t moments_needed(double phase_rad, double remainder) {
+  std::uint32_t k = 1;
+  double term = phase_rad; // (kappa e)^k / k!
+  while (term > largest_term(phase_rad, remainder))
+    term *= phase_rad / ++k;
+  return k;
+}
+
+DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
+                         std::uint32_t most_blocks) {
+  std::vector<NumberedDiode> ordered = numbered(illuminators);
+  std::span<NumberedDiode> left = ordered;
+  Grouping grouping(visible, wavenumber_rad_m);
+  DiodeGroups result;
+  result.diode_count = static_cast<std::uint32_t>(ordered.size());
+  for (const auto &[diodes, phase_rad] : illuminators) {
+    const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);
+    result.phased = result.phased || phase_turns != 0.0;
+    for (const Diode &diode : diodes)
+      result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
+    grouping.split(left.first(diodes.size()), phase_turns);
+    left = left.subspan(diodes.size());
+  }
+  check_intensities(ordered, result.largest_intensity_w_sr);
+
+  for (const Group &group : grouping.groups()) {
+    result.excess_m = std::max(result.excess_m, group.reach.excess_m);
+    result.radius_m = std::max(result.radius_m, group.reach.radius_m);
+    if (group.reach.radius_m > 0.0)
+      result.radius_over_range =
+          std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
+  }
+  result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
+  result.blocks_per_run = cheapest_run_blocks(
+      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks);
+  DiagramTables diagrams;
+  for (const Group &group : grouping.groups())
+    add_runs(group, precision, result, diagrams);
+  result.diagrams = diagrams.values();
+  return result;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,63 @@
+#pragma once
+// The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
+// fast and nothing cancels, and laid out as the accumulate pass reads them.
+
+#include "engine/light/moment_polynomials.h"
+#include "engine/light/path_difference.h"
+#include "engine/light/remainder.h"
+#include "engine/model/accuracy.h"
+#include "engine/view/camera_scene.h"
+#include "engine/view/projection.h"
+#include "shaders/shared/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// One dispatch of the accumulate pass: a run of whole blocks of diodes that share a reference point.
+struct DiodeRun {
+  glm::dvec3 reference_m; // camera frame
+  std::uint32_t first;    // index into DiodeGroups::diodes
+  double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
+  Excess reach;           // of its group; the radius is at most half of the range to what it lights
+};
+
+// A diode among all of all illuminators.
+struct DiodePlace {
+  glm::dvec3 position_m;        // camera frame
+  std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
+  double diagram_error = 0.0;   // of a measured diagram (diagram_tables.h)
+};
+
+struct DiodeGroups {
+  std::uint32_t moments = 1; // K, the same for every group
+  std::uint32_t blocks_per_run =
+      1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
+  double largest_intensity_w_sr = 0; // what GroupDiode::intensity is relative to
+  bool phased = false;               // an illuminator has a modulation phase
+  std::vector<DiodeRun> runs;
+  std::vector<shader::GroupDiode> diodes;
+  std::vector<shader::PreciseDiode> precise_diodes; // the same; only for fp64
+  std::vector<DiodePlace> places;                   // beside `diodes`; those that stand together lie together
+  std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
+  std::uint32_t diode_count = 0;                    // without the dark ones
+  double excess_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
+  double radius_m = 0.0; // of the largest group
+  double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
+  PowerSums power_sums;           // what the moments are summed by, run by run
+};
+
+// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike (PowerSums),
+// which take little of it.
+constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
+
+// A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
+// that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
+DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                         Precision precision = Precision::fp32, std::uint32_t most_blocks = usual_run_blocks);
+
+// The smallest K whose remainder (kappa * e)^K / K! is at most that.
+std::uint32_t moments_needed(double phase_rad, double remainder);
+
+} // namespace pmdsim

@@ -1,0 +1,39 @@
+#pragma once
+// The diodes as the lit pass takes them: in bundles of a word's bits, a window of bundles at a time.
+
+#include "engine/light/source_groups.h"
+#include "shaders/shadow/lit_interface.h"
+
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+// Whole runs of the accumulate pass. A run begins with a bundle of its own.
+struct LitWindow {
+  std::uint32_t first_run, last_run; // the latter excluded
+  std::uint32_t bundles;             // of all its runs
+};
+
+std::uint32_t bundles_per_run(const DiodeGroups &groups);
+
+// One for all runs.
+LitWindow all_runs(const DiodeGroups &groups);
+
+// As many runs each as fit shader::bundles_per_window.
+std::vector<LitWindow> plan_windows(const DiodeGroups &groups);
+
+// The places of a bundle's diodes.
+std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bundle,
+                                      const DiodeGroups &groups);
+
+// What the shaders know of a window's diodes.
+struct WindowDiodes {
+  std::vector<shader::DiodeBox> boxes; // around all, then around each bundle
+  std::vector<shader::BundleDiodes> bundles;
+  std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
+};
+
+WindowDiodes diodes_of(const LitWindow &window, const DiodeGroups &groups);
+
+} // namespace pmdsim

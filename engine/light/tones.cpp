@@ -1,0 +1,56 @@
+#include "engine/light/tones.h"
+
+#include "engine/vulkan/float_pair.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace pmdsim {
+namespace {
+
+double wavenumber_rad_m(double frequency_hz) {
+  return 2.0 * std::numbers::pi * frequency_hz / speed_of_light_m_s;
+}
+
+} // namespace
+
+double Signal::largest_wavenumber_rad_m() const {
+  return wavenumber_rad_m(tones * *std::max_element(modulation_hz.begin(), modulation_hz.end()));
+}
+
+std::vector<shader::Tone> Signal::all_tones() const {
+  std::vector<shader::Tone> result;
+  for (const double frequency_hz : modulation_hz)
+    for (std::uint32_t h = 1; h <= tones; ++h) {
+      const DoublePair turns_per_m(h * frequency_hz / speed_of_light_m_s);
+      result.push_back({{turns_per_m.hi, turns_per_m.lo},
+                        static_cast<float>(wavenumber_rad_m(h * frequency_hz)),
+                        static_cast<float>(h)});
+    }
+  return result;
+}
+
+Signal signal_of(const Sensor &sensor, const SimulatorOptions &options) {
+  Signal signal{
+      shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, options.sum == DiodeSum::automatic,
+      sensor.modulation_hz,  {1.0f}};
+  switch (sensor.waveform.kind) {
+  case Waveform::Kind::sine:
+    break;
+  case Waveform::Kind::square:
+    signal.waveform = shader::waveform_square;
+    signal.distinct_taps = sensor.taps % 2 == 0 ? sensor.taps / 2 : sensor.taps;
+    signal.planes = (signal.distinct_taps + 1) / 2;
+    signal.by_moments = false;
+    break;
+  case Waveform::Kind::harmonics:
+    signal.waveform = shader::waveform_harmonics;
+    signal.harmonics.assign(sensor.waveform.harmonics.begin(), sensor.waveform.harmonics.end());
+    signal.planes = signal.tones = static_cast<std::uint32_t>(signal.harmonics.size());
+    signal.by_moments = true; // a harmonic is a tone like any other
+    break;
+  }
+  return signal;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,46 @@
+#pragma once
+// How a sensor's modulation is summed: the planes of the sum (shaders/shared/interface.h) and the channels
+// that come of them.
+
+#include "engine/model/sensor.h"
+#include "engine/model/simulator_options.h"
+#include "engine/vulkan/buffer.h"
+#include "shaders/shared/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+struct Signal {
+  std::uint32_t waveform;      // shader::waveform_*
+  std::uint32_t taps;          // N
+  std::uint32_t distinct_taps; // that are summed where the waveform is square, else 1
+  std::uint32_t planes;        // of the sum, of each frequency
+  std::uint32_t tones;         // of each frequency, all multiples of it: the harmonics, else 1
+  bool keep_taps;              // the taps are channels, too
+  bool by_moments;             // one dispatch sums all tones of all frequencies by moments; else one each
+  std::vector<double> modulation_hz; // the frequencies
+  std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
+  bool promised = false;             // an error was promised: what the terms come to is kept
+  bool lit = false;                  // how much of the light reaches a pixel is a channel, the last one
+
+  std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
+  std::uint32_t sum_planes() const { return planes * frequencies(); }
+  // Channels lie in pairs.
+  std::uint32_t channels_of_frequency() const {
+    return (shader::channel_first_tap + (keep_taps ? taps : 0) + 1) / 2 * 2;
+  }
+  std::uint32_t first_channel(std::uint32_t frequency) const {
+    return shader::truth_channels + frequency * channels_of_frequency();
+  }
+  std::uint32_t lit_channel() const { return first_channel(frequencies()); }
+  std::uint32_t channels() const { return lit_channel() + (lit ? 2 : 0); }
+  // 2 pi f / c of the highest tone, rad/m.
+  double largest_wavenumber_rad_m() const;
+  // Frequency by frequency, the harmonics of each in order.
+  std::vector<shader::Tone> all_tones() const;
+};
+
+Signal signal_of(const Sensor &sensor, const SimulatorOptions &options);
+
+} // namespace pmdsim

@@ -1,0 +1,52 @@
+#pragma once
+// What the camera measures of one frame. Every channel is row-major, row 0 at the top, rows * columns values.
+
+#include "engine/model/accuracy.h"
+#include "engine/model/pass_time.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace pmdsim {
+
+// Of one modulation frequency f. Phase and amplitude are those of z, which the camera forms from its N taps
+// c_k as (2/N) sum_k c_k exp(+j 2 pi k / N); for a sine that is eq. 5 to 7's mean return.
+struct Return {
+  std::vector<float> amplitude;  // |z|, W/(m^2 sr), 0 where nothing returns
+  std::vector<float> phase_rad;  // arg z in [0, 2 pi), NaN where |z| = 0
+  std::vector<float> distance_m; // c phase / (4 pi f) in [0, c/(2f)), NaN where |z| = 0
+  // c_k, k = 0 ... N-1: the mean of the correlation function at path phase - 2 pi k / N, W/(m^2 sr), 0 where
+  // nothing returns; empty unless the taps are asked for.
+  std::vector<std::vector<float>> taps;
+};
+
+struct Measurement {
+  glm::uvec2 resolution{0, 0}; // columns, rows
+
+  std::vector<Return> returns; // beside Sensor::modulation_hz
+  // Ground truth over the pixel's samples that hit something; NaN where none does.
+  std::vector<float> range_m;  // mean distance point - lens
+  std::vector<float> z_m;      // mean depth along the optical axis
+  std::vector<float> coverage; // samples hit / samples, 0 to 1
+  // The fraction of the diodes that reach the pixel, mean over its samples that hit something, 0 where none
+  // does; empty with Shadows::off.
+  std::vector<float> lit;
+  // Of the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
+  std::vector<std::uint32_t> triangle_id;
+  std::vector<std::uint32_t> object_id;
+
+  // Of every sample, (S*rows) x (S*columns), row-major; only filled on request.
+  std::vector<std::uint32_t> sample_triangle_id;
+  // The tag's pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
+  std::vector<std::uint32_t> sample_pixel_id;
+  // Which diodes reach it, Shadows::automatic only: ceil(diodes / 32) words a sample, diode m (counted
+  // through all illuminators) in bit m % 32 of word m / 32.
+  std::vector<std::uint32_t> sample_reached;
+
+  AccuracyReport accuracy;
+  double frame_ms = 0.0;        // first pass to results in host memory, by the clock
+  std::vector<PassTime> passes; // the same by pass
+};
+
+} // namespace pmdsim

@@ -1,0 +1,27 @@
+#pragma once
+// A frame whose correlation samples are taken one after the other: when, and what the camera makes of them.
+
+#include "engine/model/measurement.h"
+#include "engine/model/sensor.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace pmdsim {
+
+// When the tap of a frequency is taken, of a frame that begins at `frame_s`.
+inline double tap_time_s(const Sensor &sensor, double frame_s, std::size_t frequency, std::size_t tap) {
+  return frame_s + static_cast<double>(frequency * sensor.taps + tap) * sensor.tap_interval_s;
+}
+
+// From the first tap's exposure to the end of the last one's.
+inline double tap_sequence_s(const Sensor &sensor) {
+  return static_cast<double>(sensor.modulation_hz.size() * sensor.taps) * sensor.tap_interval_s;
+}
+
+// What the camera makes of a frequency's N taps, in double: z = (2/N) sum_k c_k exp(+j 2 pi k / N), and of z
+// the channels. The taps, one of each k and of one length, stay beside them. A |z| below what rounding the
+// taps to float can make counts as 0.
+Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz);
+
+} // namespace pmdsim

@@ -1,0 +1,44 @@
+#pragma once
+// Diodes that differ in place and intensity only, and their moments.
+
+#include "engine/model/illuminator.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+struct DiodeCluster {
+  std::vector<glm::dvec3> offsets_m; // from the centre, along `axes`
+  Eigen::VectorXd shares;            // of the cluster's intensity; their sum is 1
+  glm::dvec3 centre_m{0.0};          // of intensity, camera frame
+  glm::dmat3 axes{1.0};              // columns, orthonormal
+  glm::dvec3 extents_m{0.0};         // of the offsets, at most
+  double radius_m = 0.0;             // of the offsets, at most
+  glm::dvec3 clearance_m{0.0};    // along `axes`: of a Lambertian surface's plane from the centre, at least
+  glm::dvec3 beam{0.0, 0.0, 1.0}; // the diodes' axis
+  std::optional<double> order;    // of the cosine around it; nothing: isotropic
+  double beam_extent_m = 0.0;     // |beam . offset| at most
+
+  // How much a Lambertian surface's factor varies along an axis, at most.
+  double slant(int axis) const { return clearance_m[axis] > 0.0 ? extents_m[axis] / clearance_m[axis] : 0.0; }
+};
+
+DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::size_t> members);
+
+// A moment: the sum over the diodes of these powers of |I|^2, the coordinates of I and a.I, each over its
+// extent; I the offset, a the beam.
+using Powers = std::array<std::uint8_t, 5>;
+
+// What a diode of the cluster at each of some offsets (columns) adds to the moments (rows), for a share of 1.
+Eigen::MatrixXd moment_values(const std::vector<Powers> &moments, const DiodeCluster &cluster,
+                              std::span<const glm::dvec3> offsets_m);
+
+// Of all its diodes.
+Eigen::VectorXd moments_of(const DiodeCluster &cluster, const std::vector<Powers> &moments);
+
+} // namespace pmdsim

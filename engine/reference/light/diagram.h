@@ -1,0 +1,12 @@
+#pragma once
+// Measured radiation diagrams: J between the directions of a table.
+
+#include "engine/model/illuminator.h"
+
+namespace pmdsim::reference {
+
+// J of a diode whose pattern is a diagram, towards `direction` (of any length but 0, in the frame of the
+// diode's axis).
+double diagram_gain(const Diode &diode, const glm::dvec3 &direction);
+
+} // namespace pmdsim::reference

@@ -1,0 +1,34 @@
+#include "engine/sampling/chip_place.h"
+
+#include "engine/model/lens.h"
+#include "engine/vulkan/float_pair.h"
+
+namespace pmdsim {
+
+bool is_plain(const Sensor &sensor) {
+  return sensor.chip.is_nominal() && sensor.fill_factor == glm::dvec2(1.0);
+}
+
+shader::ChipPlace chip_place(const Sensor &sensor) {
+  const glm::dmat3 lens_from_chip = Lens(sensor).lens_from_chip();
+  const glm::dvec2 half_pixel_m = 0.5 * sensor.pixel_pitch_m;
+  const glm::dvec2 half_step_m = half_pixel_m * sensor.fill_factor / static_cast<double>(sensor.samples);
+  const DoublePair4 origin(lens_from_chip[2], 0.0), half_column(lens_from_chip[0] * half_pixel_m.x, 0.0),
+      half_row(lens_from_chip[1] * half_pixel_m.y, 0.0), half_step_x(lens_from_chip[0] * half_step_m.x, 0.0),
+      half_step_y(lens_from_chip[1] * half_step_m.y, 0.0);
+  return {origin.hi,   origin.lo,      half_column.hi, half_column.lo, half_row.hi,
+          half_row.lo, half_step_x.hi, half_step_x.lo, half_step_y.hi, half_step_y.lo};
+}
+
+shader::vec4 half_sample_slope(const Sensor &sensor) {
+  const glm::dvec2 slope = sensor.pixel_pitch_m / (2.0 * sensor.samples * sensor.image_distance_m());
+  const DoublePair x(slope.x), y(slope.y);
+  return {x.hi, x.lo, y.hi, y.lo};
+}
+
+vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
+  const shader::ChipPlace place = chip_place(sensor);
+  return vulkan::upload(device, std::as_bytes(std::span(&place, 1)));
+}
+
+} // namespace pmdsim

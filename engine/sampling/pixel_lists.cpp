@@ -1,0 +1,77 @@
+#include "engine/sampling/pixel_lists.h"
+
+#include "engine/vulkan/commands.h"
+#include "spirv/pixel_list_count.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+
+vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixels) {
+  using Usage = vk::BufferUsageFlagBits;
+  return {device, sizeof(shader::PixelList) + vk::DeviceSize{pixels} * sizeof(std::uint32_t),
+          Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferDst, vulkan::Memory::device};
+}
+
+namespace {
+
+// Before and after a list is written from here.
+void barrier_before(const vk::raii::CommandBuffer &commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
+                         Stage::eTransfer, Access::eTransferWrite);
+}
+
+void barrier_after(const vk::raii::CommandBuffer &commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(
+      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
+      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+}
+
+std::uint32_t most_pixels(const std::vector<PlannedStrip> &strips) {
+  std::uint32_t most = 0;
+  for (const PlannedStrip &planned : strips)
+    most = std::max(most, planned.strip.padded_pixels);
+  return most;
+}
+
+} // namespace
+
+PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
+    : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips)),
+             make_pixel_list(device, most_pixels(strips))},
+      count_(device, shader::pixel_list_count_spirv, sizeof(shader::PixelListConstants)) {}
+
+void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
+                 std::span<const std::uint32_t> pixels, std::uint32_t samples) {
+  const auto count = static_cast<std::uint32_t>(pixels.size());
+  const std::uint32_t groups = (count + shader::workgroup_size - 1) / shader::workgroup_size;
+  barrier_before(commands);
+  const shader::PixelList head{groups * samples, 1, 1, groups, 1, 1, count, 0};
+  commands.updateBuffer<shader::PixelList>(list.get(), 0, head);
+  if (count > 0)
+    commands.updateBuffer<std::uint32_t>(list.get(), sizeof(head), pixels);
+  barrier_after(commands);
+}
+
+void PixelLists::record_clear(const vk::raii::CommandBuffer &commands) const {
+  barrier_before(commands);
+  const shader::PixelList empty{0, 1, 1, 0, 1, 1, 0, 0};
+  for (const vulkan::Buffer &list : lists_)
+    commands.updateBuffer<shader::PixelList>(list.get(), 0, empty);
+  barrier_after(commands);
+}
+
+void PixelLists::record_count(const vk::raii::CommandBuffer &commands, std::uint32_t samples) const {
+  vulkan::compute_barrier(commands);
+  shader::PixelListConstants constants{{}, samples};
+  std::ranges::transform(lists_, constants.lists,
+                         [](const vulkan::Buffer &list) { return words(list.address()); });
+  count_.dispatch(commands, constants, 1, 1);
+  vulkan::compute_barrier(commands);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,102 @@
+#include "engine/sampling/strip_memory.h"
+
+#include "shaders/shadow/lit_interface.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pmdsim {
+
+namespace {
+
+// `previous` where it has the size, whose pages are there already; a moving scene's frames differ in little
+// else.
+vulkan::Buffer make_or_take(const vulkan::Device &device, vulkan::Buffer &previous, vk::DeviceSize bytes,
+                            vk::BufferUsageFlags usage, vulkan::Memory memory) {
+  if (previous.bytes() == bytes)
+    return std::move(previous);
+  previous = vulkan::Buffer(); // its memory first
+  return {device, bytes, usage, memory};
+}
+
+// What an image of that size that lies in a buffer (vulkan/image.h) takes on lavapipe, which draws four rows
+// at once.
+vk::DeviceSize drawn_fragments(glm::uvec2 fragments) {
+  return (vk::DeviceSize{fragments.y} + 3) / 4 * 4 * fragments.x;
+}
+
+} // namespace
+
+StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
+                                const SampleLayout &layout, const SimulatorOptions &options,
+                                StripBuffers &&previous) {
+  using Usage = vk::BufferUsageFlagBits;
+  vk::DeviceSize samples = 0, tags = 0, pixels = 0, fragments = 0;
+  for (const auto &[strip, block] : strips) {
+    if (blocks[block].distorted)
+      fragments = std::max(fragments, drawn_fragments(blocks[block].fragments));
+    samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
+    tags = std::max({tags, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
+    pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
+  }
+  const auto storage = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes,
+                           vk::BufferUsageFlags more = {}) {
+    return make_or_take(device, previous.*buffer, bytes, Usage::eStorageBuffer | more,
+                        vulkan::Memory::device);
+  };
+  const auto read = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes) {
+    return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
+  };
+  const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
+  const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
+  const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
+  const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
+  const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
+  using B = StripBuffers;
+  B made;
+  made.fragments = storage(&B::fragments, fragments * sizeof(shader::uvec2), Usage::eTransferDst);
+  made.tags = storage(&B::tags, tag_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.position = storage(&B::position, samples * layout.position_bytes);
+  made.surface = storage(&B::surface, samples * layout.surface_vectors * sizeof(shader::vec4));
+  made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
+  made.reached = storage(&B::reached, reached_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.lit = storage(&B::lit, lit_bytes);
+  made.terms = storage(&B::terms, signal.promised ? samples * sizeof(float) : 0);
+  made.broken = storage(&B::broken, broken_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.sum = storage(&B::sum, samples * signal.sum_planes() * layout.sum_bytes);
+  made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
+  made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
+  made.broken_read = read(&B::broken_read, broken_bytes);
+  made.tags_read = read(&B::tags_read, layout.host_reads_tags && !made.tags.is_mapped() ? tag_bytes : 0);
+  made.reached_read = read(&B::reached_read, options.keep_reached ? reached_bytes : 0);
+  made.tag_bytes = layout.tag_bytes;
+  return made;
+}
+
+std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
+                                             std::uint32_t first) {
+  const std::span<const std::byte> all =
+      buffers.channels.is_mapped() ? buffers.channels.mapped() : buffers.channels_read.mapped();
+  const auto *pairs = reinterpret_cast<const shader::uvec2 *>(all.data());
+  return {pairs + std::size_t{first / 2} * strip.padded_pixels, strip.padded_pixels};
+}
+
+std::span<const std::byte> tags_for_host(const StripBuffers &buffers) {
+  return buffers.tags.is_mapped() ? buffers.tags.mapped() : buffers.tags_read.mapped();
+}
+
+std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers) {
+  const std::span<const std::byte> all = tags_for_host(buffers);
+  return {reinterpret_cast<const shader::uvec4 *>(all.data()), all.size() / sizeof(shader::uvec4)};
+}
+
+std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu) {
+  const std::uint32_t usual = on_gpu && signal.lit ? 1u << 18 : 1u << 20;
+  constexpr std::uint32_t buffer_bytes = 1u << 27;
+  constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
+  return std::min({usual, buffer_bytes / (signal.sum_planes() * plane_bytes),
+                   buffer_bytes / (signal.channels() * channel_bytes) * samples_per_pixel});
+}
+
+} // namespace pmdsim

@@ -1,0 +1,79 @@
+#pragma once
+// The device's buffers for one strip, made once for the largest and used for all.
+
+#include "engine/light/tones.h"
+#include "engine/sampling/strips.h"
+#include "engine/vulkan/buffer.h"
+
+#include <cstddef>
+#include <span>
+
+namespace pmdsim {
+
+struct StripBuffers {
+  // With room for rasters that draw on them, whose rows may come in fours (VisibilityPass).
+  vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
+  vulkan::Buffer
+      tags; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4
+  vulkan::Buffer position;    // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
+                              // long, but for `sum` on the plain way, which is row by row as the records
+  vulkan::Buffer surface;     // the vectors a sample that the sum asks for
+  vulkan::Buffer backscatter; // float a sample
+  vulkan::Buffer
+      reached;           // a window's bundles (source_windows.h), a word a sample each; empty without shadows
+  vulkan::Buffer lit;    // diodes that reach it, a word a sample; likewise
+  vulkan::Buffer terms;  // sum of |terms|, a float a sample; empty unless an error was promised
+  vulkan::Buffer broken; // shader::BrokenPromise; likewise
+  vulkan::Buffer sum;    // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
+  vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
+  vulkan::Buffer channels_read; // empty where `channels` is mapped itself
+  vulkan::Buffer broken_read;
+  vulkan::Buffer tags_read;    // empty where `tags` is mapped itself, or the host has no use for them
+  vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
+  std::size_t tag_bytes = 0;   // a sample, of `tags`
+};
+
+// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of
+// each pixel a word of either.
+std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
+                                             std::uint32_t first);
+
+// What the raster leaves its tags in.
+inline const vulkan::Buffer &drawn_tags(const StripBuffers &buffers) {
+  return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.tags;
+}
+
+// Likewise, a tag or a record a sample.
+std::span<const std::byte> tags_for_host(const StripBuffers &buffers);
+std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
+
+// What a strip keeps of its samples.
+struct SampleLayout {
+  bool host_reads_tags;
+  std::size_t tag_bytes;      // a sample
+  std::size_t position_bytes; // likewise, from here on
+  std::size_t backscatter_bytes;
+  std::size_t surface_vectors;
+  std::size_t sum_bytes; // of each plane
+};
+
+// Buffers of `previous`, whose contents are of no use any more, are taken where they have the right size.
+StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
+                                const std::vector<RasterBlock> &blocks, const Signal &signal,
+                                const SampleLayout &layout, const SimulatorOptions &options,
+                                StripBuffers &&previous);
+
+// The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
+// MiB. With shadows a quarter on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
+std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu);
+
+inline std::uint32_t sample_count(const shader::Strip &strip) {
+  return strip.padded_pixels * strip.samples * strip.samples;
+}
+
+// The address of a buffer as push constants carry it.
+inline shader::uvec2 words(vk::DeviceAddress address) {
+  return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32)};
+}
+
+} // namespace pmdsim

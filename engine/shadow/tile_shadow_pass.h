@@ -1,0 +1,57 @@
+#pragma once
+// The lit pass: which diodes reach which sample. Parts of tiles and bundles of diodes first, all at once and
+// never wrong; samples and diodes one by one only where that leaves a doubt.
+
+#include "engine/sampling/strip_memory.h"
+#include "engine/shadow/occluders.h"
+#include "engine/shadow/tile_shadow_pipelines.h"
+#include "engine/view/scene_buffers.h"
+
+#include <span>
+
+namespace pmdsim {
+
+// A window's diodes on the device.
+struct LitDiodes {
+  vulkan::Buffer boxes, bundles, bits; // as in WindowDiodes
+};
+
+// The scene on the device.
+struct LitScene {
+  std::uint32_t nodes; // of the tree
+  vulkan::Buffer occluders, tree, bodies;
+  vulkan::Buffer record; // shader::LitScene
+};
+
+class LitPass {
+public:
+  // `tiled` as in LitForm. Throws Error (out_of_memory).
+  LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
+          const std::vector<LitWindow> &windows, const SceneBuffers &scene,
+          std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
+
+  // Cuts the strip into tiles, once for all windows.
+  void record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers) const;
+  // Leaves the window's bits in buffers.reached and adds its diodes to buffers.lit.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, std::size_t window) const;
+
+private:
+  shader::LitGatherConstants gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
+                                              std::size_t window) const;
+  // One bundle of the window.
+  void record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                     const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const;
+  void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, std::size_t window) const;
+
+  std::vector<LitWindow> windows_;
+  std::vector<LitDiodes> diodes_; // beside windows_
+  std::uint32_t slots_;           // of candidates_
+  LitScene scene_;
+  vulkan::Buffer parts_, work_, candidates_;
+  LitPipelines pipelines_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,79 @@
+#include "engine/shadow/visibility_bits.h"
+
+#include "engine/vulkan/commands.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+namespace pmdsim {
+namespace {
+
+std::size_t words_a_sample(const DiodeGroups &groups) { return (groups.diode_count + 31) / 32; }
+
+vk::DeviceSize bytes_of(const LitWindow &window, const shader::Strip &strip) {
+  return vk::DeviceSize{window.bundles} * sample_count(strip) * sizeof(std::uint32_t);
+}
+
+// Of the sample stored at (sy * S + sx) * padded_pixels + p.
+std::size_t place_in_frame(const shader::Strip &strip, std::uint32_t subsample, std::uint32_t pixel) {
+  const std::size_t column =
+      std::size_t{strip.column + pixel % strip.columns} * strip.samples + subsample % strip.samples;
+  const std::size_t row =
+      std::size_t{strip.row + pixel / strip.columns} * strip.samples + subsample / strip.samples;
+  return row * strip.resolution_x * strip.samples + column;
+}
+
+void set_bits(std::uint32_t bundle, std::span<const DiodePlace> places, std::uint32_t *sample) {
+  for (std::size_t d = 0; d < places.size(); ++d)
+    if (const std::uint32_t number = places[d].number; number != no_id)
+      sample[number / 32] |= (bundle >> d & 1u) << number % 32;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> none_reached(const Sensor &sensor, const DiodeGroups &groups) {
+  return std::vector<std::uint32_t>(sensor.pixel_count() * sensor.samples * sensor.samples *
+                                    words_a_sample(groups));
+}
+
+void all_reached(const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
+  const std::size_t words = words_a_sample(groups);
+  const std::uint32_t last = groups.diode_count % 32 == 0 ? ~0u : (1u << groups.diode_count % 32) - 1u;
+  for (std::size_t i = 0; i < to.size(); ++i)
+    to[i] = i % words + 1 == words ? last : ~0u;
+}
+
+void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, const LitWindow &window) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
+                         Access::eTransferRead);
+  commands.copyBuffer(buffers.reached.get(), buffers.reached_read.get(),
+                      vk::BufferCopy(0, 0, bytes_of(window, strip)));
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const LitWindow &window,
+                   const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
+  std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
+  std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));
+  const std::size_t words = words_a_sample(groups), plane = sample_count(strip);
+  for (std::uint32_t subsample = 0; subsample < strip.samples * strip.samples; ++subsample)
+    for (std::uint32_t pixel = 0; pixel < strip.columns * strip.rows; ++pixel) {
+      const std::size_t i = std::size_t{subsample} * strip.padded_pixels + pixel;
+      std::uint32_t *const sample = to.data() + place_in_frame(strip, subsample, pixel) * words;
+      for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
+        set_bits(bits[bundle * plane + i], places_of(window, bundle, groups), sample);
+    }
+}
+
+void clear_unseen(Measurement &measurement) {
+  const std::size_t words = measurement.sample_reached.size() / measurement.sample_pixel_id.size();
+  for (std::size_t i = 0; i < measurement.sample_pixel_id.size(); ++i)
+    if (measurement.sample_pixel_id[i] == 0)
+      std::fill_n(measurement.sample_reached.begin() + static_cast<std::ptrdiff_t>(i * words), words, 0u);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,29 @@
+#pragma once
+// Which diodes reach which sample, read back in the order of the frame's samples and of the illuminators'
+// diodes.
+
+#include "engine/light/source_windows.h"
+#include "engine/model/measurement.h"
+#include "engine/model/sensor.h"
+#include "engine/sampling/strip_memory.h"
+
+namespace pmdsim {
+
+// Every bit 0.
+std::vector<std::uint32_t> none_reached(const Sensor &sensor, const DiodeGroups &groups);
+
+// Sets the bits of all diodes of all samples in `to`, where there are any.
+void all_reached(const DiodeGroups &groups, std::vector<std::uint32_t> &to);
+
+// Copies a window's bits to memory that the host can read.
+void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, const LitWindow &window);
+
+// Once that is done: sets the bits of the window's diodes in `to`, those of samples that see nothing as well.
+void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const LitWindow &window,
+                   const DiodeGroups &groups, std::vector<std::uint32_t> &to);
+
+// Where the sample sees nothing (sample_pixel_id is 0) nothing is reached.
+void clear_unseen(Measurement &measurement);
+
+} // namespace pmdsim

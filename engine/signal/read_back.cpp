@@ -1,0 +1,187 @@
+#include "engine/signal/read_back.h"
+
+#include "engine/model/error.h"
+#include "engine/model/scene.h"
+#include "engine/sampling/raster_blocks.h"
+
+#include "engine/vulkan/commands.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <tbb/parallel_for.h>
+
+namespace pmdsim {
+namespace {
+
+// Where a row of a strip's pixels begins, in the strip and in the frame.
+struct Row {
+  std::size_t in_strip, in_frame, pixels;
+};
+
+Row row_of(const shader::Strip &strip, std::uint32_t row) {
+  return {std::size_t{row} * strip.columns, std::size_t{strip.row + row} * strip.resolution_x + strip.column,
+          strip.columns};
+}
+
+template <typename T>
+void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<T> &even,
+                std::vector<T> &odd) {
+  const shader::uvec2 *const from = pair.data() + row.in_strip;
+  T *const to_even = even.data() + row.in_frame, *const to_odd = odd.data() + row.in_frame;
+  for (std::size_t i = 0; i < row.pixels; ++i) {
+    to_even[i] = std::bit_cast<T>(from[i].x);
+    to_odd[i] = std::bit_cast<T>(from[i].y);
+  }
+}
+
+// Of the first of a pair alone.
+void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<float> &even) {
+  std::ranges::transform(pair.subspan(row.in_strip, row.pixels), even.data() + row.in_frame,
+                         [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
+}
+
+// Of a channel that a float may be too small for. Counted, not searched, as the compiler makes vectors of
+// that.
+void check_finite(const std::vector<float> &channel, const Row &row) {
+  const auto values = std::span(channel).subspan(row.in_frame, row.pixels);
+  if (std::ranges::count_if(values, [](float value) { return std::isinf(value); }) > 0)
+    throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
+                                 "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
+}
+
+void store_truth(std::span<const shader::uvec4> records, const Row &row, const TruthOfRecords &truth,
+                 Measurement &to) {
+  for (std::size_t i = 0; i < row.pixels; ++i) {
+    const shader::uvec4 &record = records[row.in_strip + i];
+    const float depth_m =
+        truth.has_fp64 ? static_cast<float>(std::bit_cast<double>(std::uint64_t{record.w} << 32 | record.z))
+                       : std::bit_cast<float>(record.z);
+    const std::size_t at = row.in_frame + i;
+    to.coverage[at] = depth_m != 0.0f ? 1.0f : 0.0f;
+    to.z_m[at] = depth_m != 0.0f ? depth_m : std::numeric_limits<float>::quiet_NaN();
+    to.triangle_id[at] = record.x != 0 ? record.y : no_id;
+    const bool is_known = record.x != 0 && record.y < truth.object_of_shape.size();
+    to.object_id[at] = is_known ? truth.object_of_shape[record.y] : no_id;
+  }
+}
+
+void store_row(const Row &row, const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
+               const std::optional<TruthOfRecords> &truth, Measurement &to) {
+  const auto store = [&](std::uint32_t channel, auto &...channels) {
+    store_pair(pair_for_host(buffers, strip, channel), row, channels...);
+  };
+  if (truth) {
+    store_truth(records_for_host(buffers), row, *truth, to);
+  } else {
+    store(shader::channel_coverage, to.coverage, to.z_m);
+    store(shader::channel_triangle_id, to.triangle_id, to.object_id);
+  }
+  if (signal.lit)
+    store(signal.lit_channel(), to.lit);
+  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
+    const std::uint32_t first = signal.first_channel(f);
+    Return &of = to.returns[f];
+    store(first + shader::channel_amplitude, of.amplitude, of.phase_rad);
+    store(first + shader::channel_distance_m, of.distance_m, to.range_m);
+    for (std::uint32_t k = 0; k + 1 < of.taps.size(); k += 2)
+      store(first + shader::channel_first_tap + k, of.taps[k], of.taps[k + 1]);
+    if (of.taps.size() % 2 == 1)
+      store(first + shader::channel_first_tap + signal.taps - 1, of.taps.back());
+    check_finite(of.amplitude, row);
+    for (const std::vector<float> &tap : of.taps)
+      check_finite(tap, row);
+  }
+}
+
+// Where `tiled`, tags lie in tiles (shaders/shared/interface.h).
+void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, const shader::Strip &strip,
+                       bool tiled, Measurement &to) {
+  const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
+  const glm::uvec2 pixels(strip.columns, strip.rows);
+  for (std::uint32_t row = 0; row < samples.y; ++row)
+    for (std::uint32_t column = 0; column < samples.x; ++column) {
+      const glm::uvec2 sample(column, row), pixel = sample / strip.samples,
+                                            subsample = sample % strip.samples;
+      const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
+      shader::uvec2 tag;
+      std::memcpy(&tag, from.data() + (std::size_t{at.y} * samples.x + at.x) * tag_bytes, sizeof(tag));
+      const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
+      const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
+      to.sample_pixel_id[to_at] = tag.x;
+      to.sample_triangle_id[to_at] = tag.x != 0 ? tag.y : no_id;
+    }
+}
+
+} // namespace
+
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+                             Measurement &&memory) {
+  Measurement measurement = std::move(memory);
+  measurement.resolution = sensor.resolution;
+  const std::size_t pixels = sensor.pixel_count();
+  measurement.returns.resize(signal.frequencies());
+  for (Return &of_frequency : measurement.returns) {
+    for (auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
+      channel->resize(pixels);
+    of_frequency.taps.resize(signal.keep_taps ? signal.taps : 0);
+    for (std::vector<float> &tap : of_frequency.taps)
+      tap.resize(pixels);
+  }
+  for (auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
+    channel->resize(pixels);
+  measurement.triangle_id.resize(pixels);
+  measurement.object_id.resize(pixels);
+  if (signal.lit)
+    measurement.lit.resize(pixels);
+  const bool keeps_tags = options.keep_sample_tags || options.keep_reached;
+  for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
+    ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
+  measurement.sample_reached.clear();
+  return measurement;
+}
+
+void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                      const StripBuffers &buffers, const Signal &signal,
+                      const std::optional<TruthOfRecords> &truth) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
+                         Access::eTransferRead);
+  const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
+  const vk::DeviceSize first = channel_bytes * (truth ? signal.first_channel(0) : 0);
+  if (!buffers.channels.is_mapped())
+    commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
+                        vk::BufferCopy(first, first, channel_bytes * signal.channels() - first));
+  if (signal.promised)
+    commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
+                        vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
+  if (buffers.tags_read.bytes() > 0) {
+    const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
+    commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
+                        vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
+  }
+  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                         Access::eTransferWrite | Access::eShaderStorageWrite | Access::eColorAttachmentWrite,
+                         Stage::eHost, Access::eHostRead);
+}
+
+shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
+  shader::BrokenPromise broken{};
+  std::memcpy(&broken, buffers.broken_read.mapped().data(), sizeof(broken));
+  return broken;
+}
+
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
+  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t row) {
+    store_row(row_of(strip, row), strip, buffers, signal, truth, measurement);
+  });
+  if (!measurement.sample_pixel_id.empty())
+    store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,39 @@
+#pragma once
+// The read-back: from the device into the measurement, a strip's channels and what its samples' tags or
+// records tell.
+
+#include "engine/model/measurement.h"
+#include "engine/sampling/strip_memory.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// Coverage, z and ids of one sample a pixel, which the host reads off the sample's record; then their
+// channels stay empty.
+struct TruthOfRecords {
+  std::vector<std::uint32_t> object_of_shape;
+  bool has_fp64; // else a depth is a pair of floats
+};
+
+// A frame of the sensor's size, to be filled, in `memory`, whatever that holds.
+Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+                             Measurement &&memory);
+
+// Copies what the resolve pass (and, where the host reads them, the visibility pass) left to memory that the
+// host can read.
+void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                      const StripBuffers &buffers, const Signal &signal,
+                      const std::optional<TruthOfRecords> &truth);
+
+// Once that is done: copies it to its place in the frame. Throws Error: input where light is beyond what a
+// float holds.
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement);
+
+// Of all strips since it was cleared, as read back last; only where Signal::promised.
+shader::BrokenPromise broken_promise(const StripBuffers &buffers);
+
+} // namespace pmdsim

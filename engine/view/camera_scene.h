@@ -1,0 +1,65 @@
+#pragma once
+// The scene and the light as the lens sees them: camera frame (x right, y down, z forward, origin at the
+// lens), made in double before anything becomes float.
+
+#include "engine/model/illuminator.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
+#include "shaders/shared/interface.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// A triangle, or the one around a disc.
+struct CameraTriangle {
+  std::array<glm::dvec3, 3> corners_m; // camera frame
+  std::uint32_t id;                    // of the triangle or the disc in the scene
+};
+
+// The plane normal . P = offset_m, camera frame, the normal of unit length; of what the lens sees it is
+// turned to the lens, so that offset_m < 0.
+struct Plane {
+  glm::dvec3 normal;
+  double offset_m;
+};
+
+// The plane of a triangle whose corners run counter-clockwise seen from the side that the normal points to;
+// empty where it has no area.
+std::optional<Plane> front_plane(const std::array<glm::dvec3, 3> &corners_m);
+
+struct CameraScene {
+  // The shapes that the lens can see: without those of no area, those seen edge-on and culled back faces.
+  std::vector<CameraTriangle> triangles;
+  std::vector<Plane> planes; // beside `triangles`
+  // Those that it cannot see and that stand in the light all the same; not those of no area.
+  std::vector<CameraTriangle> hidden;
+  double world_rounding_m = 0.0; // what places in the world, in double, may be off by
+};
+
+CameraScene to_camera(const Scene &scene, const Sensor &sensor);
+
+// An illuminator as the lens sees it.
+struct CameraIlluminator {
+  std::vector<Diode> diodes; // places and directions in the camera frame
+  double modulation_phase_rad = 0.0;
+};
+
+std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor);
+
+// What TrianglePlane::along_* bound: the ray's depth, or its range.
+enum class AlongRay { depth, range };
+
+// B of a fully lit surface over its reflectivity: 1 / pi of Lambert's.
+double backscatter_per_reflectivity(Backscatter backscatter);
+
+// The records that the points passes look up by id, one for each of the scene's shapes.
+std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
+                                                   Backscatter backscatter, AlongRay along);
+
+// True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
+bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators);
+
+} // namespace pmdsim

@@ -1,0 +1,328 @@
+#include "engine/view/id_raster_pass.h"
+
+#include "engine/vulkan/commands.h"
+#include "engine/vulkan/errors.h"
+#include "engine/vulkan/float_pair.h"
+#include "engine/vulkan/sample_precision.h"
+#include "spirv/tags_double_float.h"
+#include "spirv/tags_fp64.h"
+#include "spirv/visibility_depth_frag_double_float.h"
+#include "spirv/visibility_depth_frag_fp64.h"
+#include "spirv/visibility_depth_masked_double_float.h"
+#include "spirv/visibility_depth_masked_fp64.h"
+#include "spirv/visibility_depth_vert_double_float.h"
+#include "spirv/visibility_depth_vert_fp64.h"
+#include "spirv/visibility_frag.h"
+#include "spirv/visibility_keys_frag.h"
+#include "spirv/visibility_keys_masked_double_float.h"
+#include "spirv/visibility_keys_masked_fp64.h"
+#include "spirv/visibility_masked_double_float.h"
+#include "spirv/visibility_masked_fp64.h"
+#include "spirv/visibility_vert.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+constexpr auto tag_format = vk::Format::eR32G32Uint;
+constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
+constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBlock> &blocks) {
+  const glm::uvec2 fragments = strip_fragments(planned.strip, blocks[planned.block]);
+  return {fragments.x, fragments.y};
+}
+
+std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
+                                     const std::vector<RasterBlock> &blocks) {
+  std::vector<vk::Extent2D> extents;
+  extents.reserve(strips.size());
+  for (const PlannedStrip &planned : strips)
+    extents.push_back(extent_of(planned, blocks));
+  return extents;
+}
+
+vk::raii::ShaderModule shader_module(const vulkan::Device &device, std::span<const std::uint32_t> spirv) {
+  return {device.get(), vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data())};
+}
+
+vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
+  return vulkan::checked([&] {
+    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
+    return vk::raii::PipelineLayout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
+  });
+}
+
+// Rays of the blocks' fragments, for what has to know them.
+vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
+  std::vector<shader::BlockPlane> records;
+  for (const RasterBlock &block : blocks) {
+    const glm::dmat3 camera_from_raster = glm::inverse(block.raster_from_camera);
+    const DoublePair4 x(camera_from_raster[0], 0.0), y(camera_from_raster[1], 0.0),
+        corner(camera_from_raster[2], 0.0);
+    records.push_back({x.hi, x.lo, y.hi, y.lo, corner.hi, corner.lo});
+  }
+  return vulkan::upload(device, std::as_bytes(std::span(records)));
+}
+
+struct RasterShaders {
+  std::span<const std::uint32_t> vertex, fragment;
+};
+
+RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePrecision precision,
+                             bool depths) {
+  const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
+    return choose(device, precision, fp64, double_float);
+  };
+  if (!device.has_attachments())
+    return {shader::visibility_vert_spirv,
+            masked ? of(shader::visibility_keys_masked_fp64_spirv,
+                        shader::visibility_keys_masked_double_float_spirv)
+                   : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv)};
+  if (depths)
+    return {of(shader::visibility_depth_vert_fp64_spirv, shader::visibility_depth_vert_double_float_spirv),
+            masked ? of(shader::visibility_depth_masked_fp64_spirv,
+                        shader::visibility_depth_masked_double_float_spirv)
+                   : of(shader::visibility_depth_frag_fp64_spirv,
+                        shader::visibility_depth_frag_double_float_spirv)};
+  return {shader::visibility_vert_spirv,
+          masked ? of(shader::visibility_masked_fp64_spirv, shader::visibility_masked_double_float_spirv)
+                 : std::span<const std::uint32_t>(shader::visibility_frag_spirv)};
+}
+
+vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
+                                 float half_viewport, const RasterShaders &shaders, vk::Format format,
+                                 std::uint32_t general_chip) {
+  return vulkan::checked([&] {
+    const auto vertex = shader_module(device, shaders.vertex);
+    const auto fragment = shader_module(device, shaders.fragment);
+    const vk::SpecializationMapEntry entry(0, 0, sizeof(std::uint32_t));
+    const vk::SpecializationInfo of_vertex(1, &entry, sizeof(half_viewport), &half_viewport),
+        of_fragment(1, &entry, sizeof(general_chip), &general_chip);
+    const std::array stages{
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &of_vertex),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",
+                                          &of_fragment)};
+    const vk::VertexInputBindingDescription binding(0, sizeof(shader::RasterVertex));
+    const std::array attributes{
+        vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32B32Sfloat,
+                                            offsetof(shader::RasterVertex, x_fragments)),
+        vk::VertexInputAttributeDescription(1, 0, vk::Format::eR32Uint,
+                                            offsetof(shader::RasterVertex, triangle))};
+    const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    vk::PipelineRasterizationStateCreateInfo raster;
+    raster.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
+    const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
+    // Of triangles at the same depth the one that comes first in the scene stays.
+    const bool attached = device.has_attachments();
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, attached, attached, vk::CompareOp::eGreater);
+    vk::PipelineColorBlendAttachmentState write;
+    using Component = vk::ColorComponentFlagBits;
+    write.setColorWriteMask(Component::eR | Component::eG | Component::eB | Component::eA);
+    vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
+    if (!attached)
+      blend.setAttachments({});
+    const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
+    vk::PipelineRenderingCreateInfo rendering(0, format, RasterImages::depth_format);
+    if (!attached)
+      rendering.setColorAttachmentFormats({}).setDepthAttachmentFormat(vk::Format::eUndefined);
+    return vk::raii::Pipeline(device.get(), nullptr,
+                              vk::GraphicsPipelineCreateInfo(
+                                  {}, stages, &input, &assembly, nullptr, &viewport, &raster, &multisample,
+                                  &depth, &blend, &dynamic_state, *layout, {}, 0, {}, 0, &rendering));
+  });
+}
+
+// A device has one viewport, so one pipeline for each pair of shaders.
+std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, float half_viewport,
+                                                 const RasterShaders &shaders, vk::Format format,
+                                                 std::uint32_t general_chip) {
+  return device.pipelines().get(
+      shaders.fragment.data(), {general_chip, static_cast<std::uint32_t>(format)}, [&] {
+        vk::raii::PipelineLayout layout = make_layout(device);
+        vk::raii::Pipeline pipeline =
+            make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
+        return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
+      });
+}
+
+// A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes
+// to.
+bool vertices_fetch_planes(const Projection &projection, const Sensor &sensor) {
+  constexpr std::size_t samples_per_triangle = 32;
+  const std::size_t triangles = projection.vertices.size() / 3;
+  return samples_per_triangle * triangles <= sensor.pixel_count() * sensor.samples * sensor.samples;
+}
+
+} // namespace
+
+std::uint32_t raster_block_fragments(const vulkan::Device &device) {
+  return std::min(std::bit_floor(device.limits().viewport_samples) / 2, device.limits().raster_samples);
+}
+
+VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
+                               const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
+                               SamplePrecision precision, const std::optional<ChipGrid> &grid,
+                               const vulkan::Buffer &tags, std::optional<RasterImages> &&previous)
+    : sensor_(sensor), blocks_(projection.blocks),
+      vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
+                               vk::BufferUsageFlagBits::eVertexBuffer)),
+      planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
+      half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))) {
+  const bool keys = !device.has_attachments();
+  const bool by_fragments = grid && !keys && vertices_fetch_planes(projection, sensor);
+  const std::uint32_t general_chip = grid && !grid->is_nominal() ? 1 : 0;
+  compiled_ = compiled(device, half_viewport_, choose_shaders(device, masked, precision, by_fragments),
+                       grid ? record_format : tag_format, general_chip);
+  if (keys || (grid && !by_fragments))
+    tags_.emplace(device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
+                  sizeof(shader::TagsConstants),
+                  vulkan::Specialization{grid ? 1u : 0u, general_chip, keys ? 1u : 0u});
+  if (keys)
+    return;
+  images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : tag_format, tags,
+                  std::move(previous));
+}
+
+std::optional<RasterImages> VisibilityPass::release_images() {
+  if (images_)
+    images_->leave_buffer();
+  return std::exchange(images_, std::nullopt);
+}
+
+void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                            const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  if (images_)
+    record_images(commands, planned, scene, tags);
+  else
+    record_keys(commands, planned, scene, tags);
+}
+
+void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                 const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  const std::uint32_t fragments = extent.width * extent.height;
+  commands.fillBuffer(tags.get(), 0, vk::DeviceSize{fragments} * key_stride() * sizeof(shader::uvec2), 0);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1));
+  draw(commands, planned, scene, tags);
+  commands.endRendering();
+  vulkan::memory_barrier(commands, Stage::eFragmentShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  complete_tags(commands, planned, scene, tags);
+}
+
+// Makes tags or records of what the fragments left.
+void VisibilityPass::complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  const std::uint32_t fragments = extent.width * extent.height;
+  const shader::Strip &strip = planned.strip;
+  const bool distorted = blocks_[planned.block].distorted;
+  const std::uint32_t tiles = is_tiled(sensor_) ? strip.samples : 1;
+  shader::SampleGrid grid{};
+  if (grid_)
+    grid = grid_->of(strip);
+  grid.columns = extent.width;
+  grid.inverse_columns = 1.0f / static_cast<float>(extent.width);
+  const shader::TagsConstants constants{grid,
+                                        grid_ ? grid_->chip() : shader::uvec2(0),
+                                        words(scene.planes.address()),
+                                        words(tags.address()),
+                                        fragments,
+                                        extent.width / tiles,
+                                        extent.height / tiles,
+                                        strip.column,
+                                        strip.row,
+                                        strip.resolution_x,
+                                        distorted           ? 0
+                                        : is_tiled(sensor_) ? 1
+                                                            : strip.samples,
+                                        0};
+  tags_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
+                         Stage::eComputeShader | Stage::eTransfer,
+                         Access::eShaderStorageRead | Access::eTransferRead);
+}
+
+void VisibilityPass::record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  images_->begin(commands, extent, tags);
+  draw(commands, planned, scene, tags);
+  images_->end(commands, extent, tags);
+  if (tags_)
+    complete_tags(commands, planned, scene, tags);
+}
+
+void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                          const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+  const RasterBlock &block = blocks_[planned.block];
+  if (block.vertex_count == 0)
+    return;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *compiled_->pipeline);
+  commands.bindVertexBuffers(0, vertices_.get(), {vk::DeviceSize{0}});
+  const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
+  for (std::uint32_t row = 0; row < tiles; ++row)
+    for (std::uint32_t column = 0; column < tiles; ++column)
+      draw_tile(commands, planned, scene, tags, {column, row});
+}
+
+void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                               const SceneBuffers &scene, const vulkan::Buffer &tags,
+                               const glm::uvec2 &tile) const {
+  const shader::Strip &strip = planned.strip;
+  const RasterBlock &block = blocks_[planned.block];
+  const bool tiled = is_tiled(sensor_);
+  const std::uint32_t side = tiled ? 1 : strip.samples; // fragments along a pixel, but for distortion
+  const glm::uvec2 size = strip_fragments(strip, block) / (tiled ? strip.samples : 1u);
+  const glm::uvec2 in_block =
+      block.distorted ? glm::uvec2(0) : (glm::uvec2(strip.column, strip.row) - block.first_pixel) * side;
+  const glm::uvec2 corner = tile * size;
+  // The block's fragment 0 lies a quarter into the viewport; the viewport moves so that the strip starts at
+  // the tile's corner. All of these are whole numbers that float holds.
+  const glm::vec2 origin = glm::vec2(-0.5f * half_viewport_) - glm::vec2(in_block) + glm::vec2(corner);
+  commands.setViewport(0,
+                       vk::Viewport(origin.x, origin.y, 2 * half_viewport_, 2 * half_viewport_, 0.0f, 1.0f));
+  commands.setScissor(0,
+                      vk::Rect2D({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)},
+                                 {size.x, size.y}));
+  const shader::SampleGrid grid = grid_ ? grid_->of(strip) : shader::SampleGrid{};
+  const shader::VisibilityConstants constants{
+      raster_shift(sensor_, tile),
+      corner.x,
+      corner.y,
+      strip.column,
+      strip.row,
+      strip.resolution_x,
+      block.distorted ? 0 : side,
+      sample_shift(sensor_, tile),
+      in_block.x,
+      in_block.y,
+      words(planes_of_blocks_.address() + planned.block * sizeof(shader::BlockPlane)),
+      words(scene.planes.address()),
+      words(scene.paint.shapes.address()),
+      words(scene.paint.surfaces.address()),
+      words(tags.address()),
+      extent_of(planned, blocks_).width,
+      key_stride(),
+      grid.slope,
+      grid.first,
+      grid_ ? grid_->chip() : shader::uvec2(0)};
+  commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
+                                                      constants);
+  commands.draw(block.vertex_count, 1, block.first_vertex, 0);
+}
+
+} // namespace pmdsim

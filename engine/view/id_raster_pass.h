@@ -1,0 +1,65 @@
+#pragma once
+// The visibility pass: rasterises the projected triangles and tags every visible sample with its pixel ID and
+// its triangle ID, nearest wins.
+
+#include "engine/model/simulator_options.h"
+#include "engine/sampling/chip_grid.h"
+#include "engine/sampling/strip_memory.h"
+#include "engine/view/projection.h"
+#include "engine/view/raster_images.h"
+#include "engine/view/scene_buffers.h"
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/compute_pipeline.h"
+
+#include <memory>
+#include <optional>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace pmdsim {
+
+// The largest raster block that the device rasterises exactly: half of its largest power-of-two viewport.
+std::uint32_t raster_block_fragments(const vulkan::Device &device);
+
+class VisibilityPass {
+public:
+  // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
+  // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
+  // same.
+  VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
+                 const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+                 const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+                 std::optional<RasterImages> &&previous);
+
+  // Leaves the tags of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
+  // the tags of its block's fragments, in `tags`, visible to compute shaders and transfers. Of a strip that
+  // is not one of those planned, only the first row may be right.
+  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
+              const vulkan::Buffer &tags) const;
+
+  std::optional<RasterImages> release_images();
+
+private:
+  std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next
+  void record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                   const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
+            const vulkan::Buffer &tags) const;
+  void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                 const SceneBuffers &scene, const vulkan::Buffer &tags, const glm::uvec2 &tile) const;
+
+  Sensor sensor_;
+  std::vector<RasterBlock> blocks_;
+  vulkan::Buffer vertices_;
+  vulkan::Buffer planes_of_blocks_;             // BlockPlane of each where shapes may have holes
+  std::optional<RasterImages> images_;          // nothing where fragments leave keys instead
+  std::optional<vulkan::ComputePipeline> tags_; // nothing where the fragments leave all that is asked for
+  std::optional<ChipGrid> grid_;
+  float half_viewport_;
+  std::shared_ptr<const vulkan::Pipeline> compiled_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,119 @@
+#include "engine/view/lens_search_pass.h"
+
+#include "engine/model/lens.h"
+#include "engine/sampling/chip_place.h"
+#include "engine/view/triangle_corners.h"
+#include "engine/vulkan/float_pair.h"
+#include "engine/vulkan/sample_precision.h"
+#include "spirv/search_double_float.h"
+#include "spirv/search_fp64.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pmdsim {
+namespace {
+
+// LensModel and its table, as they lie in the buffer.
+struct LensRecord {
+  shader::LensModel model;
+  std::array<float, shader::lens_guesses> guesses;
+};
+static_assert(sizeof(LensRecord) == sizeof(shader::LensModel) + shader::lens_guesses * sizeof(float));
+
+double distorted_radius_of_image(const Sensor &sensor, const Lens &lens) {
+  const glm::dvec2 last(sensor.resolution);
+  double radius = 0.0;
+  for (const glm::dvec2 corner : {glm::dvec2(0), glm::dvec2(last.x, 0), glm::dvec2(0, last.y), last}) {
+    const glm::dvec3 place = lens.lens_from_chip() * glm::dvec3(lens.on_chip_m(corner), 1.0);
+    radius = std::max(radius, glm::length(glm::dvec2(place) / place.z));
+  }
+  return radius;
+}
+
+// How many times the distorted radius the undistorted one is, or the fisheye's angle. Newton's method gets
+// the node below, from where it runs up to the root without passing the fold.
+std::array<float, shader::lens_guesses> guesses_of(const Lens &lens, double nodes_per_radius) {
+  std::array<float, shader::lens_guesses> guesses;
+  float guess = 1.0f;
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    if (i > 0)
+      guess = static_cast<float>(lens.radial_inverse(static_cast<double>(i) / nodes_per_radius) *
+                                 nodes_per_radius / static_cast<double>(i));
+    guesses[i] = guess;
+  }
+  return guesses;
+}
+
+LensRecord lens_record(const Sensor &sensor) {
+  const Lens lens(sensor);
+  const double nodes_per_radius =
+      (shader::lens_guesses - 1.0) / std::max(1e-9, distorted_radius_of_image(sensor, lens));
+  const auto [k, p] = lens.coefficients();
+  const std::array radial{DoublePair(k[0]), DoublePair(k[1]), DoublePair(k[2]), DoublePair(k[3])};
+  const DoublePair p1(p[0]), p2(p[1]);
+  return {{chip_place(sensor),
+           {radial[0].hi, radial[1].hi, radial[2].hi, radial[3].hi},
+           {radial[0].lo, radial[1].lo, radial[2].lo, radial[3].lo},
+           {p1.hi, p1.lo, p2.hi, p2.lo},
+           static_cast<float>(nodes_per_radius),
+           0,
+           0,
+           0},
+          guesses_of(lens, nodes_per_radius)};
+}
+
+vulkan::Buffer upload_lens(const vulkan::Device &device, const Sensor &sensor) {
+  const LensRecord record = lens_record(sensor);
+  return vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
+}
+
+vulkan::Buffer upload_views(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
+  std::vector<shader::RasterView> views;
+  for (const RasterBlock &block : blocks) {
+    const glm::mat3 rows(glm::transpose(block.raster_from_camera));
+    views.push_back({glm::vec4(rows[0], 0), glm::vec4(rows[1], 0), glm::vec4(rows[2], 0), block.fragments.x,
+                     block.fragments.y, 0, 0});
+  }
+  return vulkan::upload(device, std::as_bytes(std::span(views)));
+}
+
+vulkan::Buffer upload_corners(const vulkan::Device &device, const CameraScene &camera, const Scene &scene) {
+  const auto corners = triangle_corners(camera, scene);
+  return vulkan::upload(device, std::as_bytes(std::span(corners)));
+}
+
+} // namespace
+
+SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
+                       const Scene &scene, const std::vector<RasterBlock> &blocks,
+                       std::uint32_t surface_vectors, const PaintBuffers &paint, SamplePrecision precision)
+    : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
+      corners_(upload_corners(device, camera, scene)),
+      pipeline_(device,
+                choose(device, precision, shader::search_fp64_spirv, shader::search_double_float_spirv),
+                sizeof(shader::SearchConstants),
+                {surface_vectors, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
+                 std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
+                                                                    : shader::distortion_brown,
+                 paint.masked ? 1u : 0u, paint.painted ? 1u : 0u}) {}
+
+void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                        const StripBuffers &buffers, const SceneBuffers &scene) const {
+  const shader::SearchConstants constants{
+      planned.strip,
+      words(lens_.address()),
+      words(views_.address() + planned.block * sizeof(shader::RasterView)),
+      words(buffers.fragments.address()),
+      words(scene.planes.address()),
+      words(corners_.address()),
+      words(buffers.tags.address()),
+      words(buffers.position.address()),
+      words(buffers.surface.address()),
+      words(buffers.backscatter.address()),
+      words(scene.paint.shapes.address()),
+      words(scene.paint.surfaces.address())};
+  pipeline_.dispatch(commands, constants, sample_count(planned.strip), shader::workgroup_size);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,29 @@
+#pragma once
+// Triangles projected onto the raster blocks in double: clipped to each and snapped to the raster's grid of
+// 1/256 fragment. The device then rasterises numbers that it can represent exactly, so neither the size of a
+// strip nor a device's clipper can change which sample sees which triangle.
+
+#include "engine/sampling/raster_blocks.h"
+#include "engine/view/camera_scene.h"
+#include "shaders/shared/interface.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// Holds what is visible of some consecutive triangles, before one hides another.
+struct VisibleBox {
+  glm::dvec3 low_m; // camera frame
+  glm::dvec3 high_m;
+};
+
+struct Projection {
+  std::vector<RasterBlock> blocks; // together they are the frame
+  std::vector<shader::RasterVertex> vertices;
+  std::vector<VisibleBox> visible; // some 1,000 at most, whatever the number of triangles
+};
+
+// `blocks` without their vertices.
+Projection project(const CameraScene &camera, std::vector<RasterBlock> blocks);
+
+} // namespace pmdsim

@@ -1,0 +1,125 @@
+#include "engine/view/raster_images.h"
+
+#include "engine/vulkan/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vulkan/vulkan_format_traits.hpp>
+
+namespace pmdsim {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+using Usage = vk::ImageUsageFlagBits;
+
+constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+constexpr auto users_of_tags = Stage::eComputeShader | Stage::eTransfer;
+constexpr auto uses_of_tags =
+    Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead;
+
+vk::Extent2D largest_of(const std::vector<vk::Extent2D> &extents) {
+  vk::Extent2D largest;
+  for (const vk::Extent2D &extent : extents) {
+    largest.width = std::max(largest.width, extent.width);
+    largest.height = std::max(largest.height, extent.height);
+  }
+  return largest;
+}
+
+// Lavapipe draws on linear images as fast as on others; GPUs may not.
+std::optional<vulkan::Image> image_in_place(const vulkan::Device &device,
+                                            const std::vector<vk::Extent2D> &extents, vk::Extent2D largest,
+                                            vk::Format format, const vulkan::Buffer &tags) {
+  const bool equally_wide =
+      std::ranges::all_of(extents, [&](const vk::Extent2D &extent) { return extent.width == largest.width; });
+  if (!device.is_cpu() || !equally_wide)
+    return std::nullopt;
+  return vulkan::Image::on_buffer(device, largest, format, Usage::eColorAttachment, tags);
+}
+
+} // namespace
+
+RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents,
+                           vk::Format tag_format, const vulkan::Buffer &tags,
+                           std::optional<RasterImages> &&previous)
+    : extent_(largest_of(extents)), tag_format_(tag_format) {
+  if (previous && previous->extent_ != extent_)
+    previous.reset(); // its memory first
+  depth_ = previous ? std::move(previous->depth_)
+                    : vulkan::Image(device, extent_, depth_format, Usage::eDepthStencilAttachment,
+                                    vk::ImageAspectFlagBits::eDepth);
+  tags_ = image_in_place(device, extents, extent_, tag_format, tags);
+  in_place_ = tags_.has_value();
+  if (!in_place_ && previous && previous->tag_format_ == tag_format)
+    tags_ = std::move(previous->tags_);
+  if (!tags_) {
+    previous.reset();
+    tags_.emplace(device, extent_, tag_format, Usage::eColorAttachment | Usage::eTransferSrc,
+                  vk::ImageAspectFlagBits::eColor);
+  }
+}
+
+void RasterImages::leave_buffer() {
+  if (in_place_)
+    tags_.reset();
+}
+
+void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                         const vulkan::Buffer &tags) const {
+  const auto [layout, load] = begin_tags(commands, extent, tags);
+  depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
+                    Access::eDepthStencilAttachmentWrite, depth_tests,
+                    Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+  const vk::RenderingAttachmentInfo color(tags_->view(), layout, vk::ResolveModeFlagBits::eNone, {},
+                                          Layout::eUndefined, load, vk::AttachmentStoreOp::eStore,
+                                          vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
+  const vk::RenderingAttachmentInfo depth(
+      depth_.view(), Layout::eDepthAttachmentOptimal, vk::ResolveModeFlagBits::eNone, {}, Layout::eUndefined,
+      vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0.0f));
+  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
+}
+
+// The layout in which the tags are drawn, and whether they are still to be cleared. Lavapipe clears images of
+// more than 4 bytes a pixel one pixel after the other, but fills buffers.
+std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii::CommandBuffer &commands,
+                                                                 vk::Extent2D extent,
+                                                                 const vulkan::Buffer &tags) const {
+  if (!in_place_) {
+    tags_->transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
+                      Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    return {Layout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear};
+  }
+  tags_->transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_tags, {}, Stage::eTransfer,
+                    Access::eTransferWrite);
+  commands.fillBuffer(tags.get(), 0,
+                      vk::DeviceSize{extent.width} * extent.height * vk::blockSize(tag_format_), 0);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
+                         Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
+  return {Layout::eGeneral, vk::AttachmentLoadOp::eLoad};
+}
+
+void RasterImages::end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                       const vulkan::Buffer &tags) const {
+  commands.endRendering();
+  if (in_place_)
+    vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                           users_of_tags, uses_of_tags);
+  else
+    copy_tags(commands, extent, tags);
+}
+
+void RasterImages::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                             const vulkan::Buffer &tags) const {
+  tags_->transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
+                    Access::eTransferRead);
+  const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                   {0, 0, 0}, {extent.width, extent.height, 1});
+  commands.copyImageToBuffer(tags_->get(), Layout::eTransferSrcOptimal, tags.get(), region);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_tags, uses_of_tags);
+}
+
+} // namespace pmdsim

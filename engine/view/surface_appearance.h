@@ -1,0 +1,41 @@
+#pragma once
+// How the scene's shapes are painted, as the shaders read it; empty where nothing is.
+
+#include "engine/view/camera_scene.h"
+#include "engine/vulkan/buffer.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace pmdsim {
+
+// The textures on the device, which outlast the frame that they were uploaded for.
+class TextureCache {
+public:
+  explicit TextureCache(const vulkan::Device &device) : device_(device) {}
+
+  std::shared_ptr<const vulkan::Buffer> buffer_of(const std::shared_ptr<const Texture> &texture);
+  // Those that no PaintBuffers hold.
+  void drop_unused();
+
+private:
+  const vulkan::Device &device_;
+  std::map<std::shared_ptr<const Texture>, std::shared_ptr<const vulkan::Buffer>> buffers_;
+};
+
+struct PaintBuffers {
+  vulkan::Buffer shapes;                                       // ShapePaint of each of the scene's shapes
+  vulkan::Buffer surfaces;                                     // SurfacePaint of each of its surfaces
+  std::vector<std::shared_ptr<const vulkan::Buffer>> textures; // of each of its surfaces
+  bool painted = false; // whether any shape that the lens can see is; else all else is empty
+  bool masked = false;  // whether any may have holes, or is a disc
+};
+
+PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
+                          Backscatter backscatter, TextureCache &textures);
+
+// ShapePaint::origin of each shape and the affine functions, by the shape's id.
+std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene);
+
+} // namespace pmdsim

@@ -1,0 +1,64 @@
+#pragma once
+// A device against the reference, before its speed is believed.
+
+#include "engine/model/measurement.h"
+#include "engine/reference/reference.h"
+#include "host/input/setup/setup.h"
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// Of one sensor at one frequency.
+struct AccuracyCheck {
+  std::string sensor;
+  double modulation_hz = 0.0, ambiguity_m = 0.0;
+  glm::uvec2 resolution{0, 0}; // of the frame that was compared
+  double claimed_m = 0.0;      // what the device's frame may be off by, by its own account
+  // Of samples that hit the same triangle on both, each with every diode, dark or bright: whether the diode
+  // reaches it. None where shadows are off.
+  std::size_t pairs = 0;
+  std::size_t pairs_apart = 0;    // of those decided otherwise by the device
+  std::size_t comparable = 0;     // pixels: bright enough in the reference
+  std::size_t same_triangles = 0; // of those: all their samples hit the same triangles on both
+  std::size_t pixels = 0;         // of those compared: the same diodes reach them on both
+  std::size_t not_finite = 0;     // of those compared: the device gives no finite distance
+  // Largest difference of the others' distances, wrapped; NaN where none is left.
+  double distance_max_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Pixels darker than a thousandth of the brightest, or of the brightest tap, are not comparable: where
+// returns or taps cancel, the phase of what is left says nothing about the arithmetic. Where other diodes
+// reach a pixel it measures another sum, which says nothing either. `found` and `truth` are of the same
+// sensor in the light of `diodes`, with their sample triangles and, where shadows are automatic, with what
+// reaches each sample. Throws Error (internal) where they are not.
+AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
+                      std::size_t frequency, std::size_t diodes);
+
+// Throws Error (internal) where a device that computes what the reference computes cannot have been the one
+// that was compared: a distance is not finite or too far off, hardly any pixel saw the same triangles, or
+// more samples than rounding explains have other diodes in sight.
+void require_plausible(const AccuracyCheck &check, const std::string &device);
+
+// With few enough pixels for what the reference can afford with so many diodes and with shadows or without,
+// one of `sensors` that share it. Where the fewest that coarser() leaves are too many still, with one sample
+// a pixel.
+Sensor affordable(Sensor sensor, std::size_t diode_count, Shadows shadows, std::size_t sensors);
+
+// What the reference measures of a sensor.
+struct ReferenceFrame {
+  Sensor sensor; // a coarser one with the same view where the setup's would take too long
+  reference::Frame frame;
+};
+
+// Of every sensor of the setup. Throws Error (interrupted).
+std::vector<ReferenceFrame> reference_frames(const Setup &setup);
+
+// Measures the same frames on the device; a check each sensor and frequency. Throws Error.
+std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::vector<ReferenceFrame> &truth,
+                                          const std::string &device, const Accuracy &accuracy);
+
+} // namespace pmdsim

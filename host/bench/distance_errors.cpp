@@ -1,0 +1,90 @@
+#include "host/bench/distance_errors.h"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::uint64_t pixel_seed = 20070101; // any, but always the same
+
+// Calls `visit` with every triangle that the pixel's samples see in a frame of so many columns.
+template <class Visit>
+void for_each_triangle(const std::vector<std::uint32_t> &sample_triangle_id, std::size_t columns,
+                       std::size_t pixel, std::size_t samples, const Visit &visit) {
+  const std::size_t row = pixel / columns * samples, column = pixel % columns * samples;
+  for (std::size_t k = 0; k < samples * samples; ++k)
+    visit(sample_triangle_id[(row + k / samples) * columns * samples + column + k % samples]);
+}
+
+class ErrorSum {
+public:
+  void add(double error_m) {
+    ++pixels_;
+    max_m_ = std::max(max_m_, error_m);
+    square_sum_m2_ += error_m * error_m;
+  }
+  DistanceErrors errors() const {
+    if (pixels_ == 0)
+      return {};
+    return {pixels_, max_m_, std::sqrt(square_sum_m2_ / static_cast<double>(pixels_))};
+  }
+
+private:
+  std::size_t pixels_ = 0;
+  double max_m_ = 0.0, square_sum_m2_ = 0.0;
+};
+
+} // namespace
+
+// Floyd's algorithm.
+std::vector<std::uint32_t> random_pixels(std::uint64_t pixels, std::size_t count) {
+  std::set<std::uint32_t> chosen;
+  std::mt19937_64 random(pixel_seed);
+  for (std::uint64_t last = pixels - std::min<std::uint64_t>(pixels, count); last < pixels; ++last) {
+    const auto pixel = static_cast<std::uint32_t>(random() % (last + 1));
+    if (!chosen.insert(pixel).second)
+      chosen.insert(static_cast<std::uint32_t>(last));
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
+std::vector<bool> on_edges(const TruePixels &truth, const Measurement &found, std::uint32_t samples,
+                           std::size_t diodes) {
+  const auto true_samples = truth.sensor.samples;
+  // Of one sample's light by one diode more or less.
+  const double least_lit = 1.0 / (static_cast<double>(diodes) * true_samples * true_samples);
+  std::vector<bool> edges;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    std::set<std::uint32_t> triangles;
+    const auto see = [&](std::uint32_t id) { triangles.insert(id); };
+    for_each_triangle(truth.frame.sample_triangle_id, 1, i, true_samples, see);
+    for_each_triangle(found.sample_triangle_id, truth.sensor.resolution.x, truth.pixels[i], samples, see);
+    const bool other_light = !found.lit.empty() && std::abs(static_cast<double>(found.lit[truth.pixels[i]]) -
+                                                            truth.frame.lit[i]) > 0.5 * least_lit;
+    edges.push_back(triangles.size() > 1 || other_light);
+  }
+  return edges;
+}
+
+ErrorsByPlace distance_errors(const TruePixels &truth, const std::vector<bool> &edges,
+                              const Measurement &found) {
+  const reference::FrameReturn &expected = truth.frame.returns.front();
+  const std::vector<float> &distance_m = found.returns.front().distance_m;
+  ErrorSum beside, on;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    if (std::isnan(expected.distance_m[i]))
+      continue;
+    const auto found_m = static_cast<double>(distance_m[truth.pixels[i]]);
+    const double error_m =
+        std::isfinite(found_m)
+            ? std::abs(std::remainder(found_m - expected.distance_m[i], expected.ambiguity_m))
+            : 0.5 * expected.ambiguity_m;
+    (edges[i] ? on : beside).add(error_m);
+  }
+  return {beside.errors(), on.errors()};
+}
+
+} // namespace pmdsim

@@ -1,0 +1,26 @@
+#pragma once
+// What a time depends on beside what is timed.
+
+#include "host/capture/camera.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace pmdsim {
+
+// Everything that must be known to measure the same again.
+struct Machine {
+  std::string device, driver;
+  std::string processor;       // "unknown" where the system does not tell
+  unsigned hardware_threads;   // of the processor
+  unsigned threads;            // that a Vulkan device on the CPU and the native kernel use
+  std::string passes_by;       // what tells how long a pass took: "timestamps" of the device, or "clock"
+  std::string compiler, build; // of the program
+  std::string version;
+  nlohmann::ordered_json
+      environment; // variables that matter: some, null where not set, and others that are set
+};
+
+Machine this_machine(const Camera &camera);
+
+} // namespace pmdsim

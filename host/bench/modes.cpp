@@ -1,0 +1,171 @@
+#include "host/bench/modes.h"
+
+#include "engine/model/error.h"
+#include "host/bench/peak_memory.h"
+#include "host/capture/exposure.h"
+#include "host/capture/progress_bar.h"
+#include "host/output/files/accuracy_record.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace pmdsim {
+namespace {
+
+constexpr int prepared_times = 3;
+
+// Measures one setup in several modes.
+class ModesInTurn {
+public:
+  ModesInTurn(const Setup &setup, const Options &options)
+      : setup_(setup), options_(options),
+        bar_((1 + (several_sensors() ? 2 : 1) * bench_rounds) * 3.0 * samples_of_frame(setup)) {}
+
+  // With its first frame taken and its results checked.
+  void open(Mode mode, const std::vector<ReferenceFrame> &truth) {
+    const Accuracy accuracy = accuracy_of(mode);
+    ModeBench bench{.mode = mode, .prepare_ms = {}, .checks = {}, .frames = {}};
+    auto exposures = std::make_unique<Exposures>(setup_, options_.device, false, accuracy);
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor)
+      exposures->reuse(take(*exposures, sensor, mode, "first frame"));
+    bench.first_frame_ms = ms_since(start);
+    bench.checks = check_accuracy(setup_, truth, options_.device, accuracy);
+    for (const AccuracyCheck &check : bench.checks)
+      require_plausible(check, fmt::format("{}, mode {}", exposures->camera().device(), mode_name(mode)));
+    if (!exposures->camera().is_reference())
+      bench.prepare_ms = prepare_ms(accuracy);
+    modes_.push_back(std::move(bench));
+    exposures_.push_back(std::move(exposures));
+  }
+
+  void time_round(int round) {
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+      modes_[i].frames.push_back(
+          take(*exposures_[i], modes_[i].mode, fmt::format("timing {}/{}", round, bench_rounds)));
+      if (i == 0 && native_)
+        native_->run();
+    }
+  }
+
+  // From now on beside the first mode, which is exact.
+  void add_native() { native_.emplace(setup_, options_.device); }
+
+  std::vector<ModeBench> modes() { return std::move(modes_); }
+  std::optional<NativeBench> native() { return std::move(native_); }
+
+private:
+  bool several_sensors() const { return setup_.start.sensors.size() > 1; }
+
+  Accuracy accuracy_of(Mode mode) const {
+    Accuracy accuracy = options_.accuracy;
+    accuracy.mode = mode;
+    return accuracy;
+  }
+
+  // A frame of every sensor. Where several share the device each comes to it cold, and its second frame
+  // counts.
+  TimedFrame take(Exposures &exposures, Mode mode, const std::string &what) {
+    TimedFrame sum;
+    for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor) {
+      if (several_sensors())
+        exposures.reuse(take(exposures, sensor, mode, "warming up"));
+      Measurement frame = take(exposures, sensor, mode, what);
+      add(sum, frame);
+      exposures.reuse(std::move(frame));
+    }
+    return sum;
+  }
+
+  Measurement take(Exposures &exposures, std::size_t sensor, Mode mode, const std::string &what) {
+    bar_.begin(fmt::format("mode {}, {}", mode_name(mode), what),
+               samples_of_frame(setup_, setup_.start.sensors[sensor]));
+    return exposures.take(sensor, setup_.frames.start_s, Light::beside_lens, interruptible_progress(bar_))
+        .measurement;
+  }
+
+  double prepare_ms(const Accuracy &accuracy) const {
+    const auto &[scene, sensors, illuminators] = setup_.start;
+    Camera camera(options_.device);
+    double sum_ms = 0.0;
+    for (const Sensor &sensor : sensors) {
+      std::vector<double> times_ms;
+      for (int i = 0; i <= prepared_times; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        camera.prepare(scene, sensor, illuminators, setup_.backscatter, setup_.shadows, accuracy);
+        if (i > 0)
+          times_ms.push_back(ms_since(start));
+      }
+      sum_ms += spread_of(times_ms).median;
+    }
+    return sum_ms;
+  }
+
+  const Setup &setup_;
+  const Options &options_;
+  ProgressBar bar_;
+  std::vector<ModeBench> modes_;
+  std::vector<std::unique_ptr<Exposures>> exposures_; // beside the modes
+  std::optional<NativeBench> native_;
+};
+
+// The one that is asked for, else all that there are.
+std::vector<Mode> modes_of(const Options &options, const Setup &setup) {
+  if (options.mode_written)
+    return {options.accuracy.mode};
+  const bool only_exact = names_the_reference(options.device) || exposes_any_tap_by_tap(setup);
+  return only_exact ? std::vector{Mode::exact} : std::vector{Mode::exact, Mode::reduced, Mode::automatic};
+}
+
+bool has_adaptive_samples(const Setup &setup) {
+  return std::ranges::any_of(setup.start.sensors, &Sensor::adaptive_samples);
+}
+
+void open_modes(ModesInTurn &modes, const Setup &setup, const Options &options) {
+  const std::vector<ReferenceFrame> truth =
+      names_the_reference(options.device) ? std::vector<ReferenceFrame>() : reference_frames(setup);
+  for (const Mode mode : modes_of(options, setup)) {
+    try {
+      modes.open(mode, truth);
+    } catch (const Error &error) {
+      if (options.mode_written || error.code() != ExitCode::accuracy)
+        throw;
+      fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
+    }
+  }
+}
+
+} // namespace
+
+SetupBench bench_setup(const Setup &setup, const Options &options, const std::string &name) {
+  SetupBench bench;
+  bench.name = name;
+  bench.interactions = samples_of_frame(setup) * static_cast<double>(diode_count(setup.start.illuminators));
+  bench.adaptive = has_adaptive_samples(setup);
+  bench.sensors = static_cast<std::uint32_t>(setup.start.sensors.size());
+  ModesInTurn modes(setup, options);
+  open_modes(modes, setup, options);
+  if (modes_of(options, setup).front() == Mode::exact && !bench.adaptive &&
+      !names_the_reference(options.device))
+    modes.add_native();
+  for (int round = 1; round <= bench_rounds; ++round)
+    modes.time_round(round);
+  bench.modes = modes.modes();
+  bench.native = modes.native();
+  bench.peak_memory_bytes = peak_memory_bytes();
+  return bench;
+}
+
+std::vector<double> interactions_per_s(const SetupBench &bench, const ModeBench &mode) {
+  std::vector<double> rates;
+  if (mode.mode == Mode::exact && !bench.adaptive)
+    for (const TimedFrame &frame : mode.frames)
+      if (const double accumulate_ms = pass_ms(frame, "accumulate"); !std::isnan(accumulate_ms))
+        rates.push_back(bench.interactions / (1e-3 * accumulate_ms));
+  return rates;
+}
+
+} // namespace pmdsim

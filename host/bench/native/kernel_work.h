@@ -1,0 +1,39 @@
+#pragma once
+// What the native kernel sums: the setup's own points and diodes, or, where the setup is none that it models,
+// those of a ring before a wall.
+
+#include "engine/model/measurement.h"
+#include "host/bench/native/native_kernel.h"
+#include "host/input/setup/setup.h"
+
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+// 240 isotropic diodes in five rings of 0.126 to 0.166 m about the lens and 640 x 640 points of a wall of
+// 0.4 x 0.4 m, 2 m before it; 20 MHz.
+NativeWork ring_and_wall();
+
+struct ChosenWork {
+  NativeWork work;
+  std::string points; // whose points and diodes they are, for people, and why not the setup's
+};
+
+// `measurement` is of `sensor` in the setup's light at its start, in mode exact, with one sample a pixel. The
+// sensor's first frequency counts.
+ChosenWork native_work(const Setup &setup, const Sensor &sensor, const Measurement &measurement);
+
+// A kernel whose results have been compared with double.
+struct CheckedKernel {
+  NativeKernel kernel;
+  std::string points; // as in ChosenWork
+  double moments_error_m = 0.0;
+  std::optional<double> series_error_m; // nothing where the series takes too many powers
+};
+
+// With the fewest powers that the series takes. On the ring and the wall where the moments are no good for
+// what was chosen. Throws Error (internal) where they are not for these either.
+CheckedKernel checked_kernel(const ChosenWork &chosen, const NativeSums &sums, unsigned threads);
+
+} // namespace pmdsim

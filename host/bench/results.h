@@ -1,0 +1,30 @@
+#pragma once
+// What a benchmark found, in Markdown for people and in JSON for scripts (DESIGN section 6).
+
+#include "host/bench/machine.h"
+#include "host/bench/modes.h"
+#include "host/bench/sequence_rate.h"
+#include "host/bench/sweep.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+struct BenchReport {
+  std::string command; // that was run
+  Options options;
+  Machine machine;
+  std::vector<std::string> samples; // of each sensor: S, or "auto"
+  SetupBench setup;
+  // Nothing of a setup of one's own.
+  std::optional<SequenceRate> sequence = std::nullopt;
+  std::vector<SweepRow> sweep = {};
+};
+
+nlohmann::ordered_json bench_json(const BenchReport &report);
+std::string bench_markdown(const BenchReport &report);
+
+} // namespace pmdsim

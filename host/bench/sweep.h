@@ -1,0 +1,52 @@
+#pragma once
+// The benchmark's sweep: how the time of a frame grows with each quantity.
+
+#include "host/bench/accuracy_check.h"
+#include "host/bench/linearity.h"
+#include "host/bench/sweep_setups.h"
+#include "host/bench/timing.h"
+#include "host/options.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+struct SweepRow {
+  SweepPoint point;
+  double first_frame_ms = 0.0; // from preparing to the result, with all compiling
+  double prepare_ms = 0.0;     // again, warm; median
+  double error_m = 0.0;        // largest at random pixels and all frequencies, against the reference
+  std::size_t checked_pixels = 0;
+  double interactions = 0.0;                     // samples x diodes
+  std::optional<std::int64_t> peak_memory_bytes; // of the process, while the row was first measured
+  std::vector<TimedFrame> frames;
+};
+
+// The largest error of distance at some random pixels of a frame of the setup's first sensor, wrapped, and
+// their number. Throws Error (internal) where it is larger than rounding and the error claimed explain.
+struct RandomCheck {
+  double error_m = 0.0;
+  std::size_t pixels = 0;
+};
+RandomCheck check_at_random(const Setup &setup, const Measurement &found, const std::string &device);
+
+// Every point in one mode, exact unless another one is asked for; the points of each sweep in turn. Throws
+// Error.
+std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps, const Options &options);
+
+// Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
+double interactions_per_s(const SweepRow &row, Mode mode);
+
+// How one quantity's frame times grow: the median of each point. (Where a clock has a slow and a fast mode,
+// short frames have their least in the fast one, long ones in both.)
+struct Growth {
+  SweptQuantity quantity;
+  std::vector<SizeAndTime> points;
+  StraightLine line;
+  std::vector<double> marginal_ms; // beside the points
+};
+std::vector<Growth> growths_of(const std::vector<SweepRow> &rows);
+
+} // namespace pmdsim

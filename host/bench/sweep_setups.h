@@ -1,0 +1,42 @@
+#pragma once
+// The setups of the benchmark's sweep, made in memory: the paper's ring and wall (scenes/paper_ring.json)
+// with one quantity changed at a time.
+
+#include "host/input/setup/setup.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+enum class SweptQuantity { resolution, diodes, samples, triangles, frequencies };
+inline constexpr std::array swept_quantities{SweptQuantity::resolution, SweptQuantity::diodes,
+                                             SweptQuantity::samples, SweptQuantity::triangles,
+                                             SweptQuantity::frequencies};
+
+std::string quantity_name(SweptQuantity quantity);
+// What the time of a frame may be expected to grow with: "pixels", "diodes", ...
+std::string unit_name(SweptQuantity quantity);
+
+struct SweepPoint {
+  SweptQuantity quantity;
+  std::uint32_t value; // columns and rows, diodes, S, triangles, frequencies
+
+  std::string name() const; // "resolution 160"
+  double units() const;     // as unit_name() says: of resolution and samples the square
+};
+
+// Ascending.
+std::vector<SweepPoint> sweep_points(SweptQuantity quantity);
+
+// A wall of 0.4 x 0.4 m that fills the view of 640 x 640 pixels at 2 m, lit by 240 isotropic diodes in five
+// rings; constant backscatter, one sample a pixel, 20 MHz.
+Setup paper_ring();
+
+// That with the point's value in place of its own. More pixels are smaller, diodes share the rings' radii,
+// triangles are a grid on the wall (their number even, and a rectangle's), frequencies are 2.5 MHz apart.
+Setup swept_setup(const SweepPoint &point);
+
+} // namespace pmdsim

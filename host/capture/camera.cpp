@@ -1,0 +1,73 @@
+#include "host/capture/camera.h"
+
+#include "engine/reference/reference.h"
+#include "host/capture/interruption.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+bool validation_is_asked_for() {
+  // The program never changes its environment.
+  const char *value = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
+  return value && std::string_view(value) == "1";
+}
+
+} // namespace
+
+bool names_the_reference(const std::string &device) {
+  return std::ranges::equal(device, std::string_view("reference"), {},
+                            [](unsigned char c) { return std::tolower(c); });
+}
+
+Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
+  if (names_the_reference(device)) {
+    device_ = "reference";
+    driver_ = "pmdsim " PMDSIM_VERSION;
+    return;
+  }
+  SimulatorOptions options;
+  options.device = device;
+  options.keep_sample_tags = extras.sample_triangles;
+  options.keep_reached = extras.reached;
+  options.keep_taps = extras.taps;
+  options.validate = validation_is_asked_for();
+  simulator_.emplace(options);
+  device_ = simulator_->device().name;
+  driver_ = simulator_->device().driver;
+}
+
+void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
+                     Backscatter backscatter, Shadows shadows, const Accuracy &accuracy) {
+  throw_if_interrupted();
+  prepared_ = {&scene, sensor, illuminators, backscatter, shadows};
+  if (simulator_)
+    simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
+}
+
+Measurement Camera::measure(const Progress &progress) {
+  throw_if_interrupted();
+  if (simulator_)
+    return simulator_->measure(progress);
+  const auto &[scene, sensor, illuminators, backscatter, shadows] = prepared_;
+  Measurement measurement = reference::to_measurement(
+      reference::simulate(*scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
+  measurement.accuracy.precision = Precision::fp64;
+  measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
+  if (!extras_.taps)
+    for (Return &of_frequency : measurement.returns)
+      of_frequency.taps.clear();
+  return measurement;
+}
+
+void Camera::reuse(Measurement &&frame) {
+  if (simulator_)
+    simulator_->reuse(std::move(frame));
+}
+
+} // namespace pmdsim

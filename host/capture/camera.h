@@ -1,0 +1,59 @@
+#pragma once
+// Whatever computes frames: a Vulkan device or the reference on the CPU, behind one face.
+
+#include "engine/model/accuracy.h"
+#include "engine/model/illuminator.h"
+#include "engine/model/measurement.h"
+#include "engine/model/scene.h"
+#include "engine/model/sensor.h"
+#include "engine/simulator.h"
+
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+// What a measurement shall hold beside its other channels.
+struct Extras {
+  bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
+  bool reached = false;          // Measurement::sample_reached, not from the reference
+  bool taps = false;             // Return::taps
+};
+
+// In any case, as the names of devices.
+bool names_the_reference(const std::string &device);
+
+class Camera {
+public:
+  // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).
+  // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
+  explicit Camera(const std::string &device, const Extras &extras = {});
+
+  const std::string &device() const { return device_; }
+  const std::string &driver() const { return driver_; }
+  bool is_reference() const { return !simulator_; }
+
+  // What follows measures this. `scene` must outlive it. The reference is always as exact as it can be.
+  void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
+               Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
+  // One frame. Throws Error, interrupted among others.
+  Measurement measure(const Progress &progress = {});
+  // As Simulator::reuse().
+  void reuse(Measurement &&frame);
+
+private:
+  struct Prepared {
+    const Scene *scene;
+    Sensor sensor;
+    std::vector<Illuminator> illuminators;
+    Backscatter backscatter;
+    Shadows shadows;
+  };
+
+  std::optional<Simulator> simulator_; // empty: the reference
+  Prepared prepared_{};
+  Extras extras_;
+  std::string device_, driver_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,161 @@
+#include "host/capture/exposure.h"
+
+#include "engine/model/tap_sequence.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
+  return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
+}
+
+// In the order in which they are taken.
+std::vector<double> exposure_times_s(const Sensor &sensor, double frame_s) {
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    for (std::size_t k = 0; k < sensor.taps; ++k)
+      times_s.push_back(tap_time_s(sensor, frame_s, i, k));
+  return times_s;
+}
+
+void add_times(Measurement &sum, const Measurement &exposure) {
+  sum.frame_ms += exposure.frame_ms;
+  for (const PassTime &pass : exposure.passes) {
+    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
+    if (known == sum.passes.end())
+      sum.passes.push_back(pass);
+    else
+      known->ms += pass.ms;
+  }
+}
+
+} // namespace
+
+bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor) {
+  return setup.motion && sensor.tap_interval_s > 0.0;
+}
+
+bool exposes_any_tap_by_tap(const Setup &setup) {
+  return std::ranges::any_of(setup.start.sensors,
+                             [&](const Sensor &sensor) { return exposes_tap_by_tap(setup, sensor); });
+}
+
+double samples_of_frame(const Setup &setup, const Sensor &sensor) {
+  return static_cast<double>(exposures_of_frame(setup, sensor)) * static_cast<double>(sensor.pixel_count()) *
+         sensor.samples * sensor.samples;
+}
+
+double samples_of_frame(const Setup &setup) {
+  double samples = 0.0;
+  for (const Sensor &sensor : setup.start.sensors)
+    samples += samples_of_frame(setup, sensor);
+  return samples;
+}
+
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps) {
+  const std::size_t of_frequency = 3 + (keep_taps ? sensor.taps : 0), of_geometry = 6;
+  return (sensor.modulation_hz.size() * of_frequency + of_geometry) * sizeof(float) * sensor.pixel_count();
+}
+
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {
+  std::optional<Measurement> frame;
+  std::vector<Return> returns;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
+    std::vector<std::vector<float>> taps;
+    for (std::size_t k = 0; k < sensor.taps; ++k) {
+      Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
+      taps.push_back(std::move(exposure.returns.front().taps[k]));
+      if (frame)
+        add_times(*frame, exposure);
+      else
+        frame = std::move(exposure);
+    }
+    returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
+  }
+  frame->returns = std::move(returns);
+  // Those of the exposures; what they come to together has no bound.
+  frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
+  return std::move(*frame);
+}
+
+Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy)
+    : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
+      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}), instants_(setup) {}
+
+const Instant &Exposures::instant_at(double time_s) {
+  if (!instants_.holds(time_s))
+    prepared_.reset(); // it looks at the scene that goes
+  return instants_.at(time_s);
+}
+
+void Exposures::prepare(View view, const Accuracy &accuracy) {
+  if (!setup_.motion)
+    view.time_s = setup_.frames.start_s; // one time is like another
+  if (prepared_ == view)
+    return;
+  prepared_.reset();
+  const Instant &instant = instant_at(view.time_s);
+  Sensor sensor = instant.sensors[view.sensor];
+  if (view.frequency)
+    sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
+  if (view.light == Light::in_lens) // it reaches whatever the lens sees
+    camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
+                    setup_.backscatter, Shadows::off, accuracy);
+  else
+    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows,
+                    accuracy);
+  prepared_ = view;
+}
+
+TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                           std::optional<double> next_s) {
+  TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
+  if (exposes_tap_by_tap(setup_, frame.sensor)) {
+    frame = take_tap_by_tap(sensor, time_s, light, progress, next_s);
+  } else {
+    prepare({sensor, std::nullopt, time_s, light}, accuracy_);
+    if (next_s)
+      instants_.expect(*next_s);
+    frame.measurement = camera_.measure(progress);
+  }
+  if (!keep_taps_)
+    for (Return &of_frequency : frame.measurement.returns)
+      of_frequency.taps.clear();
+  return frame;
+}
+
+std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
+  const auto give_back = [this](TakenFrame *held) {
+    const std::unique_ptr<TakenFrame> owned(held);
+    reuse(std::move(owned->measurement));
+  };
+  return {std::make_unique<TakenFrame>(std::move(frame)).release(), give_back};
+}
+
+TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, double time_s, Light light,
+                                      const Progress &progress, const std::optional<double> &next_s) {
+  TakenFrame frame{instant_at(time_s).sensors[sensor], {}, Mode::exact};
+  const Sensor &taken = frame.sensor;
+  const std::vector<double> times_s = exposure_times_s(taken, time_s);
+  std::size_t done = 0;
+  const auto expose = [&](std::size_t frequency, double exposure_s) {
+    prepare({sensor, frequency, exposure_s, light}, {.mode = Mode::exact, .precision = accuracy_.precision});
+    if (done + 1 < times_s.size())
+      instants_.expect(times_s[done + 1]);
+    else if (next_s)
+      instants_.expect(*next_s);
+    const auto of_exposure = [&](double fraction) {
+      progress((static_cast<double>(done) + fraction) / static_cast<double>(times_s.size()));
+    };
+    Measurement exposure = camera_.measure(of_exposure);
+    ++done;
+    return exposure;
+  };
+  frame.measurement = measure_tap_by_tap(taken, time_s, expose);
+  return frame;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,91 @@
+#pragma once
+// A sensor's frame as its camera takes it: in one exposure, or, where the taps are taken one after the other
+// and something moves meanwhile, in one for each frequency and tap.
+
+#include "host/capture/camera.h"
+#include "host/capture/instants.h"
+#include "host/input/setup/setup.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace pmdsim {
+
+// The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts none
+// that the lens sees.
+enum class Light { beside_lens, in_lens };
+
+// Whether every tap of the sensor's frames is an exposure of its own.
+bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor);
+
+bool exposes_any_tap_by_tap(const Setup &setup);
+
+// Samples that are measured for one frame, in all its exposures; of one sensor, and of all.
+double samples_of_frame(const Setup &setup, const Sensor &sensor);
+double samples_of_frame(const Setup &setup);
+
+// Bytes of all channels of one frame, with or without its taps; shadows included, whether or not there are.
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps);
+
+// Measures one frequency alone at a time, its taps kept.
+using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
+
+// The frame that begins at `frame_s`: from frequency i's tap k at tap_time_s() its tap k, and of these phase,
+// amplitude and distance. Ground truth is the first exposure's; times add up.
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose);
+
+// One sensor's frame.
+struct TakenFrame {
+  Sensor sensor; // where it was when the frame began
+  Measurement measurement;
+  Mode mode = Mode::exact; // that it was taken in
+};
+
+// Takes frames of a setup, which must outlive it, on one device.
+class Exposures {
+public:
+  // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken. Frames whose taps
+  // are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each exposure's
+  // error is none of what phase and distance make of a tap from each.
+  Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
+
+  const Camera &camera() const { return camera_; }
+  // As Simulator::reuse().
+  void reuse(Measurement &&frame) { camera_.reuse(std::move(frame)); }
+  // A frame whose memory is reused once nobody holds it any more; this must outlive it.
+  std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
+
+  // The frame that begins at `time_s`, of the sensor with the index `sensor`. `next_s`, where it is known, is
+  // when the next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error,
+  // interrupted among others.
+  TakenFrame take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                  std::optional<double> next_s = std::nullopt);
+
+private:
+  // What the camera is prepared for; a frequency alone, or all of them.
+  struct View {
+    std::size_t sensor;
+    std::optional<std::size_t> frequency;
+    double time_s;
+    Light light;
+
+    bool operator==(const View &) const = default;
+  };
+
+  const Instant &instant_at(double time_s);
+  TakenFrame take_tap_by_tap(std::size_t sensor, double time_s, Light light, const Progress &progress,
+                             const std::optional<double> &next_s);
+  void prepare(View view, const Accuracy &accuracy);
+
+  const Setup &setup_;
+  bool keep_taps_;
+  Accuracy accuracy_;
+  Camera camera_;
+  std::optional<View> prepared_;
+  Instants instants_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,89 @@
+#pragma once
+// The frames that a command leaves in a directory: each whole, all its sensors' files at once, in order, and
+// a manifest of those that are there. While frames are written the next are measured.
+
+#include "host/input/setup/setup.h"
+#include "host/options.h"
+#include "host/output/files/manifest.h"
+#include "host/output/files/output_set.h"
+#include "host/output/files/written_files.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+inline constexpr const char *manifest_name = "manifest.json";
+
+// Those that the command line asks for, else all of the setup's. Throws Error (usage) where the setup has
+// not so many.
+FrameRange frames_of(const Options &options, const Setup &setup);
+
+// One sensor's part of a frame.
+struct SensorFrame {
+  std::uint32_t frame; // its number in the setup
+  double time_s;
+  std::size_t sensor;             // its index in the setup
+  std::string label;              // for people: "frame 3/20, pmd"
+  std::optional<double> next_s{}; // when the frame of the part after this one begins, if there is one
+};
+
+// That part, measured.
+struct MeasuredPart {
+  FrameRecord record; // `outputs` aside
+  // What is to be written, asked for once; holds the measurement, or shares it.
+  std::function<std::vector<FileToWrite>()> files;
+};
+
+// How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
+// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not.
+std::size_t parts_waiting(std::size_t part_bytes);
+
+class FrameSequence {
+public:
+  // `run` is without frames yet. Creates the directory. Throws Error (output) where that fails or nothing
+  // can be written there.
+  FrameSequence(const Setup &setup, const FrameRange &frames, const std::filesystem::path &directory,
+                RunRecord run);
+
+  using Measure = std::function<MeasuredPart(const SensorFrame &)>;
+  // Frame by frame, and sensor by sensor in each, one at a time though not always on the same thread; and
+  // writes what is measured on threads of its own, `part_bytes` being what the largest part holds. Where that
+  // fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these; without
+  // any, nothing stays.
+  void write(const Measure &measure, std::size_t part_bytes);
+
+  const RunRecord &run() const { return run_; }
+  // A name with the directory in front.
+  std::string path_of(const std::string &name) const { return (directory_ / name).string(); }
+  // Of all files, the manifest last.
+  std::vector<std::string> paths() const;
+  // "written:" and the paths below it, those of the first frame for all.
+  std::string written_text() const;
+
+private:
+  // Written under temporary names.
+  struct WrittenPart {
+    FrameRecord record;
+    WrittenFiles files;
+  };
+
+  void write_all(const Measure &measure, std::size_t part_bytes);
+  SensorFrame part(std::size_t index) const;
+  void add(WrittenPart part);
+  void publish(std::uint32_t frame);
+  bool keep_whole_frames() noexcept;
+
+  const Setup &setup_;
+  FrameRange frames_;
+  std::unique_ptr<OutputSet> files_; // of the frame that is published next
+  std::filesystem::path directory_;
+  RunRecord run_;
+  std::size_t whole_ = 0; // of the run's frames, those that are published
+};
+
+} // namespace pmdsim

@@ -1,0 +1,94 @@
+#include "host/capture/frame_writer.h"
+
+#include "engine/model/error.h"
+#include "host/capture/interruption.h"
+#include "host/output/files/exr_writer.h"
+#include "host/output/files/npy_writer.h"
+#include "host/output/pictures/preview.h"
+#include "host/output/tables/profile.h"
+#include "host/report/report.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace pmdsim {
+namespace {
+
+using Scale = PreviewStyle::Scale;
+
+PreviewStyle preview_style(const Channel &channel) {
+  static const std::map<std::string, std::pair<std::string, Scale>> known{
+      {"amplitude", {"amplitude", Scale::sequential}},
+      {"phase_rad", {"phase", Scale::turn}},
+      {"distance_m", {"distance", Scale::sequential}},
+      {"lit", {"lit", Scale::share}},
+      {"deformation_mm", {"deformation", Scale::zero_centred}}};
+  const auto &[quantity, scale] = known.at(channel.quantity);
+  const ColourMap &colours = scale == Scale::turn           ? twilight
+                             : scale == Scale::zero_centred ? blue_white_red
+                                                            : viridis;
+  return {quantity, channel.unit, colours, scale};
+}
+
+void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
+  const PreviewStyle style = preview_style(channel);
+  const std::string title = picture_title(style.quantity, frame, channel.frequency);
+  const std::scoped_lock alone(drawing_mutex());
+  draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
+      .write_png(file);
+}
+
+void require_name_for_files(const Sensor &sensor) {
+  if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
+    throw Error(ExitCode::input,
+                fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
+}
+
+} // namespace
+
+void require_names_for_files(const std::vector<Sensor> &sensors) {
+  for (const Sensor &sensor : sensors)
+    require_name_for_files(sensor);
+}
+
+std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
+  require_name_for_files(sensor);
+  return fmt::format("{}_{:04}", sensor.name, frame);
+}
+
+std::string picture_title(const std::string &quantity, const FrameToWrite &frame,
+                          const std::optional<std::size_t> &frequency) {
+  std::string title = quantity;
+  if (frequency)
+    title += ", " + frequency_text(frame.sensor.modulation_hz[*frequency]);
+  return fmt::format("{}, {}, frame {}", title, frame.sensor.name, frame.frame);
+}
+
+std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &frame,
+                                  const std::set<Format> &formats) {
+  const std::string stem = frame_file_stem(frame->sensor, frame->frame);
+  const ChannelSet &set = frame->channels;
+  std::vector<FileToWrite> files;
+  const auto add = [&](const std::string &name, const auto &write) {
+    files.push_back({name, [frame, write](OutputFile &file) {
+                       throw_if_interrupted();
+                       write(file);
+                     }});
+  };
+  if (formats.contains(Format::exr))
+    add(stem + ".exr", [&set](OutputFile &file) { write_exr(file, set); });
+  if (formats.contains(Format::csv))
+    add(stem + ".profile.csv",
+        [&at = *frame](OutputFile &file) { write_profile_csv(file, at.channels, at.sensor); });
+  for (const Channel &channel : set.channels) {
+    const std::string name = fmt::format("{}.{}", stem, channel.name());
+    if (formats.contains(Format::npy))
+      add(name + ".npy", [&set, &channel](OutputFile &file) { write_npy(file, channel, set.resolution); });
+    if (formats.contains(Format::png) && std::ranges::count(frame->previewed, channel.quantity) != 0)
+      add(name + ".png", [&at = *frame, &channel](OutputFile &file) { write_preview(file, at, channel); });
+  }
+  return files;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,40 @@
+#pragma once
+// Keys, texts and numbers of a calibration file.
+
+#include "host/input/calibration/calibration_file.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+#include <yaml-cpp/yaml.h>
+
+namespace pmdsim {
+
+struct CalibrationEntry {
+  CalibrationKey key;
+  YAML::Node value;
+};
+
+class CalibrationMap {
+public:
+  // `map` is a YAML map of `file`; `name` is its key in the file, if it has one.
+  CalibrationMap(const YAML::Node &map, std::filesystem::path file);
+
+  // The only key that has one of these names. Throws Error (input) where there are two.
+  std::optional<CalibrationEntry> find(const std::vector<std::string> &names) const;
+  // As above; throws where there is none.
+  CalibrationEntry at(const std::vector<std::string> &names) const;
+
+private:
+  YAML::Node map_;
+  std::filesystem::path file_;
+};
+
+// All throw Error (input) at the entry.
+
+std::string text_of(const CalibrationEntry &entry);
+double number_of(const CalibrationEntry &entry); // finite
+// Row by row of a list, a list of lists or a matrix {rows, cols, data}; finite, `most` at most.
+std::vector<double> numbers_of(const CalibrationEntry &entry, std::size_t most);
+
+} // namespace pmdsim

@@ -1,0 +1,77 @@
+#include "host/input/diagram/diode_file.h"
+
+#include "host/input/diagram/csv_table.h"
+#include "host/input/diagram/diode_across.h"
+#include "host/input/setup/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pmdsim {
+
+namespace {
+
+constexpr std::array<const char *, 9> columns = {
+    "x_m", "y_m", "z_m", "axis_x", "axis_y", "axis_z", "intensity_w_sr", "pattern", "roll_deg"};
+enum Column : std::size_t { x_m, y_m, z_m, axis_x, axis_y, axis_z, intensity_w_sr, pattern, roll_deg };
+using Table = CsvTable<columns.size()>;
+
+constexpr Range coordinates_m{-max_coordinate_m, max_coordinate_m};
+constexpr Range intensities_w_sr{0.0, max_intensity_w_sr};
+constexpr Range pattern_orders{0.0, max_pattern_order};
+constexpr Range rolls_deg{-max_roll_deg, max_roll_deg};
+
+// What is written like a number is one, if a wrong one; a file of that name is "./1.5".
+bool is_number_like(std::string_view text) {
+  constexpr std::string_view first = "0123456789.+-";
+  return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;
+}
+
+Pattern pattern_of(const Table &row, const std::filesystem::path &folder, DiagramFiles &diagrams) {
+  const std::string_view text = row.text(pattern);
+  if (text.empty())
+    throw input_error(row.here(), "pattern: expected an order, isotropic or a diagram's file name");
+  if (text == "isotropic")
+    return {};
+  if (is_number_like(text))
+    return {Pattern::Kind::cosine, row.number_within(pattern_orders, pattern)};
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(folder / text, row.here())};
+}
+
+glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
+  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  if (largest == 0.0)
+    throw input_error(place, "expected an axis, found zero");
+  return glm::normalize(axis / largest);
+}
+
+Diode diode_of(const Table &row, const std::filesystem::path &folder, DiagramFiles &diagrams) {
+  Diode diode;
+  diode.position_m = {row.number_within(coordinates_m, x_m), row.number_within(coordinates_m, y_m),
+                      row.number_within(coordinates_m, z_m)};
+  diode.axis = unit_axis({row.number(axis_x), row.number(axis_y), row.number(axis_z)}, row.here());
+  diode.intensity_w_sr = row.number_within(intensities_w_sr, intensity_w_sr);
+  diode.pattern = pattern_of(row, folder, diagrams);
+  const double roll = row.has(roll_deg) ? row.number_within(rolls_deg, roll_deg) : 0.0;
+  diode.across = diode_across(diode.axis, glm::radians(roll));
+  return diode;
+}
+
+} // namespace
+
+std::vector<Diode> read_diode_file(const std::filesystem::path &file, const Place &named_at,
+                                   DiagramFiles &diagrams) {
+  const std::string text = read_text_file(file, named_at);
+  Table table(file, text, columns, roll_deg);
+  std::vector<Diode> diodes;
+  while (table.next_row()) {
+    if (diodes.size() == max_diodes)
+      throw input_error(table.here(), fmt::format("expected at most {} diodes", max_diodes));
+    diodes.push_back(diode_of(table, file.parent_path(), diagrams));
+  }
+  if (diodes.empty())
+    throw input_error(table.end(), "expected at least one diode");
+  return diodes;
+}
+
+} // namespace pmdsim

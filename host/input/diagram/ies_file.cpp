@@ -1,0 +1,240 @@
+#include "host/input/diagram/ies_file.h"
+
+#include "host/input/file/text_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+
+namespace pmdsim {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view delimiters = " \t\r\v\f\n,";
+
+// A text that is read line by line, then number by number, whatever lines they are on.
+class IesText {
+public:
+  IesText(std::filesystem::path file, std::string_view text)
+      : file_(std::move(file)), rest_(text.substr(0, text.find('\x1a'))) {} // DOS's end of a file
+
+  // Without the blanks around it; nothing at the end.
+  std::optional<std::string_view> next_line() {
+    if (rest_.empty())
+      return std::nullopt;
+    const std::string_view line = rest_.substr(0, rest_.find('\n'));
+    place_line_ = next_line_;
+    take(std::min(line.size() + 1, rest_.size()));
+    const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
+    return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
+  }
+
+  double number(std::string_view what) {
+    const std::string_view word = expect_word(what);
+    return number_of(word, what, here());
+  }
+  double number_within(Range range, std::string_view what) {
+    const std::string_view word = expect_word(what);
+    return number_in(range, word, what, here());
+  }
+  std::size_t count(Range range, std::string_view what) {
+    const double value = number_within(range, what);
+    if (value != std::floor(value))
+      throw input_error(here(), fmt::format("{}: expected a whole number, found {}", what, value));
+    return static_cast<std::size_t>(value);
+  }
+
+  void expect_end() {
+    const std::string_view more = next_word();
+    if (!more.empty())
+      throw input_error(here(),
+                        fmt::format("expected the end of the file after the last candela value, found {}",
+                                    in_quotes(more)));
+  }
+
+  // What was read last.
+  TextPlace here() const { return {file_, place_line_}; }
+
+private:
+  void take(std::size_t length) {
+    next_line_ += static_cast<std::size_t>(std::ranges::count(rest_.substr(0, length), '\n'));
+    rest_.remove_prefix(length);
+  }
+
+  // Empty at the end.
+  std::string_view next_word() {
+    take(std::min(rest_.find_first_not_of(delimiters), rest_.size()));
+    place_line_ = next_line_;
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(delimiters));
+    take(word.size());
+    return word;
+  }
+
+  std::string_view expect_word(std::string_view what) {
+    const std::string_view word = next_word();
+    if (word.empty())
+      throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
+    return word;
+  }
+
+  std::filesystem::path file_;
+  std::string_view rest_;
+  std::size_t next_line_ = 1;
+  std::size_t place_line_ = 1;
+};
+
+constexpr Range angle_counts{1.0, static_cast<double>(max_diagram_values)};
+
+// Up to and with the line TILT=..., the end of the label, whatever is in it: only files of 1991 and later
+// begin with a line that names the standard, and have keywords. Returns what TILT is.
+std::string_view skip_label(IesText &text) {
+  constexpr std::string_view tilt = "TILT=";
+  while (const auto line = text.next_line()) {
+    if (!line->starts_with(tilt))
+      continue;
+    if (line->size() == tilt.size())
+      throw input_error(text.here(), "expected NONE, INCLUDE or a file's name after TILT=");
+    const std::string_view value = line->substr(tilt.size());
+    return value.substr(std::min(value.find_first_not_of(blanks), value.size()));
+  }
+  throw input_error(text.here(), "expected a line TILT=NONE, TILT=INCLUDE or TILT= and a file's name");
+}
+
+// TILT tells by what factor the lamp's output changes when the whole luminaire is tilted: one number at any
+// tilt, that cancels when the diagram is normalised.
+void skip_tilt(IesText &text) {
+  if (skip_label(text) != "INCLUDE")
+    return;
+  text.count({1.0, 3.0}, "lamp-to-luminaire geometry");
+  const std::size_t pairs = text.count(angle_counts, "number of tilt angles");
+  for (std::size_t i = 0; i < pairs; ++i)
+    text.number("tilt angle");
+  for (std::size_t i = 0; i < pairs; ++i)
+    text.number("tilt factor");
+}
+
+void expect_type_c(IesText &text) {
+  switch (text.count({1.0, 3.0}, "photometric type")) {
+  case 1:
+    return;
+  case 2:
+    throw input_error(text.here(), "photometric type: expected 1 (type C), found 2, type B");
+  default:
+    throw input_error(text.here(), "photometric type: expected 1 (type C), found 3, type A");
+  }
+}
+
+struct Counts {
+  std::size_t vertical, horizontal;
+};
+
+Counts read_head(IesText &text) {
+  text.number("number of lamps");
+  text.number("lumens per lamp");
+  if (!(text.number("candela multiplier") > 0.0))
+    throw input_error(text.here(), "candela multiplier: expected a number above 0");
+  const std::size_t vertical =
+      text.count({2.0, static_cast<double>(max_diagram_values)}, "number of vertical angles");
+  const std::size_t horizontal = text.count(angle_counts, "number of horizontal angles");
+  if (vertical * horizontal > max_diagram_values)
+    throw input_error(text.here(),
+                      fmt::format("expected at most {} candela values, found {} vertical times {} "
+                                  "horizontal angles",
+                                  max_diagram_values, vertical, horizontal));
+  expect_type_c(text);
+  for (const char *what : {"units", "width", "length", "height", "ballast factor",
+                           "ballast-lamp factor or file generation type", "input watts"})
+    text.number(what);
+  return {vertical, horizontal};
+}
+
+std::vector<double> read_angles(IesText &text, std::size_t count, Range range_deg, const char *what) {
+  std::vector<double> angles_deg;
+  while (angles_deg.size() < count) {
+    const double angle_deg = text.number_within(range_deg, what);
+    if (!angles_deg.empty() && !(angle_deg >= angles_deg.back() + least_angle_step_deg))
+      throw input_error(text.here(), fmt::format("{}: expected ascending angles, found {} after {}", what,
+                                                 angle_deg, angles_deg.back()));
+    angles_deg.push_back(angle_deg);
+  }
+  return angles_deg;
+}
+
+enum class Symmetry { quadrants, about_0_180, about_90_270, none };
+
+// What the first and the last horizontal angle say; a single angle, 0, is no question of symmetry.
+Symmetry symmetry_of(const std::vector<double> &horizontal_deg, const TextPlace &place) {
+  const double first = horizontal_deg.front();
+  const double last = horizontal_deg.back();
+  if (first == 0.0 && last == 90.0)
+    return Symmetry::quadrants;
+  if (first == 0.0 && last == 180.0)
+    return Symmetry::about_0_180;
+  if (first == 90.0 && last == 270.0)
+    return Symmetry::about_90_270;
+  if (first == 0.0 && (last == 360.0 || horizontal_deg.size() == 1))
+    return Symmetry::none;
+  throw input_error(place,
+                    fmt::format("horizontal angles: expected a single 0, or 0 to 90, 180 or 360, or 90 "
+                                "to 270, found {} to {}",
+                                first, last));
+}
+
+double within_turn(double angle_deg) { return angle_deg >= 360.0 ? angle_deg - 360.0 : angle_deg; }
+
+// Every phi whose values are those of a horizontal angle: at minus that angle and at its mirror images.
+std::vector<double> phis_deg(double horizontal_deg, Symmetry symmetry) {
+  const double h = horizontal_deg;
+  switch (symmetry) {
+  case Symmetry::quadrants:
+    return {h, 180.0 - h, 180.0 + h, within_turn(360.0 - h)};
+  case Symmetry::about_0_180:
+    return {h, within_turn(360.0 - h)};
+  case Symmetry::about_90_270:
+    return {360.0 - h, within_turn(180.0 + h)};
+  case Symmetry::none:
+    return {within_turn(360.0 - h)};
+  }
+  return {};
+}
+
+DiagramTable unfolded(const DiagramTable &table, Symmetry symmetry) {
+  std::map<double, std::size_t> horizontal_at;
+  for (std::size_t i = 0; i < table.phi_deg.size(); ++i)
+    for (const double phi_deg : phis_deg(table.phi_deg[i], symmetry))
+      horizontal_at.emplace(phi_deg, i);
+  DiagramTable whole{table.file, table.theta_deg, {}, {}};
+  for (const auto &[phi_deg, i] : horizontal_at)
+    whole.phi_deg.push_back(phi_deg);
+  whole.values.reserve(table.theta_deg.size() * horizontal_at.size());
+  for (std::size_t theta = 0; theta < table.theta_deg.size(); ++theta)
+    for (const auto &[phi_deg, i] : horizontal_at)
+      whole.values.push_back(table.at(theta, i));
+  return whole;
+}
+
+} // namespace
+
+DiagramTable read_ies(const std::filesystem::path &file, std::string_view bytes) {
+  IesText text(file, bytes);
+  skip_tilt(text);
+  const auto [vertical, horizontal] = read_head(text);
+  DiagramTable table{file, {}, {}, {}}; // phi is the horizontal angle, until it is unfolded
+  table.theta_deg = read_angles(text, vertical, {0.0, 180.0}, "vertical angle");
+  table.phi_deg = read_angles(text, horizontal, {0.0, 360.0}, "horizontal angle");
+  const Symmetry symmetry = symmetry_of(table.phi_deg, text.here());
+  table.values.resize(vertical * horizontal);
+  for (std::size_t phi = 0; phi < horizontal; ++phi)
+    for (std::size_t theta = 0; theta < vertical; ++theta) {
+      const double candela = text.number_within({0.0, max_diagram_value}, "candela value");
+      table.at(theta, phi) = {candela, text.here().line};
+    }
+  text.expect_end();
+  close_turn(table);
+  return unfolded(table, symmetry);
+}
+
+} // namespace pmdsim

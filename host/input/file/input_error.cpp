@@ -1,0 +1,49 @@
+#include "host/input/file/input_error.h"
+
+#include <fmt/format.h>
+
+namespace pmdsim {
+
+namespace {
+
+// File names come from the user too and may hold line breaks.
+std::string one_line(std::string text) {
+  for (char &c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
+      c = '?';
+  }
+  return text;
+}
+
+} // namespace
+
+Place operator/(const Place &place, const std::string &key) { return {place.file, place.pointer / key}; }
+
+Place operator/(const Place &place, std::size_t index) { return {place.file, place.pointer / index}; }
+
+Error input_error(const Place &place, std::string_view message) {
+  std::string line = place.pointer.empty()
+                         ? fmt::format("{}: {}", place.file.string(), message)
+                         : fmt::format("{}: {}: {}", place.file.string(), place.pointer.to_string(), message);
+  return {ExitCode::input, one_line(std::move(line))};
+}
+
+Error input_error(const TextPlace &place, std::string_view message) {
+  const std::string column = place.column == 0 ? "" : fmt::format(":{}", place.column);
+  return {ExitCode::input,
+          one_line(fmt::format("{}:{}{}: {}", place.file.string(), place.line, column, message))};
+}
+
+Error input_error(const AnyPlace &place, std::string_view message) {
+  return std::visit([&](const auto &known) { return input_error(known, message); }, place);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  const bool cut = text.size() > longest;
+  const nlohmann::json shown = std::string(text.substr(0, longest)) + (cut ? "..." : "");
+  return shown.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+} // namespace pmdsim

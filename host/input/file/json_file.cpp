@@ -1,0 +1,134 @@
+#include "host/input/file/json_file.h"
+
+#include "host/input/file/input_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <set>
+#include <vector>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+// What nlohmann's exception says beyond its own name: what was expected, without the offending text.
+std::string syntax_problem(const json::exception &exception) {
+  const std::string_view what = exception.what();
+  if (what.find("number overflow") != what.npos)
+    return "number too large";
+  const std::size_t expected = what.rfind("; expected ");
+  if (expected != what.npos)
+    return fmt::format("not valid JSON, {}", what.substr(expected + 2));
+  const std::size_t begin = what.find(" - ");
+  const std::size_t end = what.find("; last read");
+  return begin < end && end != what.npos
+             ? fmt::format("not valid JSON, {}", what.substr(begin + 3, end - begin - 3))
+             : "not valid JSON";
+}
+
+Error syntax_error(std::string_view text, std::size_t position, const std::filesystem::path &file,
+                   const json::exception &exception) {
+  const std::string_view before =
+      text.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text.size()));
+  const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
+  const std::size_t column = before.size() - line_start + 1;
+  return input_error(TextPlace{file, line, column}, syntax_problem(exception));
+}
+
+// Reads a document without building it, so that nothing deep or doubled is ever built.
+class Guard : public nlohmann::json_sax<json> {
+public:
+  Guard(std::string_view text, const std::filesystem::path &file) : text_(text), file_(file) {}
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t &) override { return value(); }
+  bool string(string_t &) override { return value(); }
+  bool binary(binary_t &) override { return value(); }
+  bool start_object(std::size_t) override { return open(false); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(true); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t &name) override {
+    Container &object = open_.back();
+    if (!object.keys.insert(name).second)
+      throw input_error(here(open_.size() - 1), fmt::format("key {} appears twice", in_quotes(name)));
+    object.key = name;
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string &, const json::exception &exception) override {
+    throw syntax_error(text_, position, file_, exception);
+  }
+
+private:
+  struct Container {
+    bool is_array;
+    std::size_t index = 0;
+    std::string key;
+    std::set<std::string> keys;
+  };
+
+  // The place of the innermost `depth` containers' current member.
+  Place here(std::size_t depth) const {
+    Place place{file_};
+    for (std::size_t i = 0; i < depth; ++i)
+      place = open_[i].is_array ? place / open_[i].index : place / open_[i].key;
+    return place;
+  }
+
+  bool value() {
+    if (!open_.empty())
+      ++open_.back().index;
+    return true;
+  }
+
+  bool open(bool is_array) {
+    if (open_.size() == max_json_depth)
+      throw input_error(Place{file_},
+                        fmt::format("nested too deep, expected at most {} levels", max_json_depth));
+    open_.push_back({is_array, 0, {}, {}});
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return value();
+  }
+
+  std::string_view text_;
+  const std::filesystem::path &file_;
+  std::vector<Container> open_;
+};
+
+// JSON Schema, draft-07, section 6.1.1: a number without a fractional part is an integer, however written.
+void make_integer(json &number) {
+  constexpr double largest_exact = 9007199254740992.0; // 2^53
+  const auto value = number.get<double>();
+  if (std::abs(value) <= largest_exact && std::trunc(value) == value)
+    number = static_cast<std::int64_t>(value);
+}
+
+} // namespace
+
+json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments) {
+  const bool ignore_comments = comments == Comments::allowed;
+  Guard guard(text, file);
+  json::sax_parse(text.begin(), text.end(), &guard, json::input_format_t::json, true, ignore_comments);
+  const auto with_integers = [](int, json::parse_event_t, json &parsed) {
+    if (parsed.is_number_float())
+      make_integer(parsed);
+    return true;
+  };
+  return json::parse(text.begin(), text.end(), with_integers, true, ignore_comments);
+}
+
+} // namespace pmdsim

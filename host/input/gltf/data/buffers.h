@@ -1,0 +1,18 @@
+#pragma once
+// The bytes of a glTF document's buffers: from the .glb itself, from data URIs, or from files in the scene's
+// folder.
+
+#include "host/input/gltf/document.h"
+#include "host/input/gltf/uri.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes. Those
+// that only stand in for compressed bufferViews (meshopt_fallbacks()) are not read and stay empty. Throws
+// Error (input): also for a URI that leads out of the scene's folder, by "..", an absolute path or a link,
+// and for one with a scheme other than data:.
+std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const std::filesystem::path &file);
+
+} // namespace pmdsim

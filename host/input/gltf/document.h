@@ -1,0 +1,27 @@
+#pragma once
+// A .gltf or .glb file as a checked JSON document, before tinygltf sees it.
+
+#include "host/input/file/input_error.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// Of the scene's file, and of all its buffers together.
+inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1} << 30;
+
+using Bytes = std::vector<unsigned char>;
+
+struct GltfDocument {
+  nlohmann::json json;      // every key that is read has the right type, every index exists
+  std::string binary_chunk; // a .glb's BIN chunk; empty where there is none
+};
+
+// Throws Error (input); one that concerns the file as a whole is at `named_at`, the place that names the
+// file.
+GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at);
+
+} // namespace pmdsim

@@ -1,0 +1,157 @@
+#include "host/input/gltf/loader.h"
+
+#include "host/input/gltf/data/buffers.h"
+#include "host/input/gltf/data/meshopt.h"
+#include "host/input/gltf/document.h"
+#include "host/input/gltf/material/material.h"
+#include "host/input/gltf/mesh/mesh.h"
+
+#include <fmt/format.h>
+#include <map>
+#include <tiny_gltf.h>
+#include <utility>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+// tinygltf opens whatever a file names and decodes every image, so it is given only the parts that name no
+// file.
+std::string without_files(const json &document) {
+  json kept = json::object();
+  for (const char *key : {"asset", "extensionsUsed", "extensionsRequired", "scene", "scenes", "nodes",
+                          "meshes", "materials", "accessors", "bufferViews", "animations", "skins"})
+    if (document.contains(key))
+      kept[key] = document.at(key);
+  return kept.dump();
+}
+
+// Gives each decoded view a buffer of its own.
+void replace_views(std::vector<DecodedView> &decoded, tinygltf::Model &model) {
+  for (DecodedView &view : decoded) {
+    model.bufferViews[view.view].buffer = static_cast<int>(model.buffers.size());
+    model.bufferViews[view.view].byteOffset = 0;
+    model.buffers.emplace_back().data = std::move(view.bytes);
+  }
+}
+
+tinygltf::Model model_of(const GltfDocument &document, const std::filesystem::path &file) {
+  const std::string text = without_files(document.json);
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});
+  tinygltf::Model model;
+  std::string error, warning;
+  if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                  ""))
+    throw input_error(Place{file}, "no valid glTF 2.0: " + error);
+  std::vector<Bytes> buffers = read_gltf_buffers(document, file);
+  std::vector<DecodedView> decoded = decode_meshopt_views(document.json, buffers, Place{file});
+  for (Bytes &bytes : buffers)
+    model.buffers.emplace_back().data = std::move(bytes);
+  replace_views(decoded, model);
+  return model;
+}
+
+struct UsedMaterial {
+  GltfMaterial material;
+  std::uint32_t surface; // index into Scene::surfaces
+};
+
+// The scene's surfaces, made as they are used. Where vertices have colours, a material is another surface.
+class Surfaces {
+public:
+  Surfaces(GltfMaterials &materials, Scene &scene) : materials_(materials), scene_(scene) {}
+
+  const UsedMaterial &operator[](const tinygltf::Primitive &primitive) {
+    const std::pair key(primitive.material, primitive.attributes.contains("COLOR_0"));
+    const auto known = used_.find(key);
+    if (known != used_.end())
+      return known->second;
+    const UsedMaterial made{materials_.material_of(key.first, key.second),
+                            static_cast<std::uint32_t>(scene_.surfaces.size())};
+    scene_.surfaces.push_back(made.material.surface);
+    return used_.emplace(key, made).first->second;
+  }
+
+private:
+  GltfMaterials &materials_;
+  Scene &scene_;
+  std::map<std::pair<int, bool>, UsedMaterial> used_;
+};
+
+// The node that names each of `nodes`, parents first: itself or the nearest one above that has a name, for
+// packers hang meshes on children without.
+std::vector<std::size_t> naming_nodes(const tinygltf::Model &model, const std::vector<SceneNode> &nodes) {
+  std::vector<std::size_t> naming(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    naming[i] = model.nodes[nodes[i].index].name.empty() && nodes[i].parent ? naming[*nodes[i].parent] : i;
+  return naming;
+}
+
+std::string object_name(const tinygltf::Model &model, const SceneNode &naming) {
+  const std::string &name = model.nodes[naming.index].name;
+  return name.empty() ? fmt::format("node {}", naming.index) : name;
+}
+
+// `placement_of` gives that of each of the mesh's primitives.
+template <class PlacementOf>
+void append_object(const tinygltf::Model &model, const tinygltf::Node &node, const std::string &name,
+                   PlacementOf placement_of, const Place &root, Surfaces &surfaces, Scene &scene) {
+  const auto object = static_cast<std::uint32_t>(scene.objects.size());
+  scene.objects.push_back(name);
+  const auto mesh = static_cast<std::size_t>(node.mesh);
+  const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const UsedMaterial &used = surfaces[primitives[i]];
+    append_primitive(model, primitives[i], placement_of(i), used.material, used.surface, object,
+                     root / "meshes" / mesh / "primitives" / i, scene);
+  }
+}
+
+} // namespace
+
+GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
+                   std::shared_ptr<GltfMaterials> materials)
+    : file_(std::move(file)), model_(std::move(model)), materials_(std::move(materials)),
+      nodes_(active_nodes(*model_, Place{file_})), animation_(read_animation(*model_, nodes_, Place{file_})),
+      skins_(read_skins(*model_, nodes_, Place{file_})) {}
+
+bool GltfFile::moves() const { return animation_.moves(); }
+
+GltfScene GltfFile::at(double time_s) const {
+  const Place root{file_};
+  std::vector<SceneNode> nodes = nodes_;
+  animation_.apply(time_s, nodes);
+  const std::vector<AffineTransform> world_from = world_from_nodes(nodes, root);
+  std::map<int, std::vector<AffineTransform>> world_from_skin; // by skin, then joint
+  for (const auto &[skin, joints] : skins_.joints)
+    world_from_skin[skin] = world_from_mesh_by_joint(joints, world_from);
+
+  GltfScene result{file_, {}, {}};
+  const std::vector<std::size_t> naming = naming_nodes(*model_, nodes);
+  Surfaces surfaces(*materials_, result.scene);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const tinygltf::Node &node = model_->nodes[nodes[i].index];
+    const auto placement_of = [&](std::size_t primitive) {
+      return node.skin < 0
+                 ? Placement(world_from[i])
+                 : Placement(skins_.weights.at({node.mesh, primitive}), world_from_skin.at(node.skin));
+    };
+    if (!node.name.empty())
+      result.nodes.push_back({node.name, world_from[i]});
+    if (node.mesh >= 0)
+      append_object(*model_, node, object_name(*model_, nodes[naming[i]]), placement_of, root, surfaces,
+                    result.scene);
+  }
+  return result;
+}
+
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at) {
+  const GltfDocument document = read_gltf_document(file, named_at);
+  const auto model = std::make_shared<const tinygltf::Model>(model_of(document, file));
+  return {file, model, std::make_shared<GltfMaterials>(document.json, model, file)};
+}
+
+} // namespace pmdsim

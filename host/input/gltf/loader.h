@@ -1,0 +1,62 @@
+#pragma once
+// glTF 2.0 scenes, .gltf and .glb, over time: triangles in the world frame and the named nodes that poses
+// refer to.
+
+#include "engine/model/scene.h"
+#include "host/input/file/input_error.h"
+#include "host/input/gltf/animation.h"
+#include "host/input/gltf/nodes.h"
+#include "host/input/gltf/skin.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tinygltf {
+class Model;
+}
+
+namespace pmdsim {
+
+class GltfMaterials;
+
+struct NamedNode {
+  std::string name;
+  AffineTransform world_from_node;
+};
+
+// A file's active scene at one time.
+struct GltfScene {
+  std::filesystem::path file;
+  Scene scene;                  // may be empty
+  std::vector<NamedNode> nodes; // those of the active scene that have a name, parents first
+};
+
+// A file, read and checked once.
+class GltfFile {
+public:
+  // Throws Error (input).
+  GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
+           std::shared_ptr<GltfMaterials> materials);
+
+  // Whether any node of the active scene is animated.
+  bool moves() const;
+  // At any finite time, before 0 too. Throws Error (input).
+  GltfScene at(double time_s) const;
+
+private:
+  std::filesystem::path file_;
+  std::shared_ptr<const tinygltf::Model> model_;
+  std::shared_ptr<GltfMaterials> materials_; // decodes textures at the first use
+  std::vector<SceneNode> nodes_;             // of the active scene, where nothing animates them
+  Animation animation_;
+  Skins skins_;
+};
+
+// Throws Error (input): what is wrong in the file is told at its place there ("scene.gltf: /accessors/3:
+// ..."), a file that cannot be read at `named_at`, the place that names it. What glTF can say and the
+// simulator cannot yet do is refused by name, never ignored.
+GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at);
+
+} // namespace pmdsim

@@ -1,0 +1,106 @@
+#include "host/input/gltf/material/material.h"
+
+#include "host/input/gltf/material/texture_info.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr glm::dvec3 luminance_of_rgb{0.2126, 0.7152, 0.0722};
+constexpr const char *texture_key = "baseColorTexture";
+
+// The parts of a material that count, with glTF's defaults.
+struct Description {
+  json base; // pbrMetallicRoughness
+  glm::dvec4 factor{1.0};
+  std::optional<double> reflectivity;
+  std::string alpha_mode;
+  double alpha_cutoff; // of MASK, else 0
+};
+
+std::optional<double> stated_reflectivity(const json &material) {
+  const auto extras = material.find("extras");
+  if (extras == material.end() || !extras->is_object() || !extras->contains("pmdsim_reflectivity"))
+    return std::nullopt;
+  return extras->at("pmdsim_reflectivity").get<double>();
+}
+
+Description described(const json &material) {
+  Description result{material.value("pbrMetallicRoughness", json::object()), glm::dvec4(1.0),
+                     stated_reflectivity(material), material.value("alphaMode", "OPAQUE"), 0.0};
+  const json factor = result.base.value("baseColorFactor", json{1.0, 1.0, 1.0, 1.0});
+  for (int c = 0; c < 4; ++c)
+    result.factor[c] = factor.at(static_cast<std::size_t>(c)).get<double>();
+  // Above 1 all cutoffs mean the same: nothing is left.
+  constexpr double beyond_any_alpha = 2.0;
+  if (result.alpha_mode == "MASK")
+    result.alpha_cutoff = std::min(material.value("alphaCutoff", 0.5), beyond_any_alpha);
+  return result;
+}
+
+// `least_alpha` is that of the factor and the texture, without the vertices'.
+Surface surface_of(const Description &stated, Paint paint, double least_alpha, bool has_colours) {
+  const bool varies = !stated.reflectivity && (paint.texture != nullptr || has_colours);
+  const bool has_holes = stated.alpha_cutoff > 0.0 && (has_colours || least_alpha < stated.alpha_cutoff);
+  const glm::dvec3 reflectivity_rgb = luminance_of_rgb * glm::dvec3(stated.factor);
+  const double luminance = reflectivity_rgb.x + reflectivity_rgb.y + reflectivity_rgb.z;
+  Surface surface;
+  surface.reflectivity = varies ? 0.0 : stated.reflectivity.value_or(luminance);
+  if (varies)
+    paint.reflectivity_rgb = reflectivity_rgb;
+  if (has_holes) {
+    paint.alpha = stated.factor.a;
+    paint.alpha_cutoff = stated.alpha_cutoff;
+  }
+  if (varies || has_holes)
+    surface.paint = std::move(paint);
+  return surface;
+}
+
+} // namespace
+
+GltfMaterials::GltfMaterials(const json &document, std::shared_ptr<const tinygltf::Model> model,
+                             const std::filesystem::path &file)
+    : materials_(document.value("materials", json::array())), root_{file},
+      textures_(document, std::move(model), file) {}
+
+// Returns the least alpha that the texture has.
+double GltfMaterials::add_texture(const json &info, Paint &paint, GltfMaterial &result) {
+  const GltfTextureInfo described_info = texture_info_of(info);
+  const GltfTexture texture = textures_[described_info.texture];
+  paint.texture = texture.texels;
+  paint.wrap_u = texture.wrap_u;
+  paint.wrap_v = texture.wrap_v;
+  paint.filter = texture.filter;
+  result.texture_coordinates = described_info.texture_coordinates;
+  result.texture_from_coordinates = described_info.texture_from_coordinates;
+  return static_cast<double>(texture.least_alpha);
+}
+
+GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
+  static const json default_material = json::object();
+  const json &material = index < 0 ? default_material : materials_.at(static_cast<std::size_t>(index));
+  const Description stated = described(material);
+  const bool is_blended = stated.alpha_mode == "BLEND";
+
+  GltfMaterial result;
+  result.blended = is_blended;
+  Paint paint;
+  double least_alpha = stated.factor.a;
+  if (stated.base.contains(texture_key) && (!stated.reflectivity || is_blended || stated.alpha_cutoff > 0.0))
+    least_alpha *= add_texture(stated.base.at(texture_key), paint, result);
+  if (is_blended && least_alpha < 1.0)
+    throw input_error(root_ / "materials" / static_cast<std::size_t>(index) / "alphaMode",
+                      "BLEND is not supported where alpha is below 1 (expected \"MASK\" or \"OPAQUE\")");
+
+  result.surface = surface_of(stated, std::move(paint), least_alpha, has_colours);
+  result.surface.double_sided = material.value("doubleSided", false);
+  return result;
+}
+
+} // namespace pmdsim

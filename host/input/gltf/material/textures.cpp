@@ -1,0 +1,122 @@
+#include "host/input/gltf/material/textures.h"
+
+#include "host/input/file/regular_file.h"
+#include "host/input/gltf/document.h"
+#include "host/input/image/image_pixels.h"
+#include "host/input/image/srgb_texture.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <span>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+// The source of a texture that PNG or JPEG images can give.
+std::size_t source_of(const json &texture, const Place &place) {
+  if (texture.contains("source"))
+    return texture.at("source").get<std::size_t>();
+  const json extensions = texture.value("extensions", json::object());
+  if (extensions.empty())
+    throw input_error(place, "missing key \"source\"");
+  throw input_error(place, fmt::format("the image is in {}, which is not supported (expected a \"source\" in "
+                                       "PNG or JPEG)",
+                                       in_quotes(extensions.begin().key())));
+}
+
+std::span<const unsigned char> bytes_of_view(const tinygltf::Model &model, std::size_t index,
+                                             const Place &root) {
+  const tinygltf::BufferView &view = model.bufferViews[index];
+  const Bytes &buffer = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  // Both are below 2^53.
+  if (view.byteOffset + view.byteLength > buffer.size())
+    throw input_error(
+        root / "bufferViews" / index,
+        fmt::format("ends at byte {}, its buffer has {}", view.byteOffset + view.byteLength, buffer.size()));
+  return std::span(buffer).subspan(view.byteOffset, view.byteLength);
+}
+
+Bytes bytes_of_uri(const std::string &uri, const Place &place) {
+  if (!uri.starts_with("data:")) {
+    const std::string bytes =
+        read_regular_file(file_in_folder(uri, folder_of(place.file), place), max_gltf_file_bytes, place);
+    return {bytes.begin(), bytes.end()};
+  }
+  Bytes bytes;
+  std::string media_type;
+  const bool is_image = uri.starts_with("data:image/png;") || uri.starts_with("data:image/jpeg;");
+  if (!is_image || !tinygltf::DecodeDataURI(&bytes, media_type, uri, 0, false))
+    throw input_error(place, "expected a base64 data URI of image/png or image/jpeg");
+  return bytes;
+}
+
+Wrap wrap_of(const json &sampler, const char *key) {
+  switch (sampler.value(key, TINYGLTF_TEXTURE_WRAP_REPEAT)) {
+  case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+    return Wrap::clamp;
+  case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+    return Wrap::mirrored_repeat;
+  default:
+    return Wrap::repeat;
+  }
+}
+
+float least_alpha_of(const Texture &texture) {
+  const auto least = std::min_element(texture.texels.begin(), texture.texels.end(),
+                                      [](const glm::vec4 &a, const glm::vec4 &b) { return a.a < b.a; });
+  return least->a; // an image has a texel
+}
+
+} // namespace
+
+GltfTextures::GltfTextures(const json &document, std::shared_ptr<const tinygltf::Model> model,
+                           std::filesystem::path file)
+    : textures_(document.value("textures", json::array())), images_(document.value("images", json::array())),
+      samplers_(document.value("samplers", json::array())), model_(std::move(model)), root_{std::move(file)} {
+}
+
+GltfTexture GltfTextures::operator[](std::size_t index) {
+  const json &texture = textures_.at(index);
+  const Image &source = image(source_of(texture, root_ / "textures" / index));
+  GltfTexture result{source.texels, source.least_alpha};
+  set_sampler(texture, result);
+  return result;
+}
+
+const GltfTextures::Image &GltfTextures::image(std::size_t index) {
+  const auto known = decoded_.find(index);
+  return known != decoded_.end() ? known->second : decoded_.emplace(index, decoded(index)).first->second;
+}
+
+GltfTextures::Image GltfTextures::decoded(std::size_t index) {
+  const json &image = images_.at(index);
+  const Place place = root_ / "images" / index;
+  if (image.contains("uri") == image.contains("bufferView"))
+    throw input_error(place, "expected either \"uri\" or \"bufferView\"");
+  Bytes own;
+  std::span<const unsigned char> bytes;
+  if (image.contains("uri"))
+    bytes = own = bytes_of_uri(image.at("uri").get<std::string>(), place / "uri");
+  else
+    bytes = bytes_of_view(*model_, image.at("bufferView").get<std::size_t>(), root_);
+  auto texels = std::make_shared<const Texture>(linear_texture(decoded_image(bytes, left_texels_, place)));
+  left_texels_ -= texels->texels.size();
+  const float least_alpha = least_alpha_of(*texels);
+  return {std::move(texels), least_alpha};
+}
+
+void GltfTextures::set_sampler(const json &texture, GltfTexture &result) const {
+  if (!texture.contains("sampler"))
+    return;
+  const json &sampler = samplers_.at(texture.at("sampler").get<std::size_t>());
+  result.wrap_u = wrap_of(sampler, "wrapS");
+  result.wrap_v = wrap_of(sampler, "wrapT");
+  if (sampler.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR) == TINYGLTF_TEXTURE_FILTER_NEAREST)
+    result.filter = TextureFilter::nearest;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,153 @@
+#include "host/input/gltf/mesh/mesh.h"
+
+#include "host/input/gltf/data/accessor.h"
+#include "host/input/gltf/mesh/attributes.h"
+#include "host/input/gltf/mesh/points.h"
+#include "host/input/setup/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <numeric>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+namespace {
+
+// To either side of 0, of a coordinate on a texture; far beyond it nothing is left of a float's fraction.
+constexpr double max_texture_coordinate = 1e6;
+
+using Corners = std::array<std::uint32_t, 3>; // places in the list of indices
+
+void refuse_other_geometry(const tinygltf::Primitive &primitive, const Place &place) {
+  if (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES)
+    throw input_error(place / "mode",
+                      "lines are not supported (expected points: 0, or triangles: 4, 5 or 6)");
+  if (!primitive.targets.empty())
+    throw input_error(place / "targets", "morph targets are not supported yet");
+}
+
+// glTF 2.0, section 3.7.2.1: which of `count` indices form which triangle.
+std::vector<Corners> triangle_corners(int mode, std::uint32_t count, const Place &place) {
+  if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
+    throw input_error(place, fmt::format("{} vertices make no whole triangles", count));
+  std::vector<Corners> triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES)
+    for (std::uint32_t i = 0; i < count; i += 3)
+      triangles.push_back({i, i + 1, i + 2});
+  else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+    for (std::uint32_t i = 0; i + 2 < count; ++i)
+      triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
+  else
+    for (std::uint32_t i = 0; i + 2 < count; ++i)
+      triangles.push_back({i + 1, i + 2, 0});
+  return triangles;
+}
+
+std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions, const Placement &placement,
+                                        const Place &place) {
+  std::vector<glm::dvec3> world;
+  world.reserve(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    world.push_back(placement.world_from_mesh(i).point(glm::dvec3(positions[i])));
+    if (!is_position(world.back()))
+      throw input_error(place,
+                        fmt::format("vertex {} lies outside the world, expected coordinates from {} to {} m",
+                                    i, -max_coordinate_m, max_coordinate_m));
+  }
+  return world;
+}
+
+std::vector<std::uint32_t> vertex_indices(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                                          std::size_t vertex_count, const Place &root) {
+  if (primitive.indices >= 0)
+    return read_indices(model, static_cast<std::size_t>(primitive.indices), vertex_count, root);
+  std::vector<std::uint32_t> indices(vertex_count);
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
+}
+
+// Makes `all` as long as `count` more vertices after `before` need it: with `values`, and white or (0, 0) for
+// vertices that have none. It stays empty as long as none has.
+template <class T>
+void extend(std::vector<T> &all, const std::vector<T> &values, T absent, std::size_t before,
+            std::size_t count) {
+  if (all.empty() && values.empty())
+    return;
+  all.resize(before, absent);
+  all.insert(all.end(), values.begin(), values.end());
+  all.resize(before + count, absent);
+}
+
+std::vector<glm::dvec2> texture_coordinates(const tinygltf::Model &model,
+                                            const tinygltf::Primitive &primitive,
+                                            const GltfMaterial &material, std::size_t vertex_count,
+                                            const Place &place) {
+  if (!material.surface.paint || !material.surface.paint->texture)
+    return {};
+  std::vector<glm::dvec2> coordinates =
+      read_texture_coordinates(model, primitive, material.texture_coordinates, vertex_count, place);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    coordinates[i] = glm::dvec2(material.texture_from_coordinates * glm::dvec3(coordinates[i], 1.0));
+    const glm::dvec2 size = glm::abs(coordinates[i]);
+    if (!(size.x <= max_texture_coordinate && size.y <= max_texture_coordinate))
+      throw input_error(place,
+                        fmt::format("vertex {} lies outside the texture, expected coordinates from {} to {}",
+                                    i, -max_texture_coordinate, max_texture_coordinate));
+  }
+  return coordinates;
+}
+
+std::vector<glm::vec4> colours(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                               const GltfMaterial &material, std::size_t vertex_count, const Place &place) {
+  std::vector<glm::vec4> result = read_colours(model, primitive, vertex_count, place);
+  const bool translucent =
+      material.blended &&
+      std::any_of(result.begin(), result.end(), [](const glm::vec4 &rgba) { return rgba.a < 1.0f; });
+  if (translucent)
+    throw input_error(
+        place / "attributes" / "COLOR_0",
+        "an alpha below 1 is not supported under alphaMode BLEND (expected \"MASK\" or \"OPAQUE\")");
+  return result;
+}
+
+void append_triangles(const std::vector<Corners> &triangles, const std::vector<std::uint32_t> &indices,
+                      const Placement &placement, std::uint32_t first_vertex, std::uint32_t surface,
+                      std::uint32_t object, Scene &scene) {
+  for (Corners corners : triangles) {
+    if (glm::determinant(placement.world_from_mesh(indices[corners[0]]).linear) < 0.0)
+      std::swap(corners[1], corners[2]);
+    const auto vertex = [&](std::size_t k) { return first_vertex + indices[corners[k]]; };
+    scene.triangles.push_back({{vertex(0), vertex(1), vertex(2)}, surface, object});
+  }
+}
+
+} // namespace
+
+void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                      const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
+                      std::uint32_t object, const Place &place, Scene &scene) {
+  refuse_other_geometry(primitive, place);
+  const std::vector<glm::dvec4> positions = read_positions(model, primitive, place);
+  const std::size_t before = scene.positions_m.size(), count = positions.size();
+  const std::vector<std::uint32_t> indices = vertex_indices(model, primitive, count, Place{place.file});
+  if (before + count > max_scene_vertices || scene.shape_count() + indices.size() > max_scene_vertices)
+    throw input_error(
+        place, fmt::format("the scene has more than {} vertices, triangles or points", max_scene_vertices));
+
+  const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
+  const auto first_vertex = static_cast<std::uint32_t>(before);
+  if (primitive.mode == TINYGLTF_MODE_POINTS)
+    append_discs(indices, point_radii_m(model, primitive, placement, count, place), first_vertex, surface,
+                 object, scene);
+  else
+    append_triangles(triangle_corners(primitive.mode, static_cast<std::uint32_t>(indices.size()), place),
+                     indices, placement, first_vertex, surface, object, scene);
+  extend(scene.colours, colours(model, primitive, material, count, place), glm::vec4(1.0f), before, count);
+  extend(scene.texture_coordinates, texture_coordinates(model, primitive, material, count, place),
+         glm::dvec2(0.0), before, count);
+  scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());
+}
+
+} // namespace pmdsim

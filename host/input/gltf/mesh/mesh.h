@@ -1,0 +1,27 @@
+#pragma once
+// A glTF primitive as triangles or points in the world frame.
+
+#include "engine/model/scene.h"
+#include "host/input/file/input_error.h"
+#include "host/input/gltf/material/material.h"
+#include "host/input/gltf/placement.h"
+
+namespace tinygltf {
+struct Primitive;
+}
+
+namespace pmdsim {
+
+inline constexpr std::size_t max_scene_vertices = std::size_t{1} << 25; // and as many triangles and points
+
+// Appends the primitive's vertices, with their colours (COLOR_0) and the coordinates that the material's
+// texture asks for, and its triangles (TRIANGLES, TRIANGLE_STRIP or TRIANGLE_FAN, indexed or not) or points
+// (POINTS) to `scene`. Where the placement mirrors a triangle, judged at its first corner, the winding is
+// turned, so that the front stays the front. Triangles without an area, such as strips are stitched with,
+// stay too: ids count what the file holds. `surface` is the material's, in the scene. Throws Error (input) at
+// `place`, /meshes/I/primitives/K.
+void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                      const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
+                      std::uint32_t object, const Place &place, Scene &scene);
+
+} // namespace pmdsim

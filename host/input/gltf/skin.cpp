@@ -1,0 +1,194 @@
+#include "host/input/gltf/skin.h"
+
+#include "host/input/gltf/data/accessor.h"
+#include "host/input/gltf/mesh/mesh.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+#include <tiny_gltf.h>
+
+namespace pmdsim {
+
+namespace {
+
+using Places = std::vector<std::optional<std::size_t>>;
+
+std::vector<Joint> read_joints(const tinygltf::Model &model, const tinygltf::Skin &skin, const Places &places,
+                               const Place &place) {
+  const Place root{place.file};
+  std::vector<glm::dmat4> matrices(skin.joints.size(), glm::dmat4(1.0));
+  if (skin.inverseBindMatrices >= 0)
+    matrices =
+        read_matrices(model, static_cast<std::size_t>(skin.inverseBindMatrices), matrices.size(), root);
+  std::vector<Joint> joints;
+  for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+    const auto node = static_cast<std::size_t>(skin.joints[i]);
+    if (!places[node])
+      throw input_error(place / "joints" / i, fmt::format("node {} is not in the active scene", node));
+    const std::optional<AffineTransform> joint_from_mesh = affine_transform(matrices[i]);
+    if (!joint_from_mesh)
+      throw input_error(place / "inverseBindMatrices",
+                        fmt::format("matrix {}: expected 0, 0, 0, 1 as the last row", i));
+    joints.push_back({*places[node], *joint_from_mesh});
+  }
+  return joints;
+}
+
+// JOINTS_n and WEIGHTS_n of a primitive, n = 0, 1, ...
+struct WeightSet {
+  std::size_t joints, weights; // accessors
+};
+
+std::size_t attribute(const tinygltf::Primitive &primitive, const std::string &name, const Place &place) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end())
+    throw input_error(place / "attributes", fmt::format("missing key \"{}\"", name));
+  return static_cast<std::size_t>(found->second);
+}
+
+void check_joints_type(const tinygltf::Accessor &accessor, const Place &place) {
+  if (accessor.normalized || (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+                              accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT))
+    throw input_error(place / "componentType", "expected 5121 or 5123, not normalized, for joints");
+}
+
+void check_weights_type(const tinygltf::Accessor &accessor, const Place &place) {
+  const bool is_normalized =
+      accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                              accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !is_normalized)
+    throw input_error(place / "componentType", "expected 5126, or 5121 or 5123 normalized, for weights");
+}
+
+std::vector<WeightSet> weight_sets(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+                                   const Place &place) {
+  const Place accessors = Place{place.file} / "accessors";
+  const std::size_t vertices = model.accessors[attribute(primitive, "POSITION", place)].count;
+  const auto checked = [&](const std::string &name, auto check_type) {
+    const std::size_t accessor = attribute(primitive, name, place);
+    check_type(model.accessors[accessor], accessors / accessor);
+    if (model.accessors[accessor].count != vertices)
+      throw input_error(place / "attributes" / name, fmt::format("has {} elements, POSITION has {}",
+                                                                 model.accessors[accessor].count, vertices));
+    return accessor;
+  };
+  std::vector<WeightSet> sets;
+  for (std::size_t n = 0;; ++n) {
+    const std::string joints = fmt::format("JOINTS_{}", n), weights = fmt::format("WEIGHTS_{}", n);
+    if (n > 0 && !primitive.attributes.contains(joints) && !primitive.attributes.contains(weights))
+      return sets;
+    sets.push_back({checked(joints, check_joints_type), checked(weights, check_weights_type)});
+  }
+}
+
+// Appends what one set says of `vertex`.
+void append_weights(const glm::dvec4 &joints, const glm::dvec4 &weights, SkinWeights &result) {
+  for (glm::length_t k = 0; k < 4; ++k) {
+    const auto joint = static_cast<std::uint32_t>(joints[k]);
+    result.joint_count = std::max(result.joint_count, joint + 1);
+    if (weights[k] > 0.0)
+      result.weights.push_back({joint, weights[k]});
+  }
+}
+
+void normalise(SkinWeights &result, std::size_t first, const Place &place) {
+  double sum = 0.0;
+  for (std::size_t i = first; i < result.weights.size(); ++i)
+    sum += result.weights[i].weight;
+  if (!(sum > 0.0))
+    throw input_error(place / "attributes" / "WEIGHTS_0",
+                      fmt::format("the weights of vertex {} are all 0", result.ends.size()));
+  for (std::size_t i = first; i < result.weights.size(); ++i)
+    result.weights[i].weight /= sum;
+}
+
+SkinWeights read_weights(const tinygltf::Model &model, const std::vector<WeightSet> &sets,
+                         const Place &place) {
+  const Place root{place.file};
+  std::vector<std::vector<glm::dvec4>> joints, weights;
+  for (const WeightSet &set : sets) {
+    joints.push_back(read_vectors(model, set.joints, 4, root));
+    weights.push_back(read_vectors(model, set.weights, 4, root));
+    for (std::size_t vertex = 0; vertex < weights.back().size(); ++vertex)
+      if (glm::any(glm::lessThan(weights.back()[vertex], glm::dvec4(0.0))))
+        throw input_error(root / "accessors" / set.weights,
+                          fmt::format("element {} has a negative weight", vertex));
+  }
+  SkinWeights result;
+  for (std::size_t vertex = 0; vertex < weights[0].size(); ++vertex) {
+    const std::size_t first = result.weights.size();
+    for (std::size_t n = 0; n < sets.size(); ++n)
+      append_weights(joints[n][vertex], weights[n][vertex], result);
+    normalise(result, first, place);
+    result.ends.push_back(result.weights.size());
+  }
+  return result;
+}
+
+// Reads what each primitive of skinned nodes' meshes says, once.
+class Weights {
+public:
+  Weights(const tinygltf::Model &model, const Place &root, Skins &skins)
+      : model_(model), root_(root), skins_(skins) {}
+
+  void read(int mesh, int skin) {
+    const auto mesh_index = static_cast<std::size_t>(mesh);
+    const std::vector<tinygltf::Primitive> &primitives = model_.meshes[mesh_index].primitives;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const Place place = root_ / "meshes" / mesh_index / "primitives" / i;
+      const auto [known, is_new] = skins_.weights.try_emplace({mesh, i});
+      if (is_new)
+        known->second = made(primitives[i], place);
+      if (known->second.joint_count > skins_.joints.at(skin).size())
+        throw input_error(place / "attributes",
+                          fmt::format("refers to joint {}, expected one below {}, as skin {} has",
+                                      known->second.joint_count - 1, skins_.joints.at(skin).size(), skin));
+    }
+  }
+
+private:
+  SkinWeights made(const tinygltf::Primitive &primitive, const Place &place) {
+    const std::vector<WeightSet> sets = weight_sets(model_, primitive, place);
+    for (const WeightSet &set : sets)
+      bound_ += model_.accessors[set.joints].count;
+    if (bound_ > max_scene_vertices)
+      throw input_error(place, fmt::format("skins bind more than {} vertices", max_scene_vertices));
+    return read_weights(model_, sets, place);
+  }
+
+  const tinygltf::Model &model_;
+  const Place &root_;
+  Skins &skins_;
+  std::size_t bound_ = 0; // vertices so far, times their sets
+};
+
+} // namespace
+
+Skins read_skins(const tinygltf::Model &model, const std::vector<SceneNode> &nodes, const Place &root) {
+  const Places places = places_of_nodes(model, nodes);
+  Skins skins;
+  Weights weights(model, root, skins);
+  for (const SceneNode &scene_node : nodes) {
+    const tinygltf::Node &node = model.nodes[scene_node.index];
+    if (node.skin < 0)
+      continue;
+    const auto skin = static_cast<std::size_t>(node.skin);
+    const auto [known, is_new] = skins.joints.try_emplace(node.skin);
+    if (is_new)
+      known->second = read_joints(model, model.skins[skin], places, root / "skins" / skin);
+    weights.read(node.mesh, node.skin);
+  }
+  return skins;
+}
+
+std::vector<AffineTransform> world_from_mesh_by_joint(const std::vector<Joint> &joints,
+                                                      const std::vector<AffineTransform> &world_from_nodes) {
+  std::vector<AffineTransform> result;
+  result.reserve(joints.size());
+  for (const Joint &joint : joints)
+    result.push_back(compose(world_from_nodes[joint.node], joint.joint_from_mesh));
+  return result;
+}
+
+} // namespace pmdsim

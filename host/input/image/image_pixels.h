@@ -1,0 +1,31 @@
+#pragma once
+// PNG and JPEG images, untrusted, as the numbers that they store.
+
+#include "host/input/file/input_error.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+inline constexpr std::uint32_t max_image_side = 16384;
+
+// RGBA as stored, before any transfer function; row-major, row 0 at the top. An opaque image's alpha is the
+// largest number.
+struct ImagePixels {
+  glm::uvec2 size{0, 0};
+  std::size_t component_bytes = 1;   // 1, or 2 with the more significant byte first
+  std::vector<unsigned char> rgba{}; // size.x * size.y * 4 components
+};
+
+// What an image is, told by its first bytes. Colour profiles, gamma and EXIF orientation are ignored, as glTF
+// demands. Throws Error (input) at `place`, before anything is allocated where the header states more than
+// max_image_side a side or `max_pixels`.
+ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place);
+
+// Throws Error (input) at `place`.
+void check_image_size(const glm::uvec2 &size, std::size_t max_pixels, const Place &place);
+
+} // namespace pmdsim

@@ -1,0 +1,135 @@
+#include "host/input/setup/illuminator.h"
+
+#include "host/input/diagram/diode_across.h"
+#include "host/input/diagram/diode_file.h"
+#include "host/input/setup/limits.h"
+#include "host/input/setup/pose.h"
+
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace pmdsim {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+Pattern pattern_of(const ordered_json &pattern, const Place &place, DiagramFiles &diagrams) {
+  if (pattern.contains("isotropic"))
+    return {};
+  if (pattern.contains("order"))
+    return {Pattern::Kind::cosine, pattern.at("order").get<double>()};
+  const std::filesystem::path file = place.file.parent_path() / pattern.at("file").get<std::string>();
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place / "file")};
+}
+
+// `degrees` modulo 360, in [0, 360).
+double full_turn(double degrees) {
+  const double rest = std::fmod(degrees, 360.0);
+  const double turned = rest < 0.0 ? rest + 360.0 : rest;
+  return turned < 360.0 ? turned : 0.0; // a tiny negative angle is rounded to 360
+}
+
+// From the first angle on to the second, both inclusive; a whole turn or more is everything.
+bool is_active(double angle_deg, const ordered_json &active_deg) {
+  constexpr double rounding_deg = 1e-9;
+  const double from_deg = active_deg.at(0).get<double>();
+  const double to_deg = active_deg.at(1).get<double>();
+  if (std::abs(to_deg - from_deg) >= 360.0)
+    return true;
+  const double beyond_deg = full_turn(angle_deg - from_deg);
+  return beyond_deg <= full_turn(to_deg - from_deg) + rounding_deg || beyond_deg >= 360.0 - rounding_deg;
+}
+
+void append_ring(const ordered_json &ring, const Diode &diode, std::vector<Diode> &diodes) {
+  const auto count = ring.at("count").get<std::uint32_t>();
+  const auto radius_m = ring.at("radius_m").get<double>();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double turns = (k + 0.5) / count;
+    if (!is_active(360.0 * turns, ring.at("active_deg")))
+      continue;
+    const double angle_rad = 2.0 * std::numbers::pi * turns;
+    diodes.push_back(diode);
+    diodes.back().position_m = {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 0.0};
+  }
+}
+
+// The work is bounded by what the rings list, also where active_deg switches most of it off.
+void refuse_endless_rings(const ordered_json &rings, const Place &place) {
+  constexpr std::uint64_t max_listed = 1'000'000;
+  std::uint64_t listed = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    listed += rings[i].at("count").get<std::uint32_t>();
+    if (listed > max_listed)
+      throw input_error(place / i / "count",
+                        fmt::format("expected at most {} diodes in all rings, on or off", max_listed));
+  }
+}
+
+std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, const Place &place) {
+  refuse_endless_rings(rings, place);
+  std::vector<Diode> diodes;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    append_ring(rings[i], diode, diodes);
+    if (diodes.size() > max_diodes)
+      throw input_error(place / i, fmt::format("expected at most {} diodes in all rings", max_diodes));
+  }
+  if (diodes.empty())
+    throw input_error(place, "expected at least one diode, active_deg switches all off");
+  return diodes;
+}
+
+std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place,
+                               DiagramFiles &diagrams) {
+  std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place, diagrams);
+  for (std::size_t i = 0; i < diodes.size(); ++i) {
+    diodes[i].intensity_w_sr *= intensity;
+    if (diodes[i].intensity_w_sr > max_intensity_w_sr)
+      throw input_error(
+          place, fmt::format("diode {}: its intensity times intensity_w_sr is {}, expected at most {} W/sr",
+                             i, diodes[i].intensity_w_sr, max_intensity_w_sr));
+  }
+  return diodes;
+}
+
+// Ring by ring in the order of their angles, or in the diode file's order.
+std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place, DiagramFiles &diagrams) {
+  const ordered_json &diodes = illuminator.at("diodes");
+  const auto intensity_w_sr = illuminator.at("intensity_w_sr").get<double>();
+  if (diodes.contains("file"))
+    return file_diodes(diodes.at("file"), intensity_w_sr, place / "diodes" / "file", diagrams);
+  const ordered_json &pattern = illuminator.at("pattern");
+  Diode diode;
+  diode.intensity_w_sr = intensity_w_sr;
+  diode.pattern = pattern_of(pattern, place / "pattern", diagrams);
+  diode.across = diode_across(diode.axis, glm::radians(pattern.value("roll_deg", 0.0)));
+  return diodes.contains("rings") ? ring_diodes(diodes.at("rings"), diode, place / "diodes" / "rings")
+                                  : std::vector<Diode>{diode};
+}
+
+} // namespace
+
+std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
+                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         std::vector<std::string> &warnings) {
+  DiagramFiles diagrams;
+  std::vector<Illuminator> result;
+  std::size_t diodes = 0;
+  for (std::size_t i = 0; i < illuminators.size(); ++i) {
+    const ordered_json &illuminator = illuminators[i];
+    result.push_back({illuminator.at("name"),
+                      world_from_frame(illuminator.at("pose"), place / i / "pose", scene, sensors),
+                      diodes_of(illuminator, place / i, diagrams),
+                      glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>()))});
+    diodes += result.back().diodes.size();
+    if (diodes > max_diodes)
+      throw input_error(place / i / "diodes",
+                        fmt::format("expected at most {} diodes in all illuminators", max_diodes));
+  }
+  warnings.insert(warnings.end(), diagrams.warnings().begin(), diagrams.warnings().end());
+  return result;
+}
+
+} // namespace pmdsim

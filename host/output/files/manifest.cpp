@@ -1,0 +1,149 @@
+#include "host/output/files/manifest.h"
+
+#include "host/output/files/intrinsics.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json matrix_json(const Pose &a_from_b) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 3; ++row)
+    rows.push_back({a_from_b.rotation[0][row], a_from_b.rotation[1][row], a_from_b.rotation[2][row],
+                    a_from_b.translation_m[row]});
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+// The error that is bounded, null where none is.
+ordered_json asked_json(const Accuracy &accuracy) {
+  const auto bound = [&](double error) {
+    return accuracy.mode == Mode::exact || std::isinf(error) ? ordered_json(nullptr) : ordered_json(error);
+  };
+  return {{"mode", mode_name(accuracy.mode)},
+          {"max_error_m", bound(accuracy.max_error_m)},
+          {"max_amplitude_error", bound(accuracy.max_amplitude_error)}};
+}
+
+ordered_json frame_json(const FrameRecord &record) {
+  ordered_json frame{{"sensor", record.sensor.name},
+                     {"frame", record.frame},
+                     {"time_s", record.time_s},
+                     {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
+                     {"modulation_hz", record.sensor.modulation_hz},
+                     {"ambiguity_m", ambiguities_m(record.sensor)},
+                     {"waveform", waveform_json(record.sensor.waveform)},
+                     {"taps", record.sensor.taps},
+                     {"tap_interval_s", record.sensor.tap_interval_s},
+                     {"camera", camera_json(record.sensor)},
+                     {"frame_ms", record.frame_ms},
+                     {"passes_ms", passes_json(record.passes)}};
+  frame.update(accuracy_json(record));
+  frame["outputs"] = record.outputs;
+  return frame;
+}
+
+// All lines but the first begin with `spaces` more.
+std::string indented(const ordered_json &json, std::size_t spaces) {
+  std::string text;
+  for (const char character : json_text(json)) {
+    text += character;
+    if (character == '\n')
+      text.append(spaces, ' ');
+  }
+  return text.substr(0, text.find_last_not_of(" \n") + 1);
+}
+
+ordered_json how_to_make_points() {
+  return {
+      "1. xy = inverse(camera_matrix) * [column, row, 1]; the centre of pixel (0, 0) lies at (0, 0)",
+      "2. pinhole, brown: [x, y] = cv::undistortPoints(xy, identity, distortion), iterated until it stands",
+      "2. fisheye: [x, y] = cv::fisheye::undistortPoints(xy, identity, distortion), where there is a "
+      "tilt_rad "
+      "after cv::undistortPoints(xy, identity, [12 zeros, tilt_rad]); rays beyond 90 degrees have no slopes: "
+      "solve the model for the angle to the axis",
+      "3. point_world = world_from_camera * [distance_m * normalize([x, y, 1]), 1]; distance_m is radial, "
+      "not the depth z"};
+}
+
+} // namespace
+
+ordered_json camera_json(const Sensor &sensor) {
+  const Intrinsics intrinsics = intrinsics_of(sensor);
+  const auto &matrix = intrinsics.camera_matrix;
+  const auto focal = [&](double pixels) {
+    return intrinsics.rotated ? ordered_json(nullptr) : ordered_json(pixels);
+  };
+  ordered_json camera{{"model", intrinsics.model},
+                      {"fx", focal(matrix[0][0])},
+                      {"fy", focal(matrix[1][1])},
+                      {"cx", matrix[0][2]},
+                      {"cy", matrix[1][2]},
+                      {"camera_matrix", matrix},
+                      {"distortion", intrinsics.distortion}};
+  if (intrinsics.model == "fisheye" && intrinsics.tilt_rad != glm::dvec2(0.0))
+    camera["tilt_rad"] = {intrinsics.tilt_rad.x, intrinsics.tilt_rad.y};
+  camera["world_from_camera"] = matrix_json(sensor.world_from_camera);
+  return camera;
+}
+
+ordered_json waveform_json(const Waveform &waveform) {
+  switch (waveform.kind) {
+  case Waveform::Kind::sine:
+    return "sine";
+  case Waveform::Kind::square:
+    return "square";
+  case Waveform::Kind::harmonics:
+    return {{"harmonics", waveform.harmonics}};
+  }
+  throw std::logic_error("a waveform of no kind");
+}
+
+std::vector<double> ambiguities_m(const Sensor &sensor) {
+  std::vector<double> ambiguities;
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    ambiguities.push_back(sensor.ambiguity_m(i));
+  return ambiguities;
+}
+
+ordered_json accuracy_json(const FrameRecord &record) {
+  ordered_json json{{"mode", mode_name(record.mode)}};
+  json.update(accuracy_json(record.accuracy));
+  return json;
+}
+
+ordered_json passes_json(const std::vector<PassTime> &passes) {
+  ordered_json json = ordered_json::object();
+  for (const PassTime &pass : passes)
+    json[pass.name] = pass.ms;
+  return json;
+}
+
+void write_manifest(OutputFile &file, const RunRecord &run) {
+  ordered_json head{{"program", "pmdsim"},
+                    {"version", PMDSIM_VERSION},
+                    {"command", run.command},
+                    {"device", run.device},
+                    {"driver", run.driver}};
+  head.update(asked_json(run.accuracy));
+  head["setup"] = run.setup;
+  head["points"] = how_to_make_points();
+  std::string text = json_text(head);
+  text.erase(text.find_last_of('}') - 1); // the end of the object and its line
+  file.write(text + ",\n  \"frames\": [");
+  const char *separator = "\n    ";
+  for (const FrameRecord &record : run.frames)
+    file.write(std::exchange(separator, ",\n    ") + indented(frame_json(record), 4));
+  file.write("\n  ]\n}\n");
+}
+
+std::string json_text(const ordered_json &json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+} // namespace pmdsim

@@ -1,0 +1,67 @@
+#pragma once
+// manifest.json: what an output directory holds and how it came about.
+//
+// From distances to points: `distance_m` is radial, from the lens to the point along the pixel's ray, NOT the
+// depth z. With the frame's `camera` (Intrinsics says what its figures mean) and the slopes (x, y) of the
+// pixel's ray,
+//   (x''', y''', 1) = inverse(camera_matrix) * (column, row, 1)
+//   (x, y)          = (x''', y''') less tilt and distortion, by OpenCV
+//   point_camera    = distance_m * normalize([x, y, 1])
+//   point_world     = world_from_camera * [point_camera, 1]
+// The same holds for `range_m`, the true distance; `z_m` is the depth: point_camera = z_m * [x, y, 1].
+
+#include "engine/model/measurement.h"
+#include "engine/model/sensor.h"
+#include "host/output/files/accuracy_record.h"
+#include "host/output/files/output_file.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// One sensor's frame and the files that hold it.
+struct FrameRecord {
+  Sensor sensor; // where it was when the frame began
+  std::uint32_t frame = 0;
+  double time_s = 0.0; // when it began
+  double frame_ms = 0.0;
+  std::vector<PassTime> passes;
+  Mode mode = Mode::exact; // that it was taken in
+  AccuracyReport accuracy;
+  std::vector<std::string> outputs{}; // file names without directory
+};
+
+struct RunRecord {
+  std::string command; // "render" or "deform"
+  std::string device, driver;
+  Accuracy accuracy;            // asked for
+  nlohmann::ordered_json setup; // as used
+  std::vector<FrameRecord> frames;
+};
+
+// model, fx, fy (null where the chip is turned about z), cx, cy, camera_matrix (3 x 3), distortion,
+// world_from_camera (4 x 4, rows; camera frame x right, y down, z forward; world as in glTF); of a tilted
+// fisheye tilt_rad. Intrinsics says what the figures mean.
+nlohmann::ordered_json camera_json(const Sensor &sensor);
+
+// As a setup writes it: "sine", "square" or {"harmonics": [...]}.
+nlohmann::ordered_json waveform_json(const Waveform &waveform);
+
+// The ambiguity range of every frequency.
+std::vector<double> ambiguities_m(const Sensor &sensor);
+
+// What a frame came to: mode and what accuracy_json() has of it.
+nlohmann::ordered_json accuracy_json(const FrameRecord &record);
+
+// {"NAME": milliseconds, ...}
+nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
+
+// As json_text() would, frame by frame: a long run's manifest is large. Throws Error (output).
+void write_manifest(OutputFile &file, const RunRecord &run);
+
+// Indented, with a final newline; a NaN becomes null.
+std::string json_text(const nlohmann::ordered_json &json);
+
+} // namespace pmdsim

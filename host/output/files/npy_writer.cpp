@@ -1,0 +1,42 @@
+#include "host/output/files/npy_writer.h"
+
+#include <bit>
+#include <fmt/format.h>
+#include <string>
+
+namespace pmdsim {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the arrays are written as they lie in memory");
+
+constexpr std::size_t preamble_bytes = 10; // magic, version, header length
+constexpr std::size_t alignment_bytes = 64;
+
+std::string npy_header(const char *type, const glm::uvec2 &resolution) {
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type,
+                                   resolution.y, resolution.x);
+  const std::size_t unpadded = preamble_bytes + header.size() + 1;
+  header.append((alignment_bytes - unpadded % alignment_bytes) % alignment_bytes, ' ');
+  header += '\n';
+  const auto length = static_cast<std::uint16_t>(header.size());
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(length & 0xff) +
+         static_cast<char>(length >> 8) + header;
+}
+
+const char *type_name(std::span<const float>) { return "<f4"; }
+const char *type_name(std::span<const std::uint32_t>) { return "<u4"; }
+
+} // namespace
+
+void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution) {
+  std::visit(
+      [&](auto values) {
+        const std::string header = npy_header(type_name(values), resolution);
+        file.reserve(header.size() + values.size_bytes());
+        file.write(header);
+        file.write({reinterpret_cast<const char *>(values.data()), values.size_bytes()});
+      },
+      channel.values);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,136 @@
+#include "host/output/files/output_file.h"
+
+#include "engine/model/error.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <random>
+#include <sys/uio.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::size_t many_bytes = std::size_t{1} << 18;
+// RWF_DONTCACHE of Linux 6.14, which older headers lack: pages are written to the disk at once and then given
+// back, so that the next ones need no new memory.
+constexpr int uncached = 0x80;
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+Error write_error(const std::filesystem::path &path, int error_number) {
+  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(), reason(error_number))};
+}
+
+// Hidden, and random because another run may write to the same directory.
+std::filesystem::path temporary_name(const std::filesystem::path &path) {
+  std::random_device random;
+  return path.parent_path() / fmt::format(".{}.{:08x}.partial", path.filename().string(), random());
+}
+
+} // namespace
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)), temporary_(temporary_name(path_)) {
+  const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0)
+    fail(errno);
+  stream_ = ::fdopen(descriptor, "w+b");
+  if (!stream_) {
+    const int error_number = errno;
+    ::close(descriptor);
+    ::unlink(temporary_.c_str());
+    fail(error_number);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (stream_)
+    std::fclose(stream_);
+  if (!temporary_.empty())
+    ::unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(int error_number) const { throw write_error(path_, error_number); }
+
+void OutputFile::reserve(std::uint64_t bytes) {
+  if (::fallocate(::fileno(stream_), 0, 0, static_cast<off_t>(bytes)) == 0)
+    return;
+  // Not every file system can; what else may be wrong, the writing tells.
+  if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
+    fail(first_error_ = errno);
+}
+
+std::size_t OutputFile::write_uncached(std::string_view bytes) {
+  const off_t start = std::fflush(stream_) == 0 ? ::ftello(stream_) : -1;
+  std::size_t written = 0;
+  while (start >= 0 && written < bytes.size()) {
+    iovec rest{const_cast<char *>(bytes.data()) + written, bytes.size() - written};
+    const ssize_t count =
+        ::pwritev2(::fileno(stream_), &rest, 1, start + static_cast<off_t>(written), uncached);
+    if (count <= 0)
+      break; // not every system can; what else may be wrong, writing the rest tells
+    written += static_cast<std::size_t>(count);
+  }
+  if (written > 0)
+    seek(static_cast<std::uint64_t>(start) + written);
+  return written;
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (bytes.size() >= many_bytes)
+    bytes.remove_prefix(write_uncached(bytes));
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
+    return;
+  if (first_error_ == 0)
+    first_error_ = errno;
+  fail(first_error_);
+}
+
+void OutputFile::seek(std::uint64_t offset) {
+  if (::fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0)
+    return;
+  if (first_error_ == 0)
+    first_error_ = errno;
+  fail(first_error_);
+}
+
+std::uint64_t OutputFile::tell() const {
+  const off_t offset = ::ftello(stream_);
+  if (offset < 0)
+    fail(errno);
+  return static_cast<std::uint64_t>(offset);
+}
+
+void OutputFile::close() {
+  if (std::fflush(stream_) != 0 && first_error_ == 0)
+    first_error_ = errno;
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0 && first_error_ == 0)
+    first_error_ = errno;
+  if (first_error_ != 0)
+    fail(first_error_);
+}
+
+void OutputFile::check_publishable() const {
+  std::error_code absent;
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(path_, absent)))
+    fail(EISDIR);
+}
+
+void OutputFile::publish() {
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+    fail(errno);
+  temporary_.clear();
+}
+
+void OutputFile::withdraw() noexcept { ::unlink(path_.c_str()); }
+
+void remove_file(const std::filesystem::path &path) {
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT)
+    throw write_error(path, errno);
+}
+
+} // namespace pmdsim

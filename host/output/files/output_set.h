@@ -1,0 +1,48 @@
+#pragma once
+// Files that get their names in a directory together: all of them, or none.
+
+#include "host/output/files/written_files.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+class OutputSet {
+public:
+  // Creates the directory and its parents. Throws Error (output) where that fails or nothing can be written
+  // there.
+  explicit OutputSet(const std::filesystem::path &directory);
+  // Unpublished: removes the temporaries and those directories that the constructor made.
+  ~OutputSet();
+  OutputSet(const OutputSet &) = delete;
+  OutputSet &operator=(const OutputSet &) = delete;
+
+  const std::filesystem::path &directory() const { return directory_; }
+
+  // Writes one file by calling `write`; it gets its name only by publish(). `name` is a plain file name.
+  void add(const std::string &name, const std::function<void(OutputFile &)> &write);
+  // Files of this directory that are written.
+  void add(WrittenFiles files);
+
+  // Names of the files added so far, in order.
+  const std::vector<std::string> &names() const { return names_; }
+  // Those from the one with the index `first` on.
+  std::vector<std::string> names_from(std::size_t first) const;
+
+  // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the
+  // set to their names. Throws Error (output): where a directory has one of the names, before
+  // anything is replaced; where a rename itself fails, none of the set's files stays.
+  void publish(const std::vector<std::string> &obsolete = {});
+
+private:
+  std::filesystem::path directory_;
+  std::vector<std::filesystem::path> created_; // outermost first
+  WrittenFiles files_;
+  std::vector<std::string> names_;
+  bool published_ = false;
+};
+
+} // namespace pmdsim

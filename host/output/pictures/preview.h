@@ -1,0 +1,47 @@
+#pragma once
+// A channel as a picture: colours, axes in pixels, a colour bar with its unit, and grey where there is no
+// value.
+
+#include "host/output/pictures/axis.h"
+#include "host/output/pictures/canvas.h"
+#include "host/output/pictures/colour_map.h"
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+namespace pmdsim {
+
+struct PreviewStyle {
+  enum class Scale {
+    sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
+    zero_centred, // the same, made symmetric about zero
+    turn,         // always [0, 2 pi)
+    share,        // always [0, 1]
+  };
+  std::string quantity; // "distance", as the colour bar names it
+  std::string unit;
+  ColourMap colours;
+  Scale scale;
+};
+
+// What the picture's image area shows: at most 1024 pixels a side (whole blocks of pixels averaged, for
+// `turn` their first taken, since angles do not average), small frames enlarged by a whole factor.
+struct PreviewImage {
+  glm::uvec2 resolution;     // of `values`
+  std::vector<float> values; // NaN where a block holds no value
+  std::uint32_t enlargement; // picture pixels a value
+};
+
+PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &resolution,
+                           PreviewStyle::Scale scale);
+
+// The values that the ends of the colour bar stand for; of positive span, for constant and for empty images
+// too.
+Range preview_range(std::span<const float> values, PreviewStyle::Scale scale);
+
+// `values` is row-major, rows * columns values, NaN for none.
+Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution, const PreviewStyle &style,
+                    const std::string &title);
+
+} // namespace pmdsim

@@ -1,0 +1,92 @@
+#include "host/report/report.h"
+
+#include "engine/model/error.h"
+#include "host/output/files/accuracy_record.h"
+#include "host/output/files/manifest.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+namespace pmdsim {
+namespace {
+
+template <typename T>
+Spread spread(std::span<const T> values) {
+  std::vector<T> finite;
+  finite.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](T value) { return std::isfinite(value); });
+  if (finite.empty()) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan, nan};
+  }
+  const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
+  std::nth_element(finite.begin(), middle, finite.end());
+  const auto [min, max] = std::minmax_element(finite.begin(), finite.end());
+  return {static_cast<double>(*min), static_cast<double>(*middle), static_cast<double>(*max)};
+}
+
+// "at most 1.2 µm, 3e-06 of the amplitude".
+std::string bounds_text(const std::optional<double> &distance_m, const std::optional<double> &amplitude) {
+  std::vector<std::string> errors;
+  if (distance_m)
+    errors.push_back(micrometres_text(*distance_m));
+  if (amplitude)
+    errors.push_back(fmt::format("{:.3g} of the amplitude", *amplitude));
+  return fmt::format("at most {}", fmt::join(errors, " and "));
+}
+
+} // namespace
+
+void print(const std::string &text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw Error(ExitCode::output, fmt::format("standard output: cannot be written: {}",
+                                              std::generic_category().message(errno)));
+}
+
+void print(const nlohmann::ordered_json &json) { print(json_text(json)); }
+
+std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
+
+std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value); }
+
+std::string micrometres_text(double length_m) { return fmt::format("{:.4g} µm", 1e6 * length_m); }
+
+std::string sum_text(Mode mode, const AccuracyReport &report) {
+  return fmt::format("{}, {}, {} diode{} summed", mode_name(mode), precision_name(report.precision),
+                     report.diodes, report.diodes == 1 ? "" : "s");
+}
+
+std::string errors_text(const AccuracyReport &report) {
+  std::vector<std::string> errors;
+  if (report.claimed_m || report.claimed_amplitude)
+    errors.push_back(bounds_text(report.claimed_m, report.claimed_amplitude) + " claimed");
+  if (report.found_m || report.found_amplitude)
+    errors.push_back(fmt::format("{} found in {} pixels, checked in {:.3f} ms",
+                                 bounds_text(report.found_m, report.found_amplitude), report.checked_pixels,
+                                 report.check_ms));
+  return fmt::format("{}", fmt::join(errors, ", "));
+}
+
+std::string accuracy_text(Mode mode, const AccuracyReport &report) {
+  std::string text;
+  if (mode != Mode::exact || report.precision == Precision::fp64)
+    text += fmt::format("mode {}\n", sum_text(mode, report));
+  if (const std::string errors = errors_text(report); !errors.empty())
+    text += fmt::format("error {}\n", errors);
+  return text;
+}
+
+Spread spread_of(std::span<const float> values) { return spread(values); }
+Spread spread_of(std::span<const double> values) { return spread(values); }
+
+} // namespace pmdsim

@@ -1,0 +1,40 @@
+#pragma once
+// What commands print on stdout.
+
+#include "engine/model/accuracy.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+namespace pmdsim {
+
+// Text as it is, at once. Throws Error (output) where stdout cannot take it.
+void print(const std::string &text);
+void print(const nlohmann::ordered_json &json);
+
+// "20 MHz".
+std::string frequency_text(double modulation_hz);
+
+// A number for a table, six significant digits; "-" for NaN.
+std::string table_number(double value);
+
+// "12.3 µm", four significant digits.
+std::string micrometres_text(double length_m);
+
+// "auto, fp32, 15 diodes summed".
+std::string sum_text(Mode mode, const AccuracyReport &report);
+// "at most 4 µm claimed, at most 1 µm found in 1024 pixels, checked in 2.000 ms"; empty where nothing is
+// known.
+std::string errors_text(const AccuracyReport &report);
+// A line of each, as far as they say something beyond mode exact in fp32.
+std::string accuracy_text(Mode mode, const AccuracyReport &report);
+
+// Over the values that are finite; NaN where there is none.
+struct Spread {
+  double min, median, max;
+};
+Spread spread_of(std::span<const float> values);
+Spread spread_of(std::span<const double> values);
+
+} // namespace pmdsim

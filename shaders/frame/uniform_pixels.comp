@@ -1,0 +1,247 @@
+#version 460
+// The short way: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
+// face, so that few diodes may stand in for all and one place, or four, for all samples. Other pixels are listed for the
+// passes that go sample by sample.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#define RESOLVE_BASE short_way_resolve
+#define POINTS_BASE short_way_points
+#include "shaders/sampling/chip.glsl"
+#include "shaders/sampling/pixel_list.glsl"
+#include "shaders/view/points.glsl"
+#include "shaders/signal/resolve.glsl"
+
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Lights {
+  ShortWayLight at;
+  LightRun runs[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Works { ShortWayWork at; };
+layout(push_constant, std430) uniform Constants { ShortWayConstants constants; };
+#define DIAGRAM_VALUES Lights(constants.light).at.diagrams
+#include "shaders/light/moments.glsl"
+layout(constant_id = short_way_points + constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_runs) const uint runs = 1;
+layout(constant_id = constant_samples) const uint side = 1; // S
+layout(constant_id = constant_places) const uint places = 0;
+layout(constant_id = constant_lists_pixels) const uint lists_pixels = 1;
+layout(constant_id = constant_few_follow) const uint few_follow = 0;
+const bool by_four = places == 4;
+const uint evaluations = by_four ? 4 : 1;
+// The variance of the samples' places, in half steps between them. Four places at its root each way from the centre share all
+// moments with the samples up to the third.
+float variance() { return float(side * side - 1u) / 3.0; }
+
+// What the samples of a pixel have in common.
+struct Seen {
+  uvec2 tag;  // of the first
+  bool alike; // all have it
+  bool lit;   // every diode lights whatever they see
+};
+
+// Whether all of the box around the light is in front of a surface.
+bool faces(TrianglePlane plane, ShortWayLight light) {
+  float height = dot(plane.plane_hi.xyz, light.middle_m.xyz) - plane.plane_hi.w;
+  return height > dot(abs(plane.plane_hi.xyz), light.extent_m.xyz);
+}
+
+Seen see(uint pixel, ShortWayLight light) {
+  Strip strip = constants.strip;
+  uvec2 in_strip = uvec2(pixel % strip.columns, pixel / strip.columns), extent = uvec2(strip.columns, strip.rows);
+  uint diodes = Works(constants.work).at.diodes;
+  Seen seen = Seen(uvec2(0), true, true);
+  for (uint s = 0; s < side * side; ++s) {
+    uvec2 tag = load_tag(constants.tags, tag_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0));
+    if (s == 0)
+      seen.tag = tag;
+    seen.alike = seen.alike && tag == seen.tag;
+    if (backscatter_model != backscatter_flat)
+      seen.lit = seen.lit && (tag.x == 0u || faces(load_plane(constants.planes, tag.x != 0u ? tag.y : 0u), light));
+    if (lit_is_kept != 0)
+      seen.lit = seen.lit && (tag.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
+  }
+  return seen;
+}
+
+// What the places of a plane pixel that stand in for its samples may be off by, times the condition (ARCHITECTURE.md: "one place
+// for many samples"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
+Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
+  float along = dot(plane.plane_hi.xyz, ray);
+  float depth = length(point) / length(ray);
+  vec2 tilt = vec2(dot(plane.plane_hi.xyz, step_x), dot(plane.plane_hi.xyz, step_y)) / along;
+  vec3 to_x = depth * (step_x - tilt.x * ray), to_y = depth * (step_y - tilt.y * ray); // of the point
+  float tilt2 = variance() * dot(tilt, tilt), way2 = variance() * (dot(to_x, to_x) + dot(to_y, to_y));
+  float range = length(point);
+  float nearest = max(0.0, distance(point, light.middle_m.xyz) - light.extent_m.w);
+  // ln w falls by slope / r a metre at most: r^-2, the cosine's r^-1 and the diagram.
+  float slope = (3.0 + light.pattern_slope) / nearest;
+  float bent = 2.0 * sqrt(tilt2 * way2) + 0.5 * way2 * (1.0 / range + 1.0 / nearest); // of the path
+  float amplitude = sqrt(tilt2 * way2) * slope + way2 * (slope * (slope + 1.0 / nearest) + 2.0 * light.wavenumber * light.wavenumber);
+  float path = bent + 2.0 * way2 * slope + amplitude * light.spread_m;
+  // Of the second order; four places have that. Beyond it all is analytic within `nearest`, and the series of what is left begins
+  // with the fourth.
+  float farthest2 = 3.0 * max(way2 * slope * slope / 9.0, max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
+  float share = by_four ? 20.0 * farthest2 : 1.0 + 10.0 * farthest2;
+  share = farthest2 < 0.03 ? share : 1.0 / 0.0;
+  return Errors(share * 0.5 * path, share * amplitude);
+}
+
+// Adds up the terms of all diodes at a point.
+void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out float terms) {
+  [[unroll]] for (uint t = 0; t < tones; ++t)
+    z[t] = vec4(0.0);
+  terms = 0.0;
+  [[unroll]] for (uint r = 0; r < runs; ++r) {
+    LightRun run = Lights(constants.light).runs[r];
+    Point point;
+    ReferencePath path = see_point(position, surface, run, point);
+    float moment[moments];
+    sum_run(0u, point, run, constants.diodes, r * unrolled_blocks, unrolled_blocks, moment);
+    terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
+    [[unroll]] for (uint t = 0; t < tones; ++t) {
+      vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
+      z[t] = compensated_add(z[t], backscatter > 0.0 ? backscatter * value : vec2(0.0)); // black may not be a number
+    }
+  }
+}
+
+// What a pixel's places come to beside their returns.
+struct Places {
+  float terms;
+  Real range, depth, reference_m; // the first two summed; of the first place, as the returns' phases are
+  float least_m, most_m;          // of the ranges
+};
+
+uvec2 in_frame(uint pixel) {
+  Strip strip = constants.strip;
+  return uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
+}
+
+// To a place of the pixel, from its centre in half steps between samples.
+Real3 ray_to(uint pixel, vec2 from_centre) {
+  return general_chip != 0 ? chip_ray(Chips(constants.chip).at, constants.strip, in_frame(pixel), from_centre)
+                           : plain_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
+}
+
+// `z`: of each tone.
+void add_place(ShortWayLight light, TrianglePlane plane, uint triangle, Real3 ray, uint place, inout Places sum,
+               inout vec4 z[tones]) {
+  Real3 position = point_on_plane(ray, plane);
+  float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
+  vec4 of_place[tones];
+  float terms;
+  sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, of_place, terms);
+  Real range = length3(position);
+  if (place == 0u)
+    sum.reference_m = range;
+  Real excess = add(range, negate(sum.reference_m));
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
+    if (!by_four) {
+      z[t] = of_place[t];
+      continue;
+    }
+    Real turns = multiply(excess, turns_per_m(Lights(constants.light).at.frequencies[t], 0));
+    z[t] = compensated_add(z[t], complex_multiply(compensated_value(of_place[t]), unit_phasor(turn_fraction(turns))));
+  }
+  sum.terms += terms;
+  sum.range = add(sum.range, range);
+  sum.depth = add(sum.depth, position.z);
+  sum.least_m = min(sum.least_m, high(range));
+  sum.most_m = max(sum.most_m, high(range));
+}
+
+Places sum_places(ShortWayLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
+  Places sum = Places(0.0, real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
+  [[unroll]] for (uint t = 0; t < tones; ++t)
+    z[t] = vec4(0.0);
+  [[unroll]] for (uint p = 0; p < evaluations; ++p) { // lavapipe fetches lane by lane in loops
+    vec2 side_of = vec2((p & 1u) == 0u ? -1.0 : 1.0, (p & 2u) == 0u ? -1.0 : 1.0);
+    vec2 from_centre = by_four ? sqrt(variance()) * side_of : vec2(0.0);
+    add_place(light, plane, triangle, ray_to(pixel, from_centre), p, sum, z);
+  }
+  return sum;
+}
+
+// Stores a pixel's channels and returns whether what was promised of them holds.
+bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
+  bool kept = true;
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
+    Frequency frequency = Lights(constants.light).at.frequencies[t];
+    PixelSum sum;
+    see_nothing(sum);
+    if (hits) {
+      sum.z[0] = z[t];
+      sum.range = seen.range;
+      sum.depth = seen.depth;
+      sum.reference_m = seen.reference_m;
+      sum.hits = sum.lit = evaluations;
+    }
+    float size = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
+    kept = kept && is_kept(frequency, errors_of(frequency, hits ? seen.terms : 0.0, size, added));
+    if (t == 0) {
+      store_ground_truth(to, evaluations, pixel, sum);
+      if (lit_is_kept != 0)
+        store_lit(to, Works(constants.work).at.lit_channel, 1u, pixel, sum);
+    }
+  }
+  return kept;
+}
+
+void enlist(uint list, uint pixel) {
+  PixelLists to = PixelLists(Works(constants.work).at.lists[list]);
+  uint at = atomicAdd(to.head.count, 1u);
+  to.pixels[at] = pixel;
+}
+
+// From the pixel's centre to the next sample's place, in a ray (x, y, 1).
+vec3 half_step(uint axis, uvec2 pixel) {
+  if (general_chip == 0)
+    return axis == 0 ? vec3(constants.slope.x, 0.0, 0.0) : vec3(0.0, constants.slope.z, 0.0);
+  ChipPlace chip = Chips(constants.chip).at;
+  float depth = high(place_on_chip(chip, constants.strip, pixel, vec2(0.0)).z);
+  return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
+}
+
+Errors errors_of_pixel(ShortWayLight light, TrianglePlane plane, uint pixel, bool hits, Places of_pixel) {
+  if (side == 1 || !hits)
+    return Errors(0.0, 0.0);
+  Real3 ray = ray_to(pixel, vec2(0.0));
+  uvec2 at = in_frame(pixel);
+  Errors errors = errors_of_places(plane, high3(ray), half_step(0, at), half_step(1, at), high3(point_on_plane(ray, plane)), light);
+  if (by_four && side == 2) // these are the samples
+    errors = Errors(0.0, 0.0);
+  if (by_four && of_pixel.most_m - of_pixel.least_m > light.place_spread_m)
+    errors = Errors(1.0 / 0.0, 1.0 / 0.0);
+  return errors;
+}
+
+void main() {
+  Strip strip = constants.strip;
+  uint to = gl_GlobalInvocationID.x; // beyond the last pixel is room for what only pads
+  if (by_four)
+    to = listed_pixel(PixelLists(Works(constants.work).at.lists[list_few]), to, strip.padded_pixels);
+  bool pads = to >= strip.columns * strip.rows;
+  uint pixel = pads ? 0u : to;
+  ShortWayLight light = Lights(constants.light).at;
+  Seen seen = see(pixel, light);
+  bool done = false;
+  if (runs > 0) {
+    bool hits = seen.tag.x != 0u;
+    uint triangle = hits ? seen.tag.y : 0u;
+    TrianglePlane plane = load_plane(constants.planes, triangle);
+    vec4 z[tones];
+    Places places_seen = sum_places(light, plane, triangle, pixel, z);
+    Errors added = errors_of_pixel(light, plane, pixel, hits, places_seen);
+    Channels channels = Channels(constants.channels, strip.padded_pixels);
+    bool kept = store_pixel(channels, light, to, hits, places_seen, z, added);
+    store_ids(channels, seen.tag, plane.object, to);
+    done = seen.alike && seen.lit && kept && (side == 1 || places != 0 || !hits);
+  }
+  if (lists_pixels != 0 && !done && !pads) {
+    uint list = seen.lit ? list_lit : list_rest;
+    if (few_follow != 0)
+      list = seen.alike && seen.lit ? list_few : list;
+    enlist(list, pixel);
+  }
+}

@@ -1,0 +1,37 @@
+#version 460
+// The sum over the diodes of one run, for every sample, by moments.
+// STRAIGHT_LINE: one dispatch is one unrolled run of constant_blocks blocks, without a branch, so that lavapipe reads
+// the diodes once for all lanes; else a loop over the blocks, which suits GPUs.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/light/accumulate.glsl"
+#define REACHED_OF_BLOCK(i, block) reached_of_block(i, block)
+#include "shaders/light/moments.glsl"
+
+void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run, float backscatter) {
+  add_to_plane(t, i, backscatter, tone_return(moment, path, run, Tones(constants.tones).at[t]));
+}
+
+// More of them would take long to compile, and are seldom.
+const uint unrolled_tones = 16;
+
+void main() {
+  uint i = sample_of_invocation();
+  LightRun run = LightRuns(constants.run).at;
+  Point point;
+  ReferencePath path = load_point(i, run, point);
+  float moment[moments];
+  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
+
+  float backscatter = Floats(constants.backscatter).at[i];
+  add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));
+  if (tones <= unrolled_tones) {
+    [[unroll]] for (uint t = 0; t < tones; ++t)
+      add_tone(t, i, moment, path, run, backscatter);
+  } else {
+    for (uint t = 0; t < tones; ++t)
+      add_tone(t, i, moment, path, run, backscatter);
+  }
+}

@@ -1,0 +1,56 @@
+// What both forms of the accumulate pass share: which samples they sum, and how a run's terms join the sum.
+#ifndef PMDSIM_ACCUMULATE_GLSL
+#define PMDSIM_ACCUMULATE_GLSL
+
+#include "shaders/shared/buffers.glsl"
+#include "shaders/shared/compensated.glsl"
+#include "shaders/sampling/pixel_list.glsl"
+#include "shaders/sampling/position.glsl"
+#include "shaders/shared/specialization.glsl"
+
+layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
+layout(constant_id = constant_first) const uint is_first = 0;
+layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_promised) const uint promised = 0;
+
+#define DIAGRAM_VALUES constants.diagrams
+#include "shaders/light/sum.glsl"
+
+uint sample_of_invocation() {
+  uint i = gl_GlobalInvocationID.x;
+  return listed != 0 ? listed_sample(PixelLists(constants.list), i, constants.padded_pixels) : i;
+}
+
+// Of the block's diodes, those that reach sample i, a bit each.
+uint reached_of_block(uint i, uint block) {
+  if (shadowed == 0)
+    return 0u;
+  uint first = block * diodes_per_block;
+  return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
+}
+
+ReferencePath load_point(uint i, LightRun run, out Point point) {
+  return see_point(load_position(constants.position, i), load_vec4(constants.surface, i), run, point);
+}
+
+// What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
+void add_terms(uint i, float backscatter, float terms) {
+  if (promised == 0 || constants.adds_terms == 0)
+    return;
+  Floats sums = Floats(constants.terms);
+  float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;
+  sums.at[i] = is_first != 0 ? scattered : sums.at[i] + scattered;
+}
+
+// Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even
+// NaN.
+void add_to_plane(uint plane, uint i, float backscatter, vec2 value) {
+  vec2 term = backscatter > 0.0 ? backscatter * value : vec2(0.0);
+  uint at = plane * constants.plane + i;
+  if (is_first != 0)
+    store_vec4(constants.sum, at, vec4(term, 0.0, 0.0));
+  else
+    store_vec4(constants.sum, at, compensated_add(load_vec4(constants.sum, at), term));
+}
+
+#endif

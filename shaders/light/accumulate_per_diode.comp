@@ -1,0 +1,97 @@
+#version 460
+// The sum over the diodes of one group, for every sample, diode by diode: for waveforms whose harmonics never end, which
+// moments cannot serve. With rho = |P - G| and e = r_nm - rho each diode adds w_m C(phase of (rho + r_n) + kappa e) to
+// each tap; kappa |e| is at most 1/2 (source_groups.cpp), so no phase has to be wrapped inside the loop.
+// STRAIGHT_LINE: as in accumulate.comp.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/light/accumulate.glsl"
+
+layout(constant_id = constant_waveform) const uint waveform = waveform_square;
+layout(constant_id = constant_taps) const uint taps = 4;
+
+layout(constant_id = constant_distinct) const uint distinct_taps = 2;
+// Square: of w * (C + 1) / 4 for each distinct tap, and of w. Sine: the complex return relative to the reference path.
+const uint totals = distinct_taps + 1;
+const uint tap_planes = (distinct_taps + 1) / 2;
+
+// The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
+void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phases[distinct_taps]) {
+  Real turns = phase_turns(add(path.rho, path.range), run, tone);
+  [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
+    phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
+}
+
+// (cos, sin) of x, |x| <= 1/2, in radians.
+vec2 small_phasor(float x) {
+  float u = x * x;
+  return vec2(1.0 + u * (-0.5 + u * (0.0416666667 + u * (-0.00138888889 + u * 2.48015873e-5))),
+              x * (1.0 + u * (-0.166666667 + u * (0.00833333333 + u * (-1.98412698e-4 + u * 2.75573192e-6)))));
+}
+
+void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_excess, Tone tone) {
+  if (waveform == waveform_square) {
+    float excess_turns = weight_excess.y * tone.turns_per_m.x;
+    // The triangle wave of x in [-1, 1] turns is 4 ||x| - 1/2| - 1.
+    [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
+      part[k] += weight_excess.x * abs(abs(phases[k] + excess_turns) - 0.5);
+    part[distinct_taps] += weight_excess.x;
+  } else {
+    vec2 z = weight_excess.x * small_phasor(weight_excess.y * tone.wavenumber);
+    part[0] += z.x;
+    part[distinct_taps] += z.y;
+  }
+}
+
+void add_block(inout float total[totals], Point point, float phases[distinct_taps], Tone tone,
+               Diodes diodes, uint block, uint reached) {
+  float part[totals];
+  [[unroll]] for (uint k = 0; k < totals; ++k)
+    part[k] = 0.0;
+  [[unroll]] for (uint d = 0; d < diodes_per_block; ++d)
+    add_diode(part, phases,
+              weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u), tone);
+  [[unroll]] for (uint k = 0; k < totals; ++k)
+    total[k] += part[k];
+}
+
+void add_taps(uint i, float total[totals], float backscatter) {
+  float weight = total[distinct_taps];
+  [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
+    uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
+    add_to_plane(p, i, backscatter, 4.0 * vec2(total[2 * p], total[second]) - weight);
+  }
+}
+
+void main() {
+  uint i = sample_of_invocation();
+  LightRun run = LightRuns(constants.run).at;
+  Point point;
+  ReferencePath path = load_point(i, run, point);
+  Tone tone = Tones(constants.tones).at[0];
+  float phases[distinct_taps];
+  find_tap_phases(path, run, tone, phases);
+  float total[totals];
+  [[unroll]] for (uint k = 0; k < totals; ++k)
+    total[k] = 0.0;
+  Diodes diodes = Diodes(constants.diodes);
+#ifdef STRAIGHT_LINE
+  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
+    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+#else
+  for (uint block = 0; block < constants.blocks; ++block)
+    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+#endif
+
+  float backscatter = Floats(constants.backscatter).at[i];
+  if (waveform == waveform_square) {
+    add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
+    add_taps(i, total, backscatter);
+  } else {
+    Real detour = add(path.rho, negate(path.range));
+    float turns = turn_fraction(phase_turns(detour, run, tone));
+    add_to_plane(0, i, backscatter, complex_multiply(vec2(total[0], total[distinct_taps]), unit_phasor(turns)));
+  }
+}

@@ -1,0 +1,118 @@
+// A run's sum by moments (DESIGN: "Two ways to the sum"). With the group's reference point G, rho = |P - G| and e = r_nm -
+// rho, the return is
+//   exp(j 2 pi (rho + r_n) / lambda) * sum_k (j kappa)^k / k! * sum_m w_m e_m^k,    kappa = 2 pi f / c,
+// so the loop over the diodes holds no sine and no long path: float32 is enough for it at any range.
+#ifndef PMDSIM_MOMENTS_GLSL
+#define PMDSIM_MOMENTS_GLSL
+
+#include "shaders/light/sum.glsl"
+
+layout(constant_id = constant_moments) const uint moments = 4;
+layout(constant_id = constant_tones) const uint tones = 1;
+
+// What is summed over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
+const uint sums = powers > 0 ? powers : moments;
+// Of alike diodes S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
+const bool linear_known = alike != 0 && powers > 2;
+
+// Of diodes that are alike only the places are there.
+GroupDiode load_diode(uvec2 diodes, uint i) {
+  if (alike == 0)
+    return Diodes(diodes).at[i];
+  GroupDiode diode;
+  diode.position = Vec4s(diodes).at[i];
+  return diode;
+}
+
+void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, uint reached) {
+  float part[sums];
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    part[k] = 0.0;
+  [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
+    GroupDiode diode = load_diode(diodes, block * diodes_per_block + d);
+    bool is_reached = (reached & 1u << d) != 0u;
+    vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_excess(point, diode, is_reached);
+    float term = factors.x;
+    if (alike == 0)
+      part[0] += term;
+    [[unroll]] for (uint k = 1; k < sums; ++k) {
+      term = k == 1 && alike != 0 ? factors.y : term * factors.y;
+      if (k > 1 || !linear_known)
+        part[k] += term;
+    }
+  }
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    total[k] += part[k];
+}
+
+// With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
+// polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
+void find_moments(float total[sums], Point point, LightRun run, out float moment[moments]) {
+  float inverse_rho2 = 1.0 / (point.rho * point.rho), scale = inverse_rho2;
+  uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? power : 0);
+  if (powers > 0)
+    [[unroll]] for (uint i = 0; i < lengths; ++i)
+      scale /= point.rho;
+  if (alike != 0)
+    total[0] = run.intensity; // those that pad a run have none, and q = 0
+  if (linear_known)
+    [[unroll]] for (uint k = 1; k < min(2, sums); ++k)
+      total[k] = dot(run.detours.xyz, point.position) + run.detours.w;
+  [[unroll]] for (uint k = 0; k < moments; ++k) {
+    float sum = 0.0;
+    [[unroll]] for (uint down = 0; down < powers; ++down) {
+      uint i = powers - 1 - down;
+      sum = sum * inverse_rho2 + run.moments_of_powers[largest_powers / 4 * k + i / 4][i % 4] * total[i];
+    }
+    moment[k] = powers > 0 ? scale * sum : total[k];
+    scale *= point.rho;
+  }
+}
+
+// Of the diodes of a run's block, counted from the run's first, those that reach sample i, a bit each; only asked where `shadowed`.
+#ifndef REACHED_OF_BLOCK
+#define REACHED_OF_BLOCK(i, block) 0u
+#endif
+
+// The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form. Long runs are
+// summed stretch by stretch, so that rounding is no worse than of short ones.
+void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments]) {
+  float total[sums], stretch[sums];
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    total[k] = stretch[k] = 0.0;
+#ifdef STRAIGHT_LINE
+  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
+#else
+  for (uint block = 0; block < blocks; ++block)
+#endif
+  {
+    add_block(stretch, point, diodes, first + block, REACHED_OF_BLOCK(i, block));
+    bool ends = block % blocks_per_stretch == blocks_per_stretch - 1;
+    [[unroll]] for (uint k = 0; k < sums; ++k) {
+      total[k] += ends ? stretch[k] : 0.0;
+      stretch[k] = ends ? 0.0 : stretch[k];
+    }
+  }
+  [[unroll]] for (uint k = 0; k < sums; ++k)
+    total[k] += stretch[k];
+  find_moments(total, point, run, moment);
+}
+
+// sum_k (j kappa)^k / k! * moment[k], by Horner's rule.
+vec2 return_of(float moment[moments], float kappa) {
+  vec2 z = vec2(0.0);
+  [[unroll]] for (uint down = 0; down < moments; ++down) {
+    uint k = moments - 1 - down;
+    z = vec2(moment[k], 0.0) + vec2(-z.y, z.x) * (kappa / float(k + 1));
+  }
+  return z;
+}
+
+// The return relative to twice the sample's own range, which the resolve pass turns back. The way over the reference point is
+// longer than that by rho - range.
+vec2 tone_return(float moment[moments], ReferencePath path, LightRun run, Tone tone) {
+  Real detour = add(path.rho, negate(path.range));
+  return complex_multiply(return_of(moment, tone.wavenumber), unit_phasor(turn_fraction(phase_turns(detour, run, tone))));
+}
+
+#endif

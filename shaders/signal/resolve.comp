@@ -1,0 +1,93 @@
+#version 460
+// The channels of each pixel from the sums of its samples, in a fixed order; of one modulation frequency.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/sampling/pixel_list.glsl"
+#include "shaders/sampling/position.glsl"
+#include "shaders/shared/real_elementary.glsl"
+#include "shaders/signal/resolve.glsl"
+
+layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
+layout(constant_id = constant_resolve_listed) const uint listed = 0;
+layout(constant_id = constant_resolve_precise) const uint precise_sum = 0;
+
+// Adds `z`, turned, in Real; the sum stays a pair.
+vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
+  RealComplex value = RealComplex(real(z.x, z.z), real(z.y, z.w));
+  if (waveform != waveform_square)
+    value = complex_multiply(value, real_unit_phasor(real_turn_fraction(turns)));
+  Real re = add(real(sum.x, sum.z), value.re), im = add(real(sum.y, sum.w), value.im);
+  return vec4(high(re), high(im), rest(re), rest(im));
+}
+
+void add_return(inout PixelSum sum, Frequency frequency, uint i, Real excess_m) {
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    vec4 pair = load_vec4(constants.sum, p * constants.plane + i);
+    if (precise_sum != 0) {
+      sum.z[p] = add_precisely(sum.z[p], pair, multiply(excess_m, turns_per_m(frequency, p)));
+      continue;
+    }
+    vec2 z = compensated_value(pair);
+    if (waveform != waveform_square) // each plane is a harmonic
+      z = complex_multiply(z, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(frequency, p)))));
+    sum.z[p] = compensated_add(sum.z[p], z);
+  }
+}
+
+void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
+  see_nothing(sum);
+  uint count = constants.samples * constants.samples;
+  for (uint s = 0; s < count; ++s) {
+    uint i = s * constants.padded_pixels + pixel;
+    Real3 position = load_position(constants.position, i);
+    if (high(position.z) == 0.0)
+      continue;
+    Real range = length3(position);
+    if (sum.hits == 0u)
+      sum.reference_m = range;
+    add_return(sum, frequency, i, add(range, negate(sum.reference_m)));
+    sum.range = add(sum.range, range);
+    sum.depth = add(sum.depth, position.z);
+    sum.hits += 1u;
+    if (lit_is_kept != 0)
+      sum.lit += Words(constants.lit).at[i];
+    if (promised != 0)
+      sum.terms += Floats(constants.terms).at[i];
+  }
+}
+
+// Of the sample nearest the pixel's centre; ties go up and left.
+uvec2 central_tag(uint pixel) {
+  uint middle = (constants.samples - 1u) / 2u;
+  uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
+  uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
+  return load_tag(constants.tags, tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
+}
+
+void main() {
+  uint pixel = gl_GlobalInvocationID.x;
+  if (listed != 0)
+    pixel = listed_pixel(PixelLists(constants.list), pixel, constants.padded_pixels);
+  if (pixel >= constants.pixels)
+    return;
+  Frequency frequency = Frequencies(constants.frequency).at[0];
+  PixelSum sum;
+  sum_samples(pixel, frequency, sum);
+  uint samples = constants.samples * constants.samples;
+  Channels to = Channels(constants.channels, constants.padded_pixels);
+  float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
+  if (promised != 0) {
+    Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * sum.terms, size, Errors(0.0, 0.0));
+    if (!is_kept(frequency, errors))
+      say_broken(constants.broken, errors);
+  }
+  if (ground_truth != 0) {
+    store_ground_truth(to, samples, pixel, sum);
+    uvec2 tag = central_tag(pixel);
+    store_ids(to, tag, tag.x != 0u ? Planes(constants.planes).at[tag.y].object : no_triangle, pixel);
+  }
+  if (lit_is_kept != 0)
+    store_lit(to, constants.lit_channel, constants.diodes, pixel, sum);
+}

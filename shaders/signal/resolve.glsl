@@ -1,0 +1,224 @@
+// Phase, amplitude, distance, taps and ground truth of a pixel from the sums of its samples, of one modulation frequency.
+#ifndef PMDSIM_RESOLVE_GLSL
+#define PMDSIM_RESOLVE_GLSL
+
+#include "shaders/shared/buffers.glsl"
+#include "shaders/shared/compensated.glsl"
+#include "shaders/shared/elementary.glsl"
+#include "shaders/shared/real.glsl"
+#include "shaders/shared/specialization.glsl"
+
+#ifndef RESOLVE_BASE // the first specialization constant's number
+#define RESOLVE_BASE 0
+#endif
+layout(local_size_x = workgroup_size) in;
+layout(constant_id = RESOLVE_BASE + constant_planes) const uint planes = 1;
+layout(constant_id = RESOLVE_BASE + constant_resolve_waveform) const uint waveform = waveform_sine;
+layout(constant_id = RESOLVE_BASE + constant_resolve_taps) const uint taps = 4;
+layout(constant_id = RESOLVE_BASE + constant_keep_taps) const uint keep_taps = 0;
+layout(constant_id = RESOLVE_BASE + constant_ground_truth) const uint ground_truth = 1;
+layout(constant_id = RESOLVE_BASE + constant_resolve_tiled) const uint tiled = 0;
+layout(constant_id = RESOLVE_BASE + constant_resolve_lit) const uint lit_is_kept = 0;
+layout(constant_id = RESOLVE_BASE + constant_resolve_promised) const uint promised = 0;
+
+float nan() { return uintBitsToFloat(0x7fc00000u); }
+
+struct PixelSum {
+  vec4 z[planes]; // compensated; of a tone relative to twice the reference range
+  float terms;    // sum of |terms| over the samples, where an error was promised
+  Real range;     // sum over the hits, m
+  Real depth;
+  Real reference_m; // range of the first hit
+  uint hits;
+  uint lit; // sum over the hits, diodes
+};
+
+void see_nothing(out PixelSum sum) {
+  [[unroll]] for (uint p = 0; p < planes; ++p)
+    sum.z[p] = vec4(0.0);
+  sum.terms = 0.0;
+  sum.range = sum.depth = sum.reference_m = real(0.0);
+  sum.hits = sum.lit = 0u;
+}
+
+// Of `plane` of the sum.
+Real turns_per_m(Frequency frequency, uint plane) {
+  return multiply(real(frequency.turns_per_m.x, frequency.turns_per_m.y), real(float(plane + 1)));
+}
+
+// Where a frame's channels are.
+struct Channels {
+  uvec2 values; // pair by pair
+  uint padded_pixels;
+};
+
+void store(Channels to, uint channel, uint pixel, uint word) {
+  Words(to.values).at[2 * (channel / 2 * to.padded_pixels + pixel) + channel % 2] = word;
+}
+// To `channel`, which is even, and the next.
+void store_pair(Channels to, uint channel, uint pixel, uvec2 words) {
+  store_tag(to.values, channel / 2 * to.padded_pixels + pixel, words);
+}
+void store(Channels to, uint channel, uint pixel, float value) { store(to, channel, pixel, floatBitsToUint(value)); }
+
+// |z| without overflow or underflow of the squares.
+float magnitude(vec2 z) {
+  if (z == vec2(0.0))
+    return 0.0;
+  float larger = max(abs(z.x), abs(z.y));
+  vec2 scaled = z / larger;
+  return larger * sqrt(dot(scaled, scaled));
+}
+
+// exp(j 2 pi k / N).
+vec2 tap_phasor(uint k) {
+  float turns = float(k % taps) / float(taps);
+  return unit_phasor(turns > 0.5 ? turns - 1.0 : turns);
+}
+
+// The return of a tone, all of its phase.
+vec2 whole_return(PixelSum sum, Frequency frequency, uvec2 harmonics, uint plane) {
+  float turns = turn_fraction(multiply(sum.reference_m, turns_per_m(frequency, plane)));
+  vec2 z = complex_multiply(compensated_value(sum.z[plane]), unit_phasor(turns));
+  return waveform == waveform_sine ? z : Floats(harmonics).at[plane] * z;
+}
+
+// The N correlation samples, up to the amplitude's scale.
+void find_taps(PixelSum sum, Frequency frequency, uvec2 harmonics, out float tap[taps]) {
+  if (waveform == waveform_square) {
+    [[unroll]] for (uint k = 0; k < taps; ++k) {
+      uint distinct = taps % 2 == 0 ? k % (taps / 2) : k;
+      vec2 pair = compensated_value(sum.z[distinct / 2]);
+      float value = distinct % 2 == 0 ? pair.x : pair.y;
+      tap[k] = k == distinct ? value : -value;
+    }
+    return;
+  }
+  [[unroll]] for (uint k = 0; k < taps; ++k)
+    tap[k] = 0.0;
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    vec2 z = whole_return(sum, frequency, harmonics, p);
+    [[unroll]] for (uint k = 0; k < taps; ++k)
+      tap[k] += dot(z, tap_phasor(k * (p + 1)));
+  }
+}
+
+// What the camera makes of its taps.
+vec2 demodulate(float tap[taps]) {
+  vec2 z = vec2(0.0);
+  [[unroll]] for (uint k = 0; k < taps; ++k)
+    z += tap[k] * tap_phasor(k);
+  return z * (2.0 / float(taps));
+}
+
+// The same without the taps: of harmonic h, only h = 1 and N - 1 modulo N show. If there is none of these, z is exactly 0.
+vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+  vec2 z = vec2(0.0);
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    uint alias = (p + 1) % taps;
+    if (alias == 1)
+      z += whole_return(sum, frequency, harmonics, p);
+    else if (alias == taps - 1)
+      z += whole_return(sum, frequency, harmonics, p) * vec2(1.0, -1.0);
+  }
+  return z;
+}
+
+// `turns` in [-1, 1]; not known where nothing returns.
+void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
+  bool is_known = amplitude > 0.0;
+  turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
+  turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
+  Real two_pi = real(6.2831855, -1.7484555e-7);
+  // Rounding to float must not reach the end of the half-open interval.
+  uint channel = frequency.first_channel;
+  float phase_rad = clamp(high(multiply(turns, two_pi)), 0.0, frequency.below.x);
+  store_pair(to, channel + channel_amplitude, pixel, floatBitsToUint(vec2(amplitude, is_known ? phase_rad : nan())));
+  Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
+  float distance_m = clamp(high(distance), 0.0, frequency.below.y);
+  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
+}
+
+// Of what was summed over the samples hit; `samples`: S x S.
+float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
+  if (samples > 1)
+    sum = divide(sum, real(float(max(pixel.hits, 1u))));
+  return pixel.hits > 0u ? high(sum) : nan();
+}
+
+// `samples`: S x S of the pixel; of harmonics, `amplitudes` are those of the correlation function. Returns |z| over what one
+// sample's unit return would come to.
+float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
+  float scale = frequency.amplitude_scale / float(samples);
+  float tap[taps];
+  if (waveform == waveform_square || keep_taps != 0)
+    find_taps(sum, frequency, amplitudes, tap);
+  if (keep_taps != 0)
+    [[unroll]] for (uint k = 0; k < taps; ++k)
+      store(to, frequency.first_channel + channel_first_tap + k, pixel, scale * tap[k]);
+  // A sine's phase stays relative to the range, which makes it exact to the last bit of the output.
+  vec2 z = waveform == waveform_sine     ? compensated_value(sum.z[0])
+           : waveform == waveform_square ? demodulate(tap)
+                                         : demodulate_harmonics(sum, frequency, amplitudes);
+  float size = magnitude(z);
+  float amplitude = scale * size;
+  Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
+  turns = add(add(turns, negate(round_to_whole(turns))), real(angle_turns(z)));
+  store_phase(to, frequency, pixel, amplitude, turns, mean_over_hits(sum.range, sum, samples));
+  return size;
+}
+
+void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
+  vec2 truth = vec2(float(sum.hits) / float(samples), mean_over_hits(sum.depth, sum, samples));
+  store_pair(to, channel_coverage, pixel, floatBitsToUint(truth));
+}
+
+void store_lit(Channels to, uint channel, uint diodes, uint pixel, PixelSum sum) {
+  store(to, channel, pixel, float(sum.lit) / float(max(sum.hits * diodes, 1u)));
+}
+
+void store_ids(Channels to, uvec2 tag, uint object, uint pixel) {
+  store_pair(to, channel_triangle_id, pixel, tag.x != 0u ? uvec2(tag.y, object) : uvec2(no_triangle));
+}
+
+// The promise (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to
+// the sum's own error. Nothing where there is no light at all.
+struct Errors {
+  float distance_m, amplitude;
+};
+
+Errors errors_of(Frequency frequency, float terms, float size, Errors added) {
+  float condition = terms > 0.0 ? terms / size : 0.0; // infinite where all cancels
+  // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition;
+  float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
+  return Errors(frequency.fixed_m + (frequency.per_condition_m + added.distance_m) * condition * grown,
+                frequency.amplitude_fixed + relative);
+}
+
+// Of the amplitudes of the harmonics that N taps take for the fundamental: what each term is multiplied by, at most, in all.
+float largest_amplitude(uvec2 harmonics) {
+  if (waveform != waveform_harmonics)
+    return 1.0;
+  float sum = 0.0;
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    uint alias = (p + 1) % taps;
+    sum += alias == 1 || alias == taps - 1 ? abs(Floats(harmonics).at[p]) : 0.0;
+  }
+  return sum;
+}
+
+bool is_kept(Frequency frequency, Errors errors) {
+  return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
+}
+
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer BrokenWords { uint returns, worst_m, amplitude; };
+
+void say_broken(uvec2 broken, Errors errors) {
+  BrokenWords words = BrokenWords(broken);
+  atomicAdd(words.returns, 1u);
+  atomicMax(words.worst_m, floatBitsToUint(errors.distance_m));
+  atomicMax(words.amplitude, floatBitsToUint(errors.amplitude));
+}
+
+#endif

@@ -1,0 +1,92 @@
+#version 460
+// resolve.comp of samples that were summed the plain way. Without a branch around it all, so that lavapipe reads what all
+// pixels share once for all lanes; beyond the last pixel is room for what only pads.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
+#define POINTS_BASE plain_resolve_points
+#include "shaders/sampling/grid.glsl"
+#include "shaders/view/meet.glsl"
+#include "shaders/view/points.glsl"
+#include "shaders/signal/resolve.glsl"
+
+layout(push_constant, std430) uniform Constants { PlainResolveConstants constants; };
+layout(constant_id = plain_resolve_points + constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_plain_only) const uint is_only = 0;
+layout(constant_id = constant_plain_side) const uint side = 1; // S
+layout(constant_id = constant_plain_frequencies) const uint frequencies = 1;
+layout(constant_id = constant_plain_one) const uint one_backscatter = 0;
+const uint all_planes = frequencies * planes;
+
+// Of frequency f, the p-th of its planes, but for the backscatter.
+vec2 load_sum(uint f, uint p, uint i) {
+  uint at = (f * planes + p) * constants.plane + i;
+  return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
+}
+
+// B over the cosine of the surface that sample i sees at `point`.
+float load_backscatter(uint i, vec3 ray, Real3 point) {
+  uint triangle = one_backscatter != 0 ? 0u : load_record_tag(constants.records, i).y;
+  TrianglePlane plane;
+  plane.backscatter = constants.backscatter;
+  if (one_backscatter == 0)
+    plane.backscatter = uintBitsToFloat(load_tag(constants.planes, 6 * triangle + 4).x);
+  return backscatter_of(constants.shapes, constants.surfaces, ray, point, triangle, plane);
+}
+
+// `z` as in PixelSum, frequency by frequency.
+void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequencies], uvec2 at) {
+  uint i = at.y * constants.grid.columns + at.x;
+  Real depth = load_record_depth(constants.records, i);
+  Real3 ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
+  Real3 point = point_at_depth(ray, depth);
+  Real range = length3(point);
+  float backscatter = load_backscatter(i, high3(ray), point);
+  bool hits = high(depth) != 0.0, shines = hits && backscatter > 0.0; // black may not be a number
+  if (sum.hits == 0u)
+    sum.reference_m = range;
+  Real excess_m = add(range, negate(sum.reference_m));
+  [[unroll]] for (uint f = 0; f < frequencies; ++f)
+    [[unroll]] for (uint p = 0; p < planes; ++p) {
+      vec2 value = load_sum(f, p, i);
+      if (side > 1)
+        value = complex_multiply(value, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(of[f], p)))));
+      z[f * planes + p] = compensated_add(z[f * planes + p], shines ? backscatter * value : vec2(0.0));
+    }
+  sum.range = add(sum.range, hits ? range : real(0.0));
+  sum.depth = add(sum.depth, hits ? depth : real(0.0));
+  sum.hits += hits ? 1u : 0u;
+}
+
+void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
+  store_ground_truth(to, side * side, pixel, sum);
+  uvec2 at = first + (side - 1) / 2; // of an even number of samples the upper left one
+  uvec2 tag = load_record_tag(constants.records, at.y * constants.grid.columns + at.x);
+  store_ids(to, tag, load_tag(constants.planes, 6 * tag.y + 4).y, pixel);
+}
+
+void main() {
+  Frequency of[frequencies];
+  vec4 z[all_planes];
+  [[unroll]] for (uint f = 0; f < frequencies; ++f)
+    of[f] = Frequencies(constants.frequency).at[f];
+  [[unroll]] for (uint p = 0; p < all_planes; ++p)
+    z[p] = vec4(0.0);
+  uint pixel = gl_GlobalInvocationID.x;
+  uint columns = constants.grid.columns / side;
+  uvec2 first = side * row_by_row(min(pixel, constants.pixels - 1), columns, constants.grid.inverse_columns * float(side));
+  PixelSum sum;
+  see_nothing(sum);
+  for (uint y = 0; y < side; ++y)
+    for (uint x = 0; x < side; ++x)
+      add_sample(sum, z, of, first + uvec2(x, y));
+  Channels to = Channels(constants.channels, constants.padded_pixels);
+  [[unroll]] for (uint f = 0; f < frequencies; ++f) {
+    [[unroll]] for (uint p = 0; p < planes; ++p)
+      sum.z[p] = z[f * planes + p];
+    store_return(to, of[f], constants.harmonics, side * side, pixel, sum);
+  }
+  if (ground_truth != 0)
+    store_truth(to, pixel, first, sum);
+}

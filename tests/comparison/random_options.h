@@ -1,0 +1,19 @@
+#pragma once
+// Any form of the simulator, its samples' tags kept.
+
+#include "engine/model/simulator_options.h"
+#include "tests/support/random_scenes.h"
+
+namespace pmdsim::test {
+
+inline SimulatorOptions random_options(Random &random) {
+  SimulatorOptions options;
+  options.keep_sample_tags = true;
+  options.keep_taps = random.flip();
+  options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
+  options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
+  options.sum = random.flip() ? DiodeSum::automatic : DiodeSum::direct;
+  return options;
+}
+
+} // namespace pmdsim::test

@@ -1,0 +1,211 @@
+#include "engine/error_budget/plan.h"
+
+#include "engine/model/error.h"
+#include "engine/view/projection.h"
+#include "tests/support/scenes.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// The paper's ring before a wall that fills the view.
+struct Setup {
+  Scene scene = wall_at(2.0);
+  Sensor sensor;
+  std::vector<Illuminator> lights;
+  bool long_runs = true;
+
+  Setup() {
+    sensor.resolution = {64, 64};
+    sensor.pixel_pitch_m = glm::dvec2(450e-6);
+    lights.push_back({"ring", sensor.world_from_camera, {}});
+    for (const double radius_m : {0.126, 0.136, 0.146, 0.156, 0.166})
+      for (int i = 0; i < 48; ++i) {
+        const double turn_rad = 2.0 * std::numbers::pi * i / 48;
+        lights[0].diodes.push_back(
+            diode_at({radius_m * std::cos(turn_rad), radius_m * std::sin(turn_rad), 0.0}));
+      }
+  }
+};
+
+FramePlan plan(const Setup &setup, const Accuracy &accuracy, std::uint32_t attempt = 0) {
+  const CameraScene camera = to_camera(setup.scene, setup.sensor);
+  const auto lights = to_camera(setup.lights, setup.sensor);
+  const Projection projection = project(camera, chip_blocks(setup.sensor, 8192));
+  const Signal signal = signal_of(setup.sensor, {});
+  const SumModel model = sum_model(lights, Backscatter::constant, all_face_the_light(camera, lights));
+  return plan_frame({camera, lights, projection.visible, setup.sensor, signal, model, Backscatter::constant,
+                     setup.long_runs},
+                    accuracy, attempt);
+}
+
+Accuracy automatic(double max_error_m) {
+  Accuracy accuracy;
+  accuracy.mode = Mode::automatic;
+  accuracy.max_error_m = max_error_m;
+  return accuracy;
+}
+
+std::size_t shining(const DiodeGroups &groups) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(groups.places, [](const DiodePlace &place) { return place.number != no_id; }));
+}
+
+void check_refused(const Setup &setup, const Accuracy &accuracy) {
+  for (std::uint32_t attempt = 0; attempt < frame_plans; ++attempt) {
+    INFO("attempt " << attempt);
+    try {
+      plan(setup, accuracy, attempt);
+      FAIL("a plan was made");
+    } catch (const Error &error) {
+      CHECK(error.code() == ExitCode::accuracy);
+      CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("mode exact sums all diodes in float and promises nothing, but claims what theory knows") {
+  const FramePlan exact = plan({}, {});
+  CHECK_FALSE(exact.promise);
+  CHECK_FALSE(exact.promise_of_all);
+  CHECK_FALSE(exact.is_reduced());
+  CHECK(shining(exact.stand_ins) == 240);
+  CHECK(exact.precision == Precision::fp32);
+  REQUIRE(exact.claimed_m);
+  CHECK(*exact.claimed_m > 0.0);
+  CHECK(*exact.claimed_m < 1e-6);
+  REQUIRE(exact.claimed_amplitude);
+  CHECK(*exact.claimed_amplitude < 1e-5);
+}
+
+TEST_CASE("mode exact with adaptive samples promises the error that they may cost") {
+  Setup setup;
+  setup.sensor.samples = 4;
+  setup.sensor.adaptive_samples = true;
+  const FramePlan exact = plan(setup, {});
+  REQUIRE(exact.promise);
+  REQUIRE(exact.promise_of_all);
+  CHECK(exact.promise->limit_m == default_max_error_m);
+  CHECK_FALSE(exact.is_reduced());
+}
+
+TEST_CASE("the ring within a micrometre takes few diodes in float and surely keeps what it claims") {
+  const FramePlan few = plan({}, automatic(1e-6));
+  CHECK(few.precision == Precision::fp32);
+  CHECK(shining(few.all) == 240);
+  CHECK(shining(few.stand_ins) < 24);
+  CHECK(few.is_reduced());
+  CHECK(few.surely_kept);
+  REQUIRE(few.promise);
+  CHECK(few.promise->limit_m == 1e-6);
+  REQUIRE(few.claimed_m);
+  CHECK(*few.claimed_m <= 1e-6);
+  CHECK(*few.claimed_m > 0.0);
+}
+
+TEST_CASE("of many diodes those that are alike stand in long runs") {
+  Setup many;
+  const std::vector<Diode> ring = many.lights[0].diodes;
+  for (const double z_m : {-0.01, -0.02})
+    for (Diode diode : ring) {
+      diode.position_m.z = z_m;
+      many.lights[0].diodes.push_back(diode);
+    }
+  const FramePlan alike = plan(many, {});
+  CHECK(alike.all.power_sums.alike);
+  CHECK(alike.all.runs.size() == 1);
+  CHECK(alike.all.blocks_per_run == 45);
+  CHECK(alike.all.power_sums.tables.size() == 1);
+  many.long_runs = false;
+  const FramePlan short_runs = plan(many, {});
+  CHECK(short_runs.all.power_sums.alike);
+  CHECK(short_runs.all.blocks_per_run == 15);
+  REQUIRE((alike.claimed_m && short_runs.claimed_m));
+  CHECK(*alike.claimed_m < 1.05 * *short_runs.claimed_m); // the rounding of long runs is hardly worse
+  many.long_runs = true;
+  many.lights[0].diodes[3].intensity_w_sr = 0.5;
+  const FramePlan unequal = plan(many, {});
+  CHECK_FALSE(unequal.all.power_sums.alike);
+  CHECK(unequal.all.blocks_per_run == 15);
+}
+
+TEST_CASE("stand-ins shine as much as all diodes do") {
+  const auto light_of = [](const DiodeGroups &groups) {
+    double sum_w_sr = 0.0;
+    for (const shader::GroupDiode &diode : groups.diodes)
+      sum_w_sr += groups.largest_intensity_w_sr * double{diode.intensity};
+    return sum_w_sr;
+  };
+  const FramePlan few = plan({}, automatic(1e-6));
+  CHECK(light_of(few.stand_ins) == Approx(light_of(few.all)).epsilon(1e-5));
+}
+
+TEST_CASE("more error, fewer diodes") {
+  std::size_t before = 240;
+  for (const double max_error_m : {1e-6, 1e-4, 1e-2}) {
+    const std::size_t now = shining(plan({}, automatic(max_error_m)).stand_ins);
+    CHECK(now <= before);
+    before = now;
+  }
+  CHECK(before < shining(plan({}, automatic(1e-6)).stand_ins));
+}
+
+TEST_CASE("what a float cannot hold is refused, and so is what theory cannot bound") {
+  check_refused({}, automatic(1e-9)); // 2 m is rounded by up to 120 nm
+  Accuracy amplitude = automatic(1e-3);
+  amplitude.max_amplitude_error = 1e-12;
+  check_refused({}, amplitude);
+  Setup measured;
+  const auto table = std::make_shared<const Diagram>(
+      Diagram{{0.0, 1.0}, {0.0, std::numbers::pi}, {1.0, 0.9, 0.5, 0.4}}); // varies about its own axis
+  measured.lights[0].diodes[7].pattern = {Pattern::Kind::diagram, 0.0, table};
+  check_refused(measured, automatic(1e-3));
+  CHECK_FALSE(plan(measured, {}).claimed_m);
+}
+
+TEST_CASE("each plan is more exact than the one before, the last one has every diode in double") {
+  double before_m = 1.0;
+  std::size_t diodes = 0;
+  for (std::uint32_t attempt = 0; attempt < frame_plans; ++attempt) {
+    INFO("attempt " << attempt);
+    const FramePlan now = plan({}, automatic(1e-6), attempt);
+    REQUIRE(now.promise);
+    CHECK(now.promise->per_condition_m < before_m);
+    CHECK(shining(now.stand_ins) >= diodes);
+    CHECK((now.precision == Precision::fp64) == (attempt > 0));
+    before_m = now.promise->per_condition_m;
+    diodes = shining(now.stand_ins);
+  }
+  CHECK(diodes == 240);
+}
+
+TEST_CASE("a precision that was asked for is taken") {
+  Accuracy accuracy = automatic(1e-6);
+  accuracy.precision = Precision::fp64;
+  CHECK(plan({}, accuracy).precision == Precision::fp64);
+  accuracy.precision = Precision::fp32;
+  for (std::uint32_t attempt = 0; attempt < frame_plans; ++attempt)
+    CHECK(plan({}, accuracy, attempt).precision == Precision::fp32);
+}
+
+TEST_CASE("where returns may cancel, every pixel is watched and the limit is what is claimed") {
+  Setup phased;
+  phased.lights.push_back(phased.lights[0]);
+  phased.lights[1].modulation_phase_rad = 3.0;
+  Setup sampled;
+  sampled.sensor.samples = 2;
+  for (const Setup &setup : {phased, sampled}) {
+    const FramePlan watched = plan(setup, automatic(1e-5));
+    CHECK_FALSE(watched.surely_kept);
+    CHECK(watched.claimed_m == 1e-5);
+    CHECK_FALSE(watched.claimed_amplitude);
+    CHECK_FALSE(plan(setup, {}).claimed_m);
+  }
+}

@@ -1,0 +1,157 @@
+#include "engine/error_budget/rounding_bound.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+using namespace pmdsim;
+
+namespace {
+
+constexpr double float_rounding = 0x1p-24;
+const std::vector<VisibleBox> point_at_2m{{{0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}}};
+
+struct Light {
+  std::vector<CameraIlluminator> illuminators;
+  std::vector<VisibleBox> visible = point_at_2m;
+  std::vector<double> modulation_hz{20e6};
+  Waveform waveform{};
+  std::uint32_t backscatter = shader::backscatter_flat;
+};
+
+std::vector<CameraIlluminator> diodes_at(const std::vector<glm::dvec3> &places_m,
+                                         const Pattern &pattern = {}) {
+  CameraIlluminator illuminator;
+  for (const glm::dvec3 &place_m : places_m) {
+    illuminator.diodes.emplace_back().position_m = place_m;
+    illuminator.diodes.back().pattern = pattern;
+  }
+  return {illuminator};
+}
+
+const std::vector<glm::dvec3> pair{{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}};
+
+std::optional<RoundingBound> bound_of(const Light &light, const RoundingScope &scope = {}) {
+  Sensor sensor;
+  sensor.modulation_hz = light.modulation_hz;
+  sensor.waveform = light.waveform;
+  const Signal signal = signal_of(sensor, {});
+  const DiodeGroups groups =
+      group_diodes(light.illuminators, light.visible, signal.largest_wavenumber_rad_m(), scope.precision);
+  SumModel model = sum_model(light.illuminators, Backscatter::constant, true);
+  model.backscatter = light.backscatter;
+  return rounding_bound(groups, light.visible, model, signal, scope);
+}
+
+} // namespace
+
+TEST_CASE("light in the lens is rounded at the output only") {
+  const RoundingBound bound = bound_of({diodes_at({{0.0, 0.0, 0.0}})}).value();
+  CHECK(bound.fixed_m == Approx((float_rounding + 0x1p-38) * 2.0));
+  CHECK(bound.per_condition_m == 0.0); // whatever its weight is off by, there is one path
+  CHECK(bound.per_weight_m == 0.0);
+  CHECK(bound.amplitude_fixed == Approx(25 * float_rounding));
+  CHECK(bound.amplitude_per_condition == Approx(33 * float_rounding)); // 13 the weight, 17 sums, 3 Horner
+}
+
+TEST_CASE("a pair of diodes by hand") {
+  // R = 0.1, t = 0.05, |e| <= 0.01 / 3.9; weights off by 34 u over paths 3 e apart, e by 0.766 u.
+  // K = 3: the moments left out are 0.008 u of it.
+  const RoundingBound bound = bound_of({diodes_at(pair)}).value();
+  CHECK(bound.per_condition_m ==
+        Approx(0.5 * float_rounding * (34.01 * 3 * 0.01 / 3.9 + 0.766)).epsilon(1e-3));
+  CHECK(bound.per_weight_m == Approx(0.5 * 3 * 0.01 / 3.9).epsilon(1e-3));
+  CHECK(bound.amplitude_per_weight == 1.0);
+  const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;
+  CHECK(bound.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9) + angle_m).epsilon(1e-3));
+}
+
+TEST_CASE("in double only the output is rounded") {
+  const RoundingBound in_float = bound_of({diodes_at(pair)}).value();
+  const RoundingBound in_double = bound_of({diodes_at(pair)}, {.precision = Precision::fp64}).value();
+  CHECK(in_double.fixed_m == in_float.fixed_m);
+  CHECK(in_double.per_condition_m < 1e-5 * in_float.per_condition_m);
+  CHECK(in_double.amplitude_per_condition < 1e-5 * in_float.amplitude_per_condition);
+}
+
+TEST_CASE("what makes weights worse makes the bound larger") {
+  const double isotropic_m = bound_of({diodes_at(pair)})->per_condition_m;
+  double before_m = isotropic_m;
+  for (const double order : {2.0, 7.5, 100.0}) {
+    const Light beams{diodes_at(pair, {Pattern::Kind::cosine, order})};
+    const double now_m = bound_of(beams, {.emission_cosine = 0.9})->per_condition_m;
+    CHECK(now_m > before_m);
+    before_m = now_m;
+  }
+  Light lambert{diodes_at(pair)};
+  lambert.backscatter = shader::backscatter_lambert;
+  before_m = isotropic_m;
+  for (const double cosine : {1.0, 0.1, 0.01}) {
+    const double now_m = bound_of(lambert, {.incidence_cosine = cosine})->per_condition_m;
+    CHECK(now_m > before_m);
+    before_m = now_m;
+  }
+}
+
+TEST_CASE("samples of one pixel at different ranges") {
+  const Light room{diodes_at(pair), {{{-1.0, -1.0, 1.0}, {1.0, 1.0, 4.0}}}};
+  const double any_m = bound_of(room, {.samples = 4})->per_condition_m;
+  const double smooth_m = bound_of(room, {.samples = 4, .sample_spread_m = 0.001})->per_condition_m;
+  CHECK(any_m > smooth_m);
+  CHECK(smooth_m > bound_of(room)->per_condition_m);
+}
+
+TEST_CASE("samples of one pixel at one range, apart across the view of a lamp beside the lens") {
+  // All are 2 m from the lens, but of a pixel of 0.2 rad some are 0.4 m nearer to the lamp than others.
+  const Light beside{diodes_at({{3.0, 0.0, 0.0}, {3.001, 0.0, 0.0}})};
+  const auto of_pixel_m = [&](double pixel_rad) {
+    return bound_of(beside, {.samples = 4, .sample_spread_m = 0.0, .pixel_rad = pixel_rad})->per_weight_m;
+  };
+  CHECK(of_pixel_m(0.2) - of_pixel_m(0.0) == Approx(0.5 * 0.4));
+  // What is not known of the pixel is bounded by how far the lamp is from the lens.
+  CHECK(of_pixel_m(std::numeric_limits<double>::infinity()) > of_pixel_m(0.2));
+}
+
+TEST_CASE("the worst of several frequencies, and lights that differ in phase") {
+  const RoundingBound slow = bound_of({diodes_at(pair), point_at_2m, {1e6}}).value();
+  const RoundingBound fast = bound_of({diodes_at(pair), point_at_2m, {20e6}}).value();
+  const RoundingBound both = bound_of({diodes_at(pair), point_at_2m, {1e6, 20e6}}).value();
+  CHECK(both.fixed_m >= std::max(slow.fixed_m, fast.fixed_m));
+  CHECK(both.per_condition_m >= std::max(slow.per_condition_m, fast.per_condition_m) * (1 - 1e-6));
+
+  std::vector<CameraIlluminator> lights{diodes_at({pair[0]})[0], diodes_at({pair[1]})[0]};
+  const double alike_m = bound_of({lights})->per_condition_m;
+  lights[1].modulation_phase_rad = std::numbers::pi;
+  CHECK(bound_of({lights})->per_condition_m > 10.0 * alike_m);
+}
+
+TEST_CASE("waveforms have a bound, and diagrams that are not infinitely steep") {
+  for (const Waveform &waveform :
+       {Waveform{Waveform::Kind::square, {}}, Waveform{Waveform::Kind::harmonics, {1.0, 0.0, -0.1}}}) {
+    const RoundingBound bound = bound_of({diodes_at(pair), point_at_2m, {20e6}, waveform}).value();
+    CHECK(bound.per_condition_m > bound_of({diodes_at(pair)})->per_condition_m);
+    CHECK(bound.per_condition_m < 100e-6);
+  }
+  const auto table = std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}});
+  CHECK(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, table})}));
+  const auto about_axis =
+      std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0, 3.0}, {1.0, 0.9, 0.5, 0.5}});
+  CHECK_FALSE(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, about_axis})}));
+}
+
+TEST_CASE("least cosines of a wall") {
+  // 45 degrees off the axis at the box's corners; from the diodes' box a little less.
+  const std::vector<VisibleBox> wall{{{-2.0, 0.0, 2.0}, {2.0, 0.0, 2.0}}};
+  const auto lights = diodes_at(pair, {Pattern::Kind::cosine, 1.0});
+  const DiodeGroups groups = group_diodes(lights, wall, 0.4);
+  CHECK(least_emission_cosine(groups, wall) == Approx(2.0 / std::hypot(2.0, 2.1)));
+  CameraScene camera;
+  camera.triangles.push_back({{glm::dvec3{-2, 0, 2}, {2, 0, 2}, {0, 1, 2}}, 0});
+  camera.planes.push_back({{0.0, 0.0, -1.0}, -2.0});
+  CHECK(least_incidence_cosine(camera, groups, wall) == Approx(2.0 / std::hypot(2.0, 2.1)));
+  // A plane between the diodes.
+  camera.triangles.push_back({{glm::dvec3{0, 0, 1}, {0, 0, 2}, {0, 1, 2}}, 1});
+  camera.planes.push_back({{-1.0, 0.0, 0.0}, 0.0});
+  CHECK(least_incidence_cosine(camera, groups, wall) == grazing_cosine);
+}

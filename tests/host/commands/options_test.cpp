@@ -1,0 +1,118 @@
+// The command line, parsed.
+
+#include "engine/model/error.h"
+#include "host/accuracy_options.h"
+#include "host/options.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+using namespace pmdsim;
+
+namespace {
+
+Options parsed(std::vector<const char *> arguments) {
+  arguments.insert(arguments.begin(), "pmdsim");
+  return parse_options(static_cast<int>(arguments.size()), arguments.data()).value();
+}
+
+Options rendered(const std::vector<const char *> &more) {
+  std::vector<const char *> arguments{"render", "a.json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return parsed(arguments);
+}
+
+std::string refusal(const std::vector<const char *> &more) {
+  try {
+    rendered(more);
+  } catch (const Error &error) {
+    CHECK(error.code() == ExitCode::usage);
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    return error.what();
+  }
+  return "none";
+}
+
+} // namespace
+
+TEST_CASE("lengths have a unit") {
+  CHECK(length_m("0.1mm") == 1e-4);
+  CHECK(length_m("5um") == 5e-6);
+  CHECK(length_m("10um") == default_max_error_m);
+  CHECK(length_m("2m") == 2.0);
+  CHECK(length_m("1e-3mm") == 1e-6);
+  CHECK(length_m("1e-9m") == 1e-9);
+  CHECK(length_m("1e6m") == 1e6);
+  for (const char *text : {"", "5", "um", "5 um", "5cm", "5umm", "5MM", "-5um", "0um", "0.0009um", "1.1e6m",
+                           "1e999m", "nanm", "infmm", "0x5um", "5um "}) {
+    INFO(text);
+    CHECK_FALSE(length_m(text));
+  }
+}
+
+TEST_CASE("without a word about accuracy the mode is exact") {
+  const Options options = rendered({});
+  CHECK(options.accuracy.mode == Mode::exact);
+  CHECK_FALSE(options.accuracy.precision);
+  CHECK_FALSE(options.mode_written);
+  CHECK_FALSE(options.samples);
+}
+
+TEST_CASE("an error that is bounded means the cheapest way, unless a mode is written") {
+  const Accuracy by_length = rendered({"--max-error", "0.1mm"}).accuracy;
+  CHECK(by_length.mode == Mode::automatic);
+  CHECK(by_length.max_error_m == 1e-4);
+  CHECK(std::isinf(by_length.max_amplitude_error));
+  const Accuracy by_amplitude = rendered({"--max-amplitude-error", "1e-3"}).accuracy;
+  CHECK(by_amplitude.mode == Mode::automatic);
+  CHECK(by_amplitude.max_amplitude_error == 1e-3);
+  CHECK(by_amplitude.max_error_m == default_max_error_m);
+  const Options reduced = rendered({"--max-error", "5um", "--mode", "reduced", "--precision", "fp64"});
+  CHECK(reduced.accuracy.mode == Mode::reduced);
+  CHECK(reduced.accuracy.precision == Precision::fp64);
+  CHECK(reduced.mode_written);
+}
+
+TEST_CASE("samples are a number or auto") {
+  CHECK(rendered({"--samples", "16"}).samples->samples == 16);
+  CHECK_FALSE(rendered({"--samples", "16"}).samples->adaptive);
+  CHECK(rendered({"--samples", "auto"}).samples->samples == 4);
+  CHECK(rendered({"--samples", "auto"}).samples->adaptive);
+  for (const char *text : {"0", "17", "all", "4x", "-1"})
+    CHECK(refusal({"--samples", text}) ==
+          std::string("--samples: expected a whole number from 1 to 16, or auto, found \"") + text + "\"");
+}
+
+TEST_CASE("what cannot be promised is refused in one line") {
+  CHECK(refusal({"--max-error", "5"})
+            .starts_with("--max-error: expected a length from 1e-09 m to 1000000 m with its unit"));
+  for (const char *text : {"0", "-1e-3", "1.5", "1e-3x", "nan", ""})
+    CHECK(refusal({"--max-amplitude-error", text})
+              .starts_with("--max-amplitude-error: expected a number above 0"));
+  CHECK(refusal({"--mode", "exact", "--max-error", "5um"}).starts_with("--max-error: mode exact "));
+  CHECK(refusal({"--mode", "exact", "--max-amplitude-error", "1e-3"})
+            .starts_with("--max-amplitude-error: mode exact "));
+  CHECK(refusal({"--precision", "fp16"}).find("--precision") != std::string::npos);
+}
+
+TEST_CASE("the reference is exact, in double") {
+  CHECK(rendered({"--device", "reference", "--mode", "exact", "--precision", "fp64"}).accuracy.mode ==
+        Mode::exact);
+  const std::string exact = "--device reference: expected mode exact";
+  CHECK(refusal({"--device", "reference", "--mode", "auto"}).starts_with(exact));
+  CHECK(refusal({"--device", "Reference", "--mode", "reduced"}).starts_with(exact));
+  CHECK(refusal({"--device", "reference", "--max-error", "5um"}).starts_with(exact));
+  CHECK(refusal({"--device", "reference", "--precision", "fp32"})
+            .starts_with("--device reference: expected precision fp64"));
+  CHECK_THROWS_WITH(parsed({"tradeoff", "a.json", "--device", "reference"}),
+                    Catch::StartsWith("--device reference: tradeoff "));
+}
+
+TEST_CASE("tradeoff takes a setup, samples, a device and a place for its files") {
+  const Options options = parsed({"tradeoff", "scenes/a.json", "--samples", "2", "--device", "1"});
+  CHECK(options.command == Command::tradeoff);
+  CHECK(options.samples->samples == 2);
+  CHECK(options.output_directory == "out/a/tradeoff");
+  CHECK_THROWS_AS(parsed({"tradeoff", "a.json", "--mode", "exact"}), Error);
+}

@@ -1,0 +1,106 @@
+// What check and bench say of a setup, in text and in JSON.
+
+#include "tests/program/program.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace pmdsim::test;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char *nothing_hit = "no ray of a coarse frame hits the scene";
+
+std::string wall_behind_the_camera() {
+  return with(wall_gltf(), R"("mesh": 0)", R"("mesh": 0, "rotation": [0, 1, 0, 0])");
+}
+
+} // namespace
+
+TEST_CASE("check warns of a scene that is out of view, and of none that is seen") {
+  const Workspace work;
+  const std::string setup = work.write("setup.json", small_setup());
+
+  work.write("wall.gltf", wall_behind_the_camera());
+  const Run behind = run_pmdsim({"check", setup, "--json"});
+  CHECK(behind.exit_code == 0);
+  CHECK(behind.errors.find(nothing_hit) != std::string::npos);
+  CHECK(json::parse(behind.output)["warnings"].dump().find(nothing_hit) != std::string::npos);
+
+  work.write("wall.gltf", wall_gltf());
+  const Run before = run_pmdsim({"check", setup, "--json"});
+  CHECK(before.exit_code == 0);
+  CHECK(before.errors.empty());
+  CHECK(json::parse(before.output)["warnings"].empty());
+}
+
+TEST_CASE("check tells of each illuminator where there are several") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = json::parse(small_setup());
+  const std::string one = work.write("one.json", setup.dump());
+  setup["illuminators"].push_back({{"name", "lamp"}, {"diodes", "monostatic"}, {"intensity_w_sr", 2}});
+  const std::string two = work.write("two.json", setup.dump());
+
+  CHECK(run_pmdsim({"check", one}).output.find("\n  of ") == std::string::npos);
+  const Run text = run_pmdsim({"check", two});
+  CHECK(text.output.find(
+            "\n  of lamp                1, 2 W/sr on their axes, 25.1327 W of modulated power\n") !=
+        std::string::npos);
+  const json report = json::parse(run_pmdsim({"check", two, "--json"}).output);
+  REQUIRE(report["illuminators"].size() == 2);
+  CHECK(report["illuminators"][1]["name"] == "lamp");
+  CHECK(report["illuminators"][1]["diodes"] == 1);
+  CHECK(report["illuminators"][1]["power_w"].get<double>() == Approx(25.1327).epsilon(1e-5));
+  CHECK(report["diodes"] == report["illuminators"][0]["diodes"].get<int>() + 1);
+}
+
+TEST_CASE("check tells of shadows") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = json::parse(small_setup());
+  const std::string on = work.write("on.json", setup.dump());
+  setup["shadows"] = "off";
+  const std::string off = work.write("off.json", setup.dump());
+
+  CHECK(
+      run_pmdsim({"check", on}).output.find("\nshadows                  on, 2 shapes that may cast them\n") !=
+      std::string::npos);
+  CHECK(run_pmdsim({"check", off})
+            .output.find("\nshadows                  off, light passes through everything\n") !=
+        std::string::npos);
+  const json with = json::parse(run_pmdsim({"check", on, "--json"}).output);
+  CHECK(with["shadows"] == "auto");
+  CHECK(with["shadow_casters"] == 2);
+  const json without = json::parse(run_pmdsim({"check", off, "--json"}).output);
+  CHECK(without["shadows"] == "off");
+  CHECK(without["shadow_casters"] == 0);
+}
+
+TEST_CASE("bench reports frames per second") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  const std::string setup = work.write("setup.json", small_setup());
+  const Run run = run_pmdsim({"bench", setup, "--device", "reference", "--json"});
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.output);
+  const json &row = report["results"].at(0);
+  CHECK(row["frames_per_s"].get<double>() == Approx(1e3 / row["frame_ms"].get<double>()));
+  const std::string text = run_pmdsim({"bench", setup, "--device", "reference"}).output;
+  CHECK(text.find("| setup | frame, ms | least to most | frames/s |") != std::string::npos);
+  CHECK(text.find("\n| exact | ") != std::string::npos);
+}
+
+TEST_CASE("bench says that there is nothing to compare where the reference is dark") {
+  const Workspace work;
+  work.write("wall.gltf", wall_behind_the_camera());
+  const std::string setup = work.write("setup.json", small_setup());
+  const Run text = run_pmdsim({"bench", setup});
+  CHECK(text.exit_code == 0);
+  CHECK(text.output.find("nothing to compare") != std::string::npos);
+  CHECK(text.output.find("nan") == std::string::npos);
+  const Run run = run_pmdsim({"bench", setup, "--json"});
+  REQUIRE(run.exit_code == 0);
+  CHECK(json::parse(run.output)["results"].at(0)["error_found_m"].is_null());
+}

@@ -1,0 +1,97 @@
+// What the diodes of a run share, as the shaders read it.
+
+#include "engine/light/accumulate_pass.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace pmdsim;
+
+namespace {
+
+const std::vector<VisibleBox> point_at_2m{{{0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}}};
+
+DiodeGroups pair_of(const Pattern &pattern, Precision precision) {
+  CameraIlluminator light;
+  for (const double x_m : {-0.3, 0.3}) {
+    light.diodes.emplace_back().position_m = {x_m, 0.4, 0.0};
+    light.diodes.back().pattern = pattern;
+  }
+  light.diodes[0].intensity_w_sr = 2.0;
+  light.diodes[1].intensity_w_sr = 1.0;
+  return group_diodes({light}, point_at_2m, 0.42, precision);
+}
+
+Promise counting(double terms_per_weight_error, double terms_of_rims = 0.0) {
+  Promise promise{};
+  promise.terms_per_weight_error = terms_per_weight_error;
+  promise.terms_of_rims = terms_of_rims;
+  return promise;
+}
+
+const Promise weights_of_100 = counting(100.0);
+
+} // namespace
+
+TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as terms") {
+  const auto table = std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}});
+  const Pattern measured{Pattern::Kind::diagram, 0.0, table};
+  for (const auto &[precision, rounding] :
+       {std::pair{Precision::fp32, 0x1p-24}, std::pair{Precision::fp64, 0x1p-45}}) {
+    const DiodeGroups groups = pair_of(measured, precision);
+    const std::vector<shader::LightRun> runs = light_runs(groups, weights_of_100);
+    REQUIRE(runs.size() == 1);
+    CHECK(runs[0].intensity == 1.5f); // of 2, of which weights are parts
+    // The reference point, 0.4 m from the lens, and 0.3 m to the diodes.
+    CHECK(runs[0].heights == Approx(100.0 * 14 * rounding * 0.7));
+    CHECK(runs[0].diagrams == Approx(100.0 * 1.5 * groups.places[0].diagram_error));
+    CHECK(light_runs(groups, Promise{})[0].diagrams == 0.0f);
+  }
+  CHECK(light_runs(pair_of({}, Precision::fp32), weights_of_100)[0].diagrams == 0.0f);
+}
+
+TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
+  DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
+  const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
+  CHECK(alike.rims == 30.0f);
+  CHECK(alike.rim_root == Approx(1.0 / 3.0));
+  CHECK(light_runs(groups, Promise{})[0].rims == 0.0f);
+  groups.diodes[0].order = 1.5f;
+  const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
+  CHECK(mixed.rims == 30.0f);
+  CHECK(mixed.rim_root == Approx(1.0 / 1.5));
+}
+
+TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") {
+  for (const auto &orders : {std::vector{3.0, 3.0}, std::vector{1.0, 8.0}, std::vector{40.0, 60.0}}) {
+    DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
+    for (std::size_t i = 0; i < 2; ++i)
+      groups.diodes[i].order = static_cast<float>(orders[i]);
+    const shader::LightRun run = light_runs(groups, counting(0.0, 1.0))[0];
+    for (const double first : {1e-6, 1e-3, 0.1, 0.7})
+      for (const double second : {1e-6, 1e-3, 0.1, 0.7}) {
+        const double of_first = std::pow(first, orders[0]), of_second = 0.5 * std::pow(second, orders[1]);
+        const double weights = of_first + of_second;
+        const double rounding = orders[0] * of_first / first + orders[1] * of_second / second;
+        const double terms = static_cast<double>(run.rims) * weights *
+                             std::pow(weights / 1.5, -static_cast<double>(run.rim_root));
+        CHECK(rounding <= terms * 1.0001);
+      }
+  }
+}
+
+TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
+  // Of n cos^(n - 1) down to cos = 10^-3 the largest over n in (0, 1).
+  double steepest = 0.0;
+  for (double order = 0.001; order < 1.0; order += 0.001)
+    steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));
+  const auto rims = [](double order) {
+    const Pattern pattern{Pattern::Kind::cosine, order};
+    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].rims);
+  };
+  CHECK(rims(0.0) == 0.0);
+  CHECK(rims(0.5) >= steepest);
+  CHECK(rims(0.5) <= 1.05 * steepest);
+  CHECK(light_runs(pair_of({}, Precision::fp32), counting(0.0, 1.0))[0].rims == 0.0f);
+}

@@ -1,0 +1,132 @@
+// Moments from powers of q against the moments themselves, in double.
+
+#include "engine/light/moment_polynomials.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace pmdsim {
+namespace {
+
+constexpr double wavenumber_20mhz_rad_m = 0.4191;
+constexpr std::uint32_t moments = 4;
+
+struct Light {
+  std::vector<glm::dvec3> diodes_m; // about the reference, which is the origin
+  VisibleBox box;
+};
+
+Light ring_before_a_wall(double radius_m, double range_m) {
+  Light light;
+  for (int i = 0; i < 48; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * (i + 0.5) / 48.0;
+    light.diodes_m.push_back(radius_m * glm::dvec3(std::cos(angle_rad), std::sin(angle_rad), 0.0));
+  }
+  light.box = {{-0.1 * range_m, -0.1 * range_m, range_m}, {0.1 * range_m, 0.1 * range_m, 1.1 * range_m}};
+  return light;
+}
+
+glm::dvec3 somewhere_in(const VisibleBox &box, std::mt19937 &random) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  return box.low_m + (box.high_m - box.low_m) * glm::dvec3(share(random), share(random), share(random));
+}
+
+// Moment k over the sum of the weights, w = r^-p.
+double direct(const Light &light, const glm::dvec3 &point_m, std::uint32_t p, std::uint32_t k) {
+  double moment = 0.0, weights = 0.0;
+  for (const glm::dvec3 &diode_m : light.diodes_m) {
+    const double r_m = glm::distance(point_m, diode_m), w = std::pow(r_m, -static_cast<double>(p));
+    moment += w * std::pow(r_m - glm::length(point_m), k);
+    weights += w;
+  }
+  return moment / weights;
+}
+
+double by_powers(const PowerSums &sums, const Light &light, const glm::dvec3 &point_m, std::uint32_t k) {
+  const double rho2 = glm::dot(point_m, point_m);
+  const auto moment = [&](std::uint32_t of) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < sums.powers; ++i) {
+      const glm::vec4 &four = sums.tables[0][shader::largest_powers / 4 * of + i / 4];
+      const auto a = static_cast<double>(four[static_cast<int>(i % 4)]);
+      for (const glm::dvec3 &diode_m : light.diodes_m)
+        sum += a * std::pow((glm::dot(diode_m, diode_m) - 2.0 * glm::dot(point_m, diode_m)) / rho2, i);
+    }
+    return std::pow(rho2, 0.5 * of) * sum;
+  };
+  return moment(k) / moment(0);
+}
+
+PowerSums sums_of(const Light &light, std::uint32_t p, double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
+  const std::vector<Excess> reaches{excess_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
+  return power_sums(reaches, p, moments, wavenumber_rad_m, 1.0);
+}
+
+TEST_CASE("Moments follow from sums of powers, whatever powers of 1 / r are in the weights") {
+  std::mt19937 random(7);
+  for (const std::uint32_t p : {2u, 3u, 5u, 8u})
+    for (const double range_m : {0.7, 2.0, 50.0}) {
+      const Light light = ring_before_a_wall(0.1, range_m);
+      const PowerSums sums = sums_of(light, p);
+      INFO("p " << p << ", range " << range_m << " m, powers " << sums.powers);
+      REQUIRE(sums.powers > 0);
+      double worst_rad = 0.0;
+      for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 point_m = somewhere_in(light.box, random);
+        for (std::uint32_t k = 1; k < moments; ++k) // over k!, as an angle
+          worst_rad = std::max(worst_rad,
+                               std::abs(by_powers(sums, light, point_m, k) - direct(light, point_m, p, k)) *
+                                   std::pow(wavenumber_20mhz_rad_m, k) / std::tgamma(k + 1.0));
+      }
+      // The sum of the weights, which the moments are divided by, is off itself; but what that does to a
+      // small moment is small.
+      CHECK(worst_rad <= sums.angle_error_rad + sums.weight_error * 0.05);
+      CHECK(sums.angle_error_rad <= 0x1p-24);
+      CHECK(sums.weight_error <= 0x1p-23);
+    }
+}
+
+TEST_CASE("The nearer the light's points, the more powers; none where roots are cheaper") {
+  const auto powers_at = [](double range_m) { return sums_of(ring_before_a_wall(0.166, range_m), 2).powers; };
+  CHECK(powers_at(50.0) <= powers_at(2.0));
+  CHECK(powers_at(2.0) == 4);
+  CHECK(powers_at(2.0) < powers_at(0.7));
+  CHECK(powers_at(0.17) == 0);
+}
+
+TEST_CASE("A diode in the reference point needs no power of q") {
+  Light light = ring_before_a_wall(0.1, 2.0);
+  light.diodes_m = {glm::dvec3(0.0)};
+  CHECK(sums_of(light, 2).powers == 1);
+}
+
+TEST_CASE("A diode in its own reference point beside a ring takes as many powers as it needs itself") {
+  const Light ring = ring_before_a_wall(0.166, 2.0);
+  const std::vector<glm::dvec3> alone_m{glm::dvec3(0.0)};
+  const std::vector<Excess> reaches{excess_of(glm::dvec3(0.0), ring.diodes_m, {ring.box}),
+                                    excess_of(glm::dvec3(0.0), alone_m, {ring.box})};
+  const PowerSums sums = power_sums(reaches, 2, moments, wavenumber_20mhz_rad_m, 1.0);
+  REQUIRE(sums.tables.size() == 2);
+  CHECK(sums.powers > 1);
+  CHECK(sums.tables[1][0] ==
+        glm::vec4(1.0f, 0.0f, 0.0f, 0.0f)); // the weight itself, of which nothing is left out
+  CHECK(std::isfinite(sums.growth));
+}
+
+TEST_CASE("What rounding grows by is counted against the weights, not against the largest") {
+  // Where u reaches far, the terms of (1 + u)^-1 for a negative u are large beside their sum for the
+  // positive.
+  CHECK(sums_of(ring_before_a_wall(0.166, 0.4), 2).growth > 1.5);
+  CHECK(sums_of(ring_before_a_wall(0.1, 50.0), 2).growth < 1.05);
+}
+
+TEST_CASE("Weights that leave float's range are not summed by powers") {
+  CHECK(sums_of(ring_before_a_wall(100.0, 30000.0), 10).powers == 0);
+  CHECK(sums_of(ring_before_a_wall(1e-4, 2e-3), 10).powers == 0);
+}
+
+} // namespace
+} // namespace pmdsim

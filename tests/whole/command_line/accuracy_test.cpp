@@ -1,0 +1,138 @@
+// How exact frames shall be, on the real binary: what is refused, and what is told of what was done.
+
+#include "tests/program/program.h"
+#include "tests/program/refusal.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+using namespace pmdsim::test;
+using nlohmann::json;
+
+namespace {
+
+struct SmallWall {
+  Workspace work;
+  std::string setup;
+
+  SmallWall() : setup((work.write("wall.gltf", wall_gltf()), work.write("setup.json", small_setup()))) {}
+
+  Run run(const std::string &command, const std::vector<std::string> &more) const {
+    std::vector<std::string> arguments{command, setup};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    if (command != "bench")
+      arguments.insert(arguments.end(), {"-o", work / "out"});
+    return run_pmdsim(arguments);
+  }
+
+  json report(const std::string &command, std::vector<std::string> more) const {
+    more.emplace_back("--json");
+    const Run done = run(command, more);
+    INFO(done.errors);
+    REQUIRE(done.exit_code == 0);
+    return json::parse(done.output);
+  }
+
+  json file(const std::string &name) const {
+    std::ifstream in(work / ("out/" + name));
+    return json::parse(in);
+  }
+};
+
+} // namespace
+
+TEST_CASE("what cannot be asked for is refused before anything is read") {
+  const Workspace work;
+  const auto refuse = [&](const std::vector<std::string> &more, const std::vector<std::string> &fragments) {
+    std::vector<std::string> arguments{"render", work / "missing.json", "-o", work / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    check_refusal(run_pmdsim(arguments), 2, fragments);
+  };
+  for (const char *length : {"0.1", "mm", "-1mm", "0um", "1e-4um", "2e6m", "1 mm"})
+    refuse({"--max-error", length}, {"--max-error: expected a length", "e.g. 0.1mm", length});
+  refuse({"--max-amplitude-error", "2"}, {"--max-amplitude-error: expected a number above 0, at most 1"});
+  refuse({"--mode", "fast"}, {"--mode"});
+  refuse({"--mode", "exact", "--max-error", "1mm"}, {"--max-error: mode exact", "reduced or auto"});
+  refuse({"--device", "reference", "--mode", "auto"}, {"--device reference: expected mode exact"});
+  refuse({"--device", "reference", "--precision", "fp32"}, {"--device reference: expected precision fp64"});
+}
+
+TEST_CASE("the manifest and --json tell what was asked for and what it came to") {
+  const SmallWall wall;
+  const std::string command = GENERATE("render", "deform");
+  const json frame = wall.report(command, {"--max-error", "50um"})["frames"].at(0);
+  const json manifest = wall.file("manifest.json");
+  CHECK(manifest["mode"] == "auto");
+  CHECK(manifest["max_error_m"] == 5e-5);
+  CHECK(manifest["max_amplitude_error"].is_null());
+  for (const json &told : {frame, manifest["frames"].at(0)}) {
+    CHECK(told["mode"] == "auto");
+    for (const char *key :
+         {"precision", "diodes", "error_claimed_m", "error_found_m", "amplitude_error_claimed",
+          "amplitude_error_found", "checked_pixels", "check_ms"}) {
+      INFO(key);
+      CHECK(told.contains(key));
+    }
+  }
+  wall.report(command, {});
+  CHECK(wall.file("manifest.json")["mode"] == "exact");
+  CHECK(wall.file("manifest.json")["max_error_m"].is_null());
+}
+
+TEST_CASE("the mode is told where it is not exact") {
+  const SmallWall wall;
+  const std::string command = GENERATE("render", "deform");
+  CHECK(wall.run(command, {"--mode", "reduced"}).output.find("\nmode reduced, ") != std::string::npos);
+  CHECK(wall.run(command, {}).output.find("mode ") == std::string::npos);
+}
+
+TEST_CASE("the reference sums in double") {
+  const SmallWall wall;
+  const json frame = wall.report("render", {"--device", "reference"})["frames"].at(0);
+  CHECK(frame["mode"] == "exact");
+  CHECK(frame["precision"] == "fp64");
+  CHECK(frame["diodes"] == 16);
+}
+
+TEST_CASE("samples auto: 4 x 4 at most, and the setup as used says auto") {
+  const SmallWall wall;
+  const json frame = wall.report("render", {"--samples", "auto", "--format", "npy"});
+  CHECK(wall.file("manifest.json")["setup"]["sensors"][0]["samples"] == "auto");
+  const std::string in_setup =
+      wall.work.write("auto.json", with(small_setup(), "0.0018,", "0.0018, \"samples\": \"auto\","));
+  const Run check = run_pmdsim({"check", in_setup});
+  CHECK(check.output.find("up to 4 x 4 samples a pixel") != std::string::npos);
+  const std::string distances = wall.work / "out/pmd_0000.distance_m.npy";
+  const auto bytes = [](const std::string &file) {
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  // The reference takes all of them.
+  wall.report("render", {"--samples", "auto", "--device", "reference", "--format", "npy"});
+  const std::string automatic = bytes(distances);
+  wall.report("render", {"--samples", "4", "--device", "reference", "--format", "npy"});
+  CHECK(automatic == bytes(distances));
+}
+
+TEST_CASE("bench has a row a mode, and one where a mode is asked for") {
+  const SmallWall wall;
+  const json all = wall.report("bench", {"--max-error", "0.1mm"});
+  std::vector<std::string> modes;
+  for (const json &row : all["results"]) {
+    CHECK(row["name"] == "setup");
+    CHECK(row["error_found_m"].get<double>() < 1e-4);
+    CHECK(row.contains("error_claimed_m"));
+    modes.push_back(row["mode"]);
+  }
+  CHECK(modes == std::vector<std::string>{"exact", "reduced", "auto"});
+  CHECK(all["ratios"]["exact_frame_over_auto_frame"].get<double>() ==
+        Approx(all["results"][0]["frame_ms"].get<double>() / all["results"][2]["frame_ms"].get<double>()));
+  CHECK(all["ratios"].contains("exact_frame_over_reduced_frame"));
+  const json one = wall.report("bench", {"--mode", "auto"});
+  REQUIRE(one["results"].size() == 1);
+  CHECK(one["results"][0]["mode"] == "auto");
+  CHECK(one["ratios"].empty()); // there is no mode exact beside it
+  CHECK(wall.report("bench", {"--device", "reference"})["results"].size() == 1);
+}
