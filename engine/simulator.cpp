@@ -60,19 +60,19 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// What a frame is to be made of; made again where the first plan does not keep what was promised.
-struct Requested {
-  const Scene *scene;
-  Sensor sensor;
-  std::vector<Illuminator> illuminators;
-  Backscatter backscatter;
-  Shadows shadows;
-  Accuracy accuracy;
-};
-
 } // namespace
 
 struct Simulator::State {
+  // What a frame is to be made of; made again where the first plan does not keep what was promised.
+  struct Requested {
+    const Scene *scene;
+    Sensor sensor;
+    std::vector<Illuminator> illuminators;
+    Backscatter backscatter;
+    Shadows shadows;
+    Accuracy accuracy;
+  };
+
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
@@ -392,7 +392,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   if (state_->options.sum == DiodeSum::direct && sensor.waveform.kind == Waveform::Kind::sine &&
       (accuracy.mode != Mode::exact || sensor.adaptive_samples))
     throw std::logic_error("no error is promised of a sine that is summed diode by diode");
-  state_->requested = Requested{&scene, sensor, illuminators, backscatter, shadows, accuracy};
+  state_->requested = State::Requested{&scene, sensor, illuminators, backscatter, shadows, accuracy};
   state_->attempt = 0;
   state_->prepare();
 }

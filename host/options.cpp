@@ -2,9 +2,8 @@
 
 #include "engine/model/error.h"
 #include "host/accuracy_options.h"
-#include "host/capture/camera.h"
 #include "host/input/calibration/calibration_sensor.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -227,6 +226,11 @@ std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
 }
 
 } // namespace
+
+bool names_the_reference(const std::string &device) {
+  return std::ranges::equal(device, std::string_view("reference"), {},
+                            [](unsigned char c) { return std::tolower(c); });
+}
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
   CLI::App app(

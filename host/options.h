@@ -39,6 +39,9 @@ struct Options {
   bool json = false;
 };
 
+// Whether a device's name, in any case, is the one of the reference.
+bool names_the_reference(const std::string &device);
+
 // Nothing where --help or --version was asked for and has been answered on stdout. Throws Error (usage) in
 // one line for what is wrong.
 std::optional<Options> parse_options(int argument_count, const char *const *arguments);

@@ -2,11 +2,11 @@
 // How a frame is summed within the error asked for: which diodes stand in for all, in which precision, and
 // what can be promised of it.
 
-#include "engine/error_budget/promise.h"
-#include "engine/frame/uniform_pixels_pass.h"
-#include "engine/light/accumulate_pass.h"
+#include "engine/error_budget/quadrature_bound.h"
 #include "engine/light/source_groups.h"
+#include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
+#include "engine/model/error_bound.h"
 
 #include <optional>
 
@@ -42,9 +42,6 @@ struct FramePlan {
 
   bool is_reduced() const { return stand_ins.diodes.size() < all.diodes.size(); }
 };
-
-// Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
-inline constexpr double place_spread_m = 0.1;
 
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;

@@ -2,7 +2,7 @@
 // What rounding may do to a frame, from theory: known before the frame, from the light and from boxes around
 // what is visible.
 
-#include "engine/light/accumulate_pass.h"
+#include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
 #include "engine/view/camera_scene.h"
 

@@ -1,6 +1,5 @@
 #include "engine/frame/uniform_pixels_pass.h"
 
-#include "engine/error_budget/plan.h"
 #include "engine/sampling/chip_place.h"
 #include "engine/signal/frequency_records.h"
 #include "engine/signal/resolve_pass.h"

@@ -2,20 +2,14 @@
 // The short way: pixels of one surface that every diode lights, from their tags to their channels in one
 // pass, at one place or, in a pass of its own, at four. The others are listed (pixel_lists.h).
 
-#include "engine/error_budget/promise.h"
+#include "engine/error_budget/quadrature_bound.h"
 #include "engine/light/accumulate_pass.h"
+#include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/pixel_lists.h"
-#include "engine/view/projection.h"
 #include "engine/view/scene_buffers.h"
 
 namespace pmdsim {
-
-// What the short way has to know of the light.
-struct LightExtent {
-  VisibleBox box;             // holds all diodes, camera frame
-  double pattern_slope = 0.0; // pattern_slope.h
-};
 
 struct ShortWayOptions {
   bool painted = false; // shapes have paint

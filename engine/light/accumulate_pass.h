@@ -2,11 +2,10 @@
 // The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
 // moments, which serve every tone at once, or diode by diode for one frequency at a time.
 
-#include "engine/error_budget/promise.h"
 #include "engine/light/source_windows.h"
+#include "engine/light/sum_model.h"
 #include "engine/light/tones.h"
-#include "engine/model/accuracy.h"
-#include "engine/model/scene.h"
+#include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/chip_grid.h"
 #include "engine/sampling/pixel_lists.h"
@@ -17,31 +16,6 @@
 #include <optional>
 
 namespace pmdsim {
-
-// What the sum has to model; what a setup does not need is compiled out.
-struct SumModel {
-  std::uint32_t backscatter; // shader::backscatter_*
-  std::uint32_t pattern;     // shader::pattern_*
-  std::uint32_t order;       // of shader::pattern_power
-
-  // Of normals and heights a sample: none, one, or, to double precision, two.
-  std::uint32_t surface_vectors(Precision precision) const {
-    return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
-  }
-};
-
-// The powers of 1 / r in a diode's weight; nothing where it is no product of such a power and of lengths.
-std::optional<std::uint32_t> inverse_powers(const SumModel &model);
-
-// Has the moments of `groups` summed by powers where the model allows and it is worth it
-// (moment_polynomials.h).
-void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m);
-
-SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
-                   bool all_face_the_light);
-
-// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
-Precision sum_precision(const Signal &signal, Precision wanted);
 
 class AccumulatePass {
 public:

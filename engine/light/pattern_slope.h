@@ -1,8 +1,8 @@
 #pragma once
 // How fast the light of diodes changes with the direction.
 
-#include "engine/view/camera_scene.h"
-#include "engine/view/projection.h"
+#include "engine/light/camera_light.h"
+#include "engine/view/view_bounds.h"
 
 #include <vector>
 

@@ -2,12 +2,12 @@
 // The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
 // fast and nothing cancels, and laid out as the accumulate pass reads them.
 
+#include "engine/light/camera_light.h"
 #include "engine/light/moment_polynomials.h"
 #include "engine/light/path_difference.h"
 #include "engine/light/remainder.h"
 #include "engine/model/accuracy.h"
-#include "engine/view/camera_scene.h"
-#include "engine/view/projection.h"
+#include "engine/view/view_bounds.h"
 #include "shaders/shared/interface.h"
 
 #include <vector>

@@ -2,7 +2,7 @@
 // The diodes as the lit pass takes them: in bundles of a word's bits, a window of bundles at a time.
 
 #include "engine/light/source_groups.h"
-#include "shaders/shadow/lit_interface.h"
+#include "shaders/light/source_windows.h"
 
 #include <span>
 #include <vector>

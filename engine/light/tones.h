@@ -4,7 +4,6 @@
 
 #include "engine/model/sensor.h"
 #include "engine/model/simulator_options.h"
-#include "engine/vulkan/buffer.h"
 #include "shaders/shared/interface.h"
 
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 // Few diodes with other intensities in place of many, within an error that follows from theory.
 
+#include "engine/light/camera_light.h"
 #include "engine/model/accuracy.h"
-#include "engine/view/camera_scene.h"
-#include "engine/view/projection.h"
+#include "engine/view/view_bounds.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The judge: the same measurement by the CPU in double precision, with its own ray casting and the standard
 // library's trigonometry. Shares no code with the shaders, the passes, their projection or
-// engine/model/lens.h.
+// engine/lens/lens.h.
 
 #include "engine/model/illuminator.h"
 #include "engine/model/measurement.h"

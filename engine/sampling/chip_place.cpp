@@ -1,6 +1,6 @@
 #include "engine/sampling/chip_place.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "engine/vulkan/float_pair.h"
 
 namespace pmdsim {

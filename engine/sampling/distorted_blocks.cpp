@@ -1,4 +1,4 @@
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "engine/sampling/raster_blocks.h"
 
 #include <algorithm>

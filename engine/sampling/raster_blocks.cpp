@@ -1,6 +1,6 @@
 #include "engine/sampling/raster_blocks.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 
 namespace pmdsim {
 namespace {

@@ -1,7 +1,5 @@
 #include "engine/sampling/strip_memory.h"
 
-#include "shaders/shadow/lit_interface.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -28,9 +26,8 @@ vk::DeviceSize drawn_fragments(glm::uvec2 fragments) {
 } // namespace
 
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SampleLayout &layout, const SimulatorOptions &options,
-                                StripBuffers &&previous) {
+                                const std::vector<RasterBlock> &blocks, const SampleLayout &layout,
+                                const SimulatorOptions &options, StripBuffers &&previous) {
   using Usage = vk::BufferUsageFlagBits;
   vk::DeviceSize samples = 0, tags = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
@@ -48,11 +45,11 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const auto read = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes) {
     return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
-  const vk::DeviceSize channel_bytes = pixels * signal.channels() * sizeof(float);
+  const vk::DeviceSize channel_bytes = pixels * layout.channels * sizeof(float);
   const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
-  const vk::DeviceSize lit_bytes = signal.lit ? samples * sizeof(std::uint32_t) : 0;
-  const vk::DeviceSize broken_bytes = signal.promised ? sizeof(shader::BrokenPromise) : 0;
-  const vk::DeviceSize reached_bytes = lit_bytes * shader::bundles_per_window;
+  const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
+  const vk::DeviceSize broken_bytes = layout.keeps_terms ? sizeof(shader::BrokenPromise) : 0;
+  const vk::DeviceSize reached_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;
   B made;
   made.fragments = storage(&B::fragments, fragments * sizeof(shader::uvec2), Usage::eTransferDst);
@@ -62,9 +59,9 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
   made.reached = storage(&B::reached, reached_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.lit = storage(&B::lit, lit_bytes);
-  made.terms = storage(&B::terms, signal.promised ? samples * sizeof(float) : 0);
+  made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
   made.broken = storage(&B::broken, broken_bytes, Usage::eTransferDst | Usage::eTransferSrc);
-  made.sum = storage(&B::sum, samples * signal.sum_planes() * layout.sum_bytes);
+  made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
   made.broken_read = read(&B::broken_read, broken_bytes);
@@ -91,12 +88,12 @@ std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers) {
   return {reinterpret_cast<const shader::uvec4 *>(all.data()), all.size() / sizeof(shader::uvec4)};
 }
 
-std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu) {
-  const std::uint32_t usual = on_gpu && signal.lit ? 1u << 18 : 1u << 20;
+std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, std::uint32_t channels,
+                                 std::uint32_t samples_per_pixel) {
   constexpr std::uint32_t buffer_bytes = 1u << 27;
   constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
-  return std::min({usual, buffer_bytes / (signal.sum_planes() * plane_bytes),
-                   buffer_bytes / (signal.channels() * channel_bytes) * samples_per_pixel});
+  return std::min({usual, buffer_bytes / (sum_planes * plane_bytes),
+                   buffer_bytes / (channels * channel_bytes) * samples_per_pixel});
 }
 
 } // namespace pmdsim

@@ -1,7 +1,7 @@
 #pragma once
 // The device's buffers for one strip, made once for the largest and used for all.
 
-#include "engine/light/tones.h"
+#include "engine/model/simulator_options.h"
 #include "engine/sampling/strips.h"
 #include "engine/vulkan/buffer.h"
 
@@ -55,17 +55,21 @@ struct SampleLayout {
   std::size_t backscatter_bytes;
   std::size_t surface_vectors;
   std::size_t sum_bytes; // of each plane
+  std::uint32_t sum_planes;
+  std::uint32_t channels;
+  std::uint32_t visibility_words; // 0: every diode reaches every sample
+  bool keeps_terms;               // and whether they break what was promised
 };
 
 // Buffers of `previous`, whose contents are of no use any more, are taken where they have the right size.
 StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<PlannedStrip> &strips,
-                                const std::vector<RasterBlock> &blocks, const Signal &signal,
-                                const SampleLayout &layout, const SimulatorOptions &options,
-                                StripBuffers &&previous);
+                                const std::vector<RasterBlock> &blocks, const SampleLayout &layout,
+                                const SimulatorOptions &options, StripBuffers &&previous);
 
-// The most samples that a strip should have: 2^20, or fewer where that would take buffers of more than 128
-// MiB. With shadows a quarter on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
-std::uint32_t samples_of_a_strip(const Signal &signal, std::uint32_t samples_per_pixel, bool on_gpu);
+// The most samples that a strip should have: `usual`, or fewer where that would take buffers of more than 128
+// MiB.
+std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, std::uint32_t channels,
+                                 std::uint32_t samples_per_pixel);
 
 inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;

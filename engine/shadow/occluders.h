@@ -2,7 +2,7 @@
 // What may stand between diodes and what the lens sees. A shape whose plane has them all on one side never
 // does and is left out: the walls of a room, a single wall.
 
-#include "engine/view/camera_scene.h"
+#include "engine/light/camera_light.h"
 #include "shaders/shadow/lit_interface.h"
 
 #include <vector>

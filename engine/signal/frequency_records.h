@@ -1,8 +1,8 @@
 #pragma once
 // How each modulation frequency becomes channels, as the device reads it.
 
-#include "engine/error_budget/promise.h"
 #include "engine/light/tones.h"
+#include "engine/model/error_bound.h"
 
 #include <optional>
 

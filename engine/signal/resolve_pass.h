@@ -1,10 +1,10 @@
 #pragma once
 // The resolve pass: sums a pixel's samples and makes its phase, amplitude, distance, taps and ground truth.
 
-#include "engine/error_budget/promise.h"
 #include "engine/light/source_groups.h"
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"
+#include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/chip_grid.h"
 #include "engine/sampling/pixel_lists.h"

@@ -126,21 +126,6 @@ CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
   return camera;
 }
 
-std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor) {
-  std::vector<CameraIlluminator> seen;
-  for (const Illuminator &illuminator : illuminators) {
-    const Pose camera_from_illuminator =
-        compose(inverse(sensor.world_from_camera), illuminator.world_from_illuminator);
-    seen.push_back({illuminator.diodes, illuminator.modulation_phase_rad});
-    for (Diode &diode : seen.back().diodes) {
-      diode.position_m = camera_from_illuminator.point(diode.position_m);
-      diode.axis = camera_from_illuminator.direction(diode.axis);
-      diode.across = camera_from_illuminator.direction(diode.across);
-    }
-  }
-  return seen;
-}
-
 double backscatter_per_reflectivity(Backscatter backscatter) {
   return backscatter == Backscatter::lambert ? std::numbers::inv_pi : 1.0;
 }
@@ -165,22 +150,6 @@ std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, co
                    static_cast<float>(std::max(0.0, farthest_m) * (1.0 + slack))};
   }
   return records;
-}
-
-// Asked of each illuminator's own box: one around all of them would hold much more than their diodes.
-bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators) {
-  return std::ranges::all_of(illuminators, [&](const CameraIlluminator &illuminator) {
-    glm::dvec3 low(illuminator.diodes.front().position_m), high(low);
-    for (const Diode &diode : illuminator.diodes) {
-      low = glm::min(low, diode.position_m);
-      high = glm::max(high, diode.position_m);
-    }
-    const glm::dvec3 centre = 0.5 * (low + high);
-    const double radius_m = glm::distance(centre, high);
-    return std::ranges::all_of(camera.planes, [&](const Plane &plane) {
-      return glm::dot(plane.normal, centre) - plane.offset_m > radius_m;
-    });
-  });
 }
 
 } // namespace pmdsim

@@ -1,8 +1,7 @@
 #pragma once
-// The scene and the light as the lens sees them: camera frame (x right, y down, z forward, origin at the
+// The scene as the lens sees it: camera frame (x right, y down, z forward, origin at the
 // lens), made in double before anything becomes float.
 
-#include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
 #include "shaders/shared/interface.h"
@@ -41,14 +40,6 @@ struct CameraScene {
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);
 
-// An illuminator as the lens sees it.
-struct CameraIlluminator {
-  std::vector<Diode> diodes; // places and directions in the camera frame
-  double modulation_phase_rad = 0.0;
-};
-
-std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor);
-
 // What TrianglePlane::along_* bound: the ray's depth, or its range.
 enum class AlongRay { depth, range };
 
@@ -58,8 +49,5 @@ double backscatter_per_reflectivity(Backscatter backscatter);
 // The records that the points passes look up by id, one for each of the scene's shapes.
 std::vector<shader::TrianglePlane> triangle_planes(const CameraScene &camera, const Scene &scene,
                                                    Backscatter backscatter, AlongRay along);
-
-// True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
-bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators);
 
 } // namespace pmdsim

@@ -1,6 +1,6 @@
 #include "engine/view/lens_search_pass.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "engine/sampling/chip_place.h"
 #include "engine/view/triangle_corners.h"
 #include "engine/vulkan/float_pair.h"

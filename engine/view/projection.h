@@ -5,17 +5,12 @@
 
 #include "engine/sampling/raster_blocks.h"
 #include "engine/view/camera_scene.h"
+#include "engine/view/view_bounds.h"
 #include "shaders/shared/interface.h"
 
 #include <vector>
 
 namespace pmdsim {
-
-// Holds what is visible of some consecutive triangles, before one hides another.
-struct VisibleBox {
-  glm::dvec3 low_m; // camera frame
-  glm::dvec3 high_m;
-};
 
 struct Projection {
   std::vector<RasterBlock> blocks; // together they are the frame

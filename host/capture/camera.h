@@ -20,9 +20,6 @@ struct Extras {
   bool taps = false;             // Return::taps
 };
 
-// In any case, as the names of devices.
-bool names_the_reference(const std::string &device);
-
 class Camera {
 public:
   // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).

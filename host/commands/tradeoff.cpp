@@ -1,4 +1,5 @@
 #include "host/output/tables/tradeoff.h"
+#include "host/output/pictures/tradeoff_plot.h"
 
 #include "engine/model/error.h"
 #include "host/bench/distance_errors.h"

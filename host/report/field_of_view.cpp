@@ -1,6 +1,6 @@
 #include "host/report/field_of_view.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 
 #include <algorithm>
 #include <array>

@@ -25,8 +25,8 @@ Spread spread(std::span<const T> values) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                [](T value) { return std::isfinite(value); });
   if (finite.empty()) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan, nan};
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none, none};
   }
   const auto middle = finite.begin() + static_cast<std::ptrdiff_t>(finite.size() / 2);
   std::nth_element(finite.begin(), middle, finite.end());

@@ -2,11 +2,10 @@
 #ifndef PMDSIM_LIT_INTERFACE_H
 #define PMDSIM_LIT_INTERFACE_H
 
+#include "shaders/light/source_windows.h"
+
 #ifdef __cplusplus
-#include "shaders/shared/interface.h"
 namespace pmdsim::shader {
-#else
-#include "shaders/shared/interface.h"
 #endif
 
 // Specialization constants of the lit pass's shaders.
@@ -23,7 +22,6 @@ PMDSIM_CONSTANT constant_lit_first = 1;   // count: 1: this is the frame's first
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
 PMDSIM_CONSTANT tile_side = 8;
 PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
-PMDSIM_CONSTANT bundles_per_window = 8;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
 PMDSIM_CONSTANT parts_per_tile = 2;
 // That a part tries one by one; where there are more, rays are traced.
@@ -54,18 +52,6 @@ struct TreeNode {
   uint skip;
   float high_x, high_y, high_z;
   uint occluder; // of a leaf; else no_occluder
-};
-
-// Around the diodes of a window or of a bundle, rounded outwards, camera frame, m.
-struct DiodeBox {
-  vec4 low, high;
-};
-
-// The diodes of a bundle from a place among them, m.
-struct BundleDiodes {
-  vec4 centre;                    // camera frame; w: how far they stand from it at most, along each axis
-  vec4 extent;                    // the same for each axis
-  vec4 places[diodes_per_bundle]; // where there are fewer, the last one again; w: 1 of a diode that shines
 };
 
 // Samples of a tile that lie at similar depths. A tile has two parts, one of them empty where it is all of

@@ -8,15 +8,13 @@
 #include "engine/model/sensor.h"
 #include "engine/model/simulator_options.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
 namespace pmdsim::test {
-
-inline constexpr double degree = std::numbers::pi / 180.0, full_turn_rad = 2.0 * std::numbers::pi;
 
 // Of a direction in a diode's own frame; phi 0 to 2 pi.
 struct Angles {

@@ -14,13 +14,13 @@ using namespace pmdsim::test;
 namespace {
 
 // The paper's ring before a wall that fills the view.
-struct Setup {
+struct PlannedSetup {
   Scene scene = wall_at(2.0);
   Sensor sensor;
   std::vector<Illuminator> lights;
   bool long_runs = true;
 
-  Setup() {
+  PlannedSetup() {
     sensor.resolution = {64, 64};
     sensor.pixel_pitch_m = glm::dvec2(450e-6);
     lights.push_back({"ring", sensor.world_from_camera, {}});
@@ -33,7 +33,7 @@ struct Setup {
   }
 };
 
-FramePlan plan(const Setup &setup, const Accuracy &accuracy, std::uint32_t attempt = 0) {
+FramePlan plan(const PlannedSetup &setup, const Accuracy &accuracy, std::uint32_t attempt = 0) {
   const CameraScene camera = to_camera(setup.scene, setup.sensor);
   const auto lights = to_camera(setup.lights, setup.sensor);
   const Projection projection = project(camera, chip_blocks(setup.sensor, 8192));
@@ -56,7 +56,7 @@ std::size_t shining(const DiodeGroups &groups) {
       std::ranges::count_if(groups.places, [](const DiodePlace &place) { return place.number != no_id; }));
 }
 
-void check_refused(const Setup &setup, const Accuracy &accuracy) {
+void check_refused(const PlannedSetup &setup, const Accuracy &accuracy) {
   for (std::uint32_t attempt = 0; attempt < frame_plans; ++attempt) {
     INFO("attempt " << attempt);
     try {
@@ -86,7 +86,7 @@ TEST_CASE("mode exact sums all diodes in float and promises nothing, but claims 
 }
 
 TEST_CASE("mode exact with adaptive samples promises the error that they may cost") {
-  Setup setup;
+  PlannedSetup setup;
   setup.sensor.samples = 4;
   setup.sensor.adaptive_samples = true;
   const FramePlan exact = plan(setup, {});
@@ -111,7 +111,7 @@ TEST_CASE("the ring within a micrometre takes few diodes in float and surely kee
 }
 
 TEST_CASE("of many diodes those that are alike stand in long runs") {
-  Setup many;
+  PlannedSetup many;
   const std::vector<Diode> ring = many.lights[0].diodes;
   for (const double z_m : {-0.01, -0.02})
     for (Diode diode : ring) {
@@ -162,7 +162,7 @@ TEST_CASE("what a float cannot hold is refused, and so is what theory cannot bou
   Accuracy amplitude = automatic(1e-3);
   amplitude.max_amplitude_error = 1e-12;
   check_refused({}, amplitude);
-  Setup measured;
+  PlannedSetup measured;
   const auto table = std::make_shared<const Diagram>(
       Diagram{{0.0, 1.0}, {0.0, std::numbers::pi}, {1.0, 0.9, 0.5, 0.4}}); // varies about its own axis
   measured.lights[0].diodes[7].pattern = {Pattern::Kind::diagram, 0.0, table};
@@ -196,12 +196,12 @@ TEST_CASE("a precision that was asked for is taken") {
 }
 
 TEST_CASE("where returns may cancel, every pixel is watched and the limit is what is claimed") {
-  Setup phased;
+  PlannedSetup phased;
   phased.lights.push_back(phased.lights[0]);
   phased.lights[1].modulation_phase_rad = 3.0;
-  Setup sampled;
+  PlannedSetup sampled;
   sampled.sensor.samples = 2;
-  for (const Setup &setup : {phased, sampled}) {
+  for (const PlannedSetup &setup : {phased, sampled}) {
     const FramePlan watched = plan(setup, automatic(1e-5));
     CHECK_FALSE(watched.surely_kept);
     CHECK(watched.claimed_m == 1e-5);

@@ -1,6 +1,7 @@
 // A measured diagram on its even grid is the diagram itself wherever a grid can meet its angles.
 
 #include "engine/light/diagram_tables.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,10 +10,11 @@
 #include <random>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0, turn_rad = 2.0 * std::numbers::pi;
+constexpr double turn_rad = full_turn_rad;
 
 std::shared_ptr<const Diagram> diagram_of(const std::vector<double> &theta_deg,
                                           const std::vector<double> &phi_deg,

@@ -1,6 +1,7 @@
 // Moments from powers of q against the moments themselves, in double.
 
 #include "engine/light/moment_polynomials.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,7 +12,8 @@
 namespace pmdsim {
 namespace {
 
-constexpr double wavenumber_20mhz_rad_m = 0.4191;
+using test::wavenumber_20mhz_rad_m;
+
 constexpr std::uint32_t moments = 4;
 
 struct Light {

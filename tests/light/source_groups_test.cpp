@@ -1,4 +1,5 @@
 #include "engine/light/source_groups.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,13 +7,13 @@
 #include <random>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 
 namespace {
 
 const std::vector<VisibleBox> wall_at_2m{{{-0.2, -0.2, 2.0}, {0.2, 0.2, 2.0}}};
-constexpr double wavenumber_20mhz_rad_m = 2.0 * std::numbers::pi * 20e6 / 299792458.0;
 
-std::vector<Diode> ring(int count, double radius_m) {
+std::vector<Diode> ring_of(int count, double radius_m) {
   std::vector<Diode> diodes(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * (k + 0.5) / count;
@@ -28,7 +29,7 @@ std::vector<CameraIlluminator> one(const std::vector<Diode> &diodes) { return {{
 std::vector<Diode> five_rings() {
   std::vector<Diode> diodes;
   for (int i = 0; i < 5; ++i)
-    for (const Diode &diode : ring(48, 0.126 + 0.01 * i))
+    for (const Diode &diode : ring_of(48, 0.126 + 0.01 * i))
       diodes.push_back(diode);
   return diodes;
 }
@@ -75,7 +76,7 @@ TEST_CASE("moments are as many as the remainder asks for") {
 }
 
 TEST_CASE("the paper's ring is one group around the lens, summed in one run") {
-  const auto groups = group_diodes(one(ring(240, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(ring_of(240, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m);
   REQUIRE(groups.runs.size() == 1);
   CHECK(glm::length(groups.runs[0].reference_m) < 1e-15);
   CHECK(groups.blocks_per_run == 15);
@@ -85,7 +86,7 @@ TEST_CASE("the paper's ring is one group around the lens, summed in one run") {
 
 TEST_CASE("a group is cut into runs of equal length, of as many blocks as may be at most") {
   const auto cut = [](int diodes, std::uint32_t most_blocks) {
-    const auto groups = group_diodes(one(ring(diodes, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m,
+    const auto groups = group_diodes(one(ring_of(diodes, 0.166)), wall_at_2m, wavenumber_20mhz_rad_m,
                                      Precision::fp32, most_blocks);
     CHECK(groups.diodes.size() == groups.runs.size() * groups.blocks_per_run * shader::diodes_per_block);
     return std::pair(groups.runs.size(), groups.blocks_per_run);
@@ -149,7 +150,7 @@ TEST_CASE("every diode is in exactly one group, wherever the groups are cut") {
 }
 
 TEST_CASE("groups shrink with the wavelength and with what is near") {
-  const auto diodes = ring(240, 0.166);
+  const auto diodes = ring_of(240, 0.166);
   const auto far = group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m);
   const auto fast = group_diodes(one(diodes), wall_at_2m, 100 * wavenumber_20mhz_rad_m);
   const auto near = group_diodes(one(diodes), {{{-0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}}}, wavenumber_20mhz_rad_m);
@@ -172,13 +173,13 @@ TEST_CASE("many lonely diodes beside a cluster are not padded to the cluster's s
 }
 
 TEST_CASE("a diode on its own needs no correction of its path") {
-  const auto groups = group_diodes(one(ring(1, 3.0)), wall_at_2m, wavenumber_20mhz_rad_m);
+  const auto groups = group_diodes(one(ring_of(1, 3.0)), wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(groups.moments == 1);
   CHECK(groups.diodes[0].position == glm::vec4(0.0f));
 }
 
 TEST_CASE("intensities are relative to the largest; dark light stays finite") {
-  auto diodes = ring(2, 0.1);
+  auto diodes = ring_of(2, 0.1);
   diodes[0].intensity_w_sr = 1e30;
   diodes[1].intensity_w_sr = 5e29;
   const auto groups = group_diodes(one(diodes), wall_at_2m, wavenumber_20mhz_rad_m);
@@ -191,7 +192,7 @@ TEST_CASE("intensities are relative to the largest; dark light stays finite") {
 TEST_CASE("groups never mix illuminators, and each has its illuminator's phase") {
   // Two rings on top of each other, which as one illuminator are one group.
   const auto both = [](double phase_rad) {
-    return std::vector<CameraIlluminator>{{ring(20, 0.1), 0.0}, {ring(20, 0.1), phase_rad}};
+    return std::vector<CameraIlluminator>{{ring_of(20, 0.1), 0.0}, {ring_of(20, 0.1), phase_rad}};
   };
   const auto groups = group_diodes(both(0.75 * std::numbers::pi), wall_at_2m, wavenumber_20mhz_rad_m);
   REQUIRE(groups.runs.size() == 2);
@@ -205,7 +206,7 @@ TEST_CASE("groups never mix illuminators, and each has its illuminator's phase")
 }
 
 TEST_CASE("intensities are relative to the largest of all illuminators") {
-  std::vector<CameraIlluminator> lights{{ring(1, 0.1), 0.0}, {ring(1, 0.2), 0.0}};
+  std::vector<CameraIlluminator> lights{{ring_of(1, 0.1), 0.0}, {ring_of(1, 0.2), 0.0}};
   lights[1].diodes[0].intensity_w_sr = 4.0;
   const auto groups = group_diodes(lights, wall_at_2m, wavenumber_20mhz_rad_m);
   CHECK(groups.largest_intensity_w_sr == 4.0);
@@ -217,7 +218,7 @@ TEST_CASE("places name every diode of all illuminators once, and stand beside wh
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   for (const int count : {1, 15, 16, 17, 33, 257, 1000}) {
-    std::vector<CameraIlluminator> lights{{ring(count, 0.1)}, {ring(3, 0.2)}, {ring(count, 0.3)}};
+    std::vector<CameraIlluminator> lights{{ring_of(count, 0.1)}, {ring_of(3, 0.2)}, {ring_of(count, 0.3)}};
     for (Diode &diode : lights[2].diodes)
       diode.position_m = {place(random), place(random), 0.1 * place(random)};
     std::vector<glm::dvec3> positions_m;

@@ -3,6 +3,7 @@
 #include "engine/light/source_windows.h"
 
 #include "tests/support/random_scenes.h"
+#include "tests/support/units.h"
 
 #include <bit>
 #include <catch2/catch.hpp>
@@ -14,8 +15,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double wavenumber_20mhz_rad_m = 2.0 * std::numbers::pi * 20e6 / 299792458.0;
 
 // A cloud, and a second illuminator of three diodes aside.
 DiodeGroups groups_of(int count, double reach_m, double wavenumber_rad_m) {

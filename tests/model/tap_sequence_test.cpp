@@ -3,17 +3,16 @@
 #include "engine/model/tap_sequence.h"
 #include "engine/reference/reference.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
 
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 constexpr double modulation_hz = 20e6;
 
 // Of one pixel, for a correlation function of the phase.

@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -13,8 +14,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double full_turn_rad = 2 * std::numbers::pi;
 
 // A column of pixels that look at slanted_wall(); ambiguity range 1.5 m.
 Sensor column_sensor(const Waveform &waveform, std::uint32_t taps) {

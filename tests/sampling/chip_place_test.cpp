@@ -2,7 +2,7 @@
 
 #include "engine/sampling/chip_place.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "tests/support/random_cameras.h"
 
 #include <catch2/catch.hpp>

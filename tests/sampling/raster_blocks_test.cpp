@@ -2,22 +2,21 @@
 
 #include "engine/sampling/raster_blocks.h"
 
+#include "engine/lens/lens.h"
+#include "engine/lens/lens_fault.h"
 #include "engine/model/error.h"
-#include "engine/model/lens.h"
-#include "engine/model/lens_fault.h"
 #include "tests/support/random_cameras.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr std::uint32_t largest_block = 8192;
 
 glm::dvec2 on_raster(const RasterBlock &block, const glm::dvec3 &ray) {

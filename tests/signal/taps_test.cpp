@@ -2,11 +2,11 @@
 
 #include "tests/comparison/engines.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <tuple>
 
 using namespace pmdsim;
@@ -14,7 +14,6 @@ using namespace pmdsim::test;
 
 namespace {
 
-constexpr double full_turn_rad = 2 * std::numbers::pi;
 const SimulatorOptions with_taps{.device = {}, .keep_taps = true};
 
 // What one pixel reads, in units of its light.

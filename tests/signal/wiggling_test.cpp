@@ -3,20 +3,17 @@
 
 #include "tests/comparison/planes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double full_turn_rad = 2 * std::numbers::pi;
-constexpr double degree = full_turn_rad / 360;
 
 // 6000 pixels in a row that look to both sides by up to 0.5.
 Sensor row_sensor() {

@@ -1,4 +1,5 @@
 #include "tests/support/random_cameras.h"
+#include "tests/support/units.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +8,6 @@ namespace pmdsim::test {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr glm::dvec2 chip_m{24e-3, 16e-3};
 
 // Coefficients are drawn by what they do at the image's corner, a slope of `radius`.

@@ -1,10 +1,11 @@
 #include "tests/support/random_setups.h"
 
-#include "engine/model/lens_fault.h"
+#include "engine/lens/lens_fault.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_diagrams.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,6 @@ namespace pmdsim::test {
 
 namespace {
 
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 constexpr std::uint32_t seeds_of_a_form = 16;
 constexpr glm::uvec2 coarsest(10);
 constexpr double most_paths = 1.5e6; // in a frame: samples times diodes times frequencies

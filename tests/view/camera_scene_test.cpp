@@ -1,5 +1,6 @@
 // What the points passes are told of a triangle: its plane and where rays can meet it.
 
+#include "engine/light/camera_light.h"
 #include "engine/view/camera_scene.h"
 
 #include "tests/support/random_scenes.h"

@@ -4,6 +4,7 @@
 #include "host/input/setup/setup.h"
 #include "tests/comparison/comparison.h"
 #include "tests/support/simulator.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -13,8 +14,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double degree = 0.017453292519943295;
 
 struct Case {
   std::string name;

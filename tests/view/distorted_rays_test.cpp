@@ -2,6 +2,7 @@
 
 #include "tests/comparison/planes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 #include "tests/view/opencv_formula.h"
 
 #include <catch2/catch.hpp>
@@ -13,8 +14,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Around the point at 2 m that the ray meets, and slanted, so that one micrometre beside is one micrometre
 // more or less.

@@ -1,7 +1,7 @@
 // Where the rays of all pixels of a chip come from: the simulator's lens and the reference's against OpenCV's
 // published formula, and each against its own inverse.
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "engine/reference/view/lens_model.h"
 #include "tests/view/opencv_formula.h"
 

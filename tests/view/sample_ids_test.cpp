@@ -2,6 +2,7 @@
 
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,8 +12,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double degree = 0.017453292519943295;
 
 Sensor sensor_of(std::uint32_t samples, const glm::dvec2 &fill_factor, const glm::dvec3 &rotation_rad) {
   Sensor sensor;

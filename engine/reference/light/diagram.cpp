@@ -4,13 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
 
 namespace pmdsim::reference {
 
 namespace {
-
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 
 // What rounding may make of an angle: a table ends with its last angle, not a bit before.
 constexpr double angle_rounding_rad = 1e-12;

@@ -3,7 +3,11 @@
 
 #include "engine/model/illuminator.h"
 
+#include <numbers>
+
 namespace pmdsim::reference {
+
+inline constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 
 // J of a diode whose pattern is a diagram, towards `direction` (of any length but 0, in the frame of the
 // diode's axis).

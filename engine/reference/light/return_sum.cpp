@@ -1,13 +1,10 @@
 #include "engine/reference/light/return_sum.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace pmdsim::reference {
 
 namespace {
-
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 
 // Whole turns are taken off before anything multiplies, so a long path costs no more than its own rounding.
 double fraction(double turns) { return turns - std::floor(turns); }

@@ -4,6 +4,7 @@
 
 #include "engine/model/sensor.h"
 #include "engine/reference/light/compensated_sum.h"
+#include "engine/reference/light/diagram.h"
 #include "engine/reference/light/light_paths.h"
 
 #include <complex>

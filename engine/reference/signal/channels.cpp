@@ -1,14 +1,14 @@
 #include "engine/reference/signal/channels.h"
 
+#include "engine/reference/light/return_sum.h"
+
 #include <limits>
-#include <numbers>
 
 namespace pmdsim::reference {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double full_turn_rad = 2.0 * std::numbers::pi;
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // Rounding can lift a value just below the end of its range to the end itself, which is the same as zero.
 template <class Real>
@@ -65,7 +65,7 @@ PixelSums::PixelSums(const Sensor &sensor) {
 Frame dark_frame(const Sensor &sensor) {
   const std::size_t pixels = sensor.pixel_count();
   const std::size_t samples = pixels * sensor.samples * sensor.samples;
-  const std::vector<double> dark(pixels, 0.0), unknown(pixels, nan);
+  const std::vector<double> dark(pixels, 0.0), unknown(pixels, no_value);
   Frame frame;
   frame.resolution = sensor.resolution;
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)

@@ -1,7 +1,7 @@
 #include "host/bench/native/kernel_work.h"
 
+#include "engine/lens/lens.h"
 #include "engine/model/error.h"
-#include "engine/model/lens.h"
 #include "host/report/report.h"
 
 #include <algorithm>

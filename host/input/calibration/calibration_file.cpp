@@ -3,7 +3,7 @@
 #include "host/input/calibration/calibration_numbers.h"
 #include "host/input/calibration/yaml_file.h"
 #include "host/input/file/regular_file.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <algorithm>
 #include <array>

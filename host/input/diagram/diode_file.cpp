@@ -2,7 +2,7 @@
 
 #include "host/input/diagram/csv_table.h"
 #include "host/input/diagram/diode_across.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <algorithm>
 #include <cmath>

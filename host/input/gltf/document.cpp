@@ -4,8 +4,8 @@
 #include "host/input/file/regular_file.h"
 #include "host/input/gltf/extensions.h"
 #include "host/input/gltf/references.h"
-#include "host/input/setup/schema_check.h"
-#include "host/input/setup/schemas.h"
+#include "host/input/schema/schema_check.h"
+#include "host/input/schema/schemas.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "host/input/diagram/diode_across.h"
 #include "host/input/diagram/diode_file.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 #include "host/input/setup/pose.h"
 
 #include <cmath>

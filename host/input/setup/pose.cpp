@@ -1,6 +1,6 @@
 #include "host/input/setup/pose.h"
 
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <algorithm>
 #include <cmath>

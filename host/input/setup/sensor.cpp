@@ -1,7 +1,7 @@
 #include "host/input/setup/sensor.h"
 
+#include "host/input/schema/limits.h"
 #include "host/input/setup/lens_check.h"
-#include "host/input/setup/limits.h"
 #include "host/input/setup/pose.h"
 #include "host/input/setup/sample_choice.h"
 

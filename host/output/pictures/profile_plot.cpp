@@ -1,3 +1,5 @@
+#include "host/output/pictures/profile_plot.h"
+
 #include "host/output/tables/profile.h"
 
 #include <algorithm>

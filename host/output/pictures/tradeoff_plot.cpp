@@ -1,4 +1,4 @@
-#include "host/output/tables/tradeoff.h"
+#include "host/output/pictures/tradeoff_plot.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr int plot_width = 1000, plot_height = 640;
+constexpr int tradeoff_width = 1000, tradeoff_height = 640;
 constexpr double marker_radius = 5.0;
 
 struct Series {
@@ -70,7 +70,7 @@ void draw_axes(Canvas &canvas, const Plot &plot, const std::string &device) {
   canvas.outline(box);
   canvas.bottom_axis(box, plot.time_ms);
   canvas.left_axis(box, plot.error_um);
-  canvas.text(box.left + 0.5 * box.width, plot_height - 22.0,
+  canvas.text(box.left + 0.5 * box.width, tradeoff_height - 22.0,
               fmt::format("median time of a frame on {} (ms)", device), Anchor::centre);
   canvas.vertical_text(22.0, box.top + 0.5 * box.height, "largest distance error beside edges (µm)");
 }
@@ -180,9 +180,10 @@ Canvas draw_tradeoff(const Tradeoff &tradeoff) {
       make_log_axis(range_of(points, [](const auto &point) { return point.time.median_ms; }));
   const Axis error_um = make_log_axis(range_of(points, shown_um));
   const double left = std::round(52.0 + label_width(error_um));
-  const Plot plot{{left, 76.0, plot_width - left - 24.0, plot_height - 76.0 - 64.0}, time_ms, error_um};
+  const Plot plot{
+      {left, 76.0, tradeoff_width - left - 24.0, tradeoff_height - 76.0 - 64.0}, time_ms, error_um};
 
-  Canvas canvas(plot_width, plot_height);
+  Canvas canvas(tradeoff_width, tradeoff_height);
   canvas.title(plot.box.left, 24.0,
                fmt::format("speed against accuracy, {}, {}",
                            std::filesystem::path(tradeoff.setup).filename().string(), tradeoff.sensor));

@@ -1,14 +1,11 @@
 #pragma once
-// The profile through the middle of a frame, as a table and as a plot.
+// The profile through the middle of a frame as a table.
 
 #include "engine/model/sensor.h"
 #include "host/output/files/channel.h"
 #include "host/output/files/output_file.h"
-#include "host/output/pictures/canvas.h"
 
 #include <cstdint>
-#include <span>
-#include <string>
 
 namespace pmdsim {
 
@@ -18,9 +15,5 @@ std::uint32_t profile_row(const glm::uvec2 &resolution);
 // One line a column after a header line: column, x_m (the pixel's centre on the chip), angle_deg (its ray
 // against the optical axis, seen from above), then the channels. Throws Error (output).
 void write_profile_csv(OutputFile &file, const ChannelSet &channels, const Sensor &sensor);
-
-// One float channel against the column; gaps where it is NaN.
-Canvas draw_profile(std::span<const float> values, const glm::uvec2 &resolution, const std::string &quantity,
-                    const std::string &unit, const std::string &title);
 
 } // namespace pmdsim

@@ -1,6 +1,6 @@
 #include "host/output/tables/profile.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 
 #include <cmath>
 #include <fmt/format.h>

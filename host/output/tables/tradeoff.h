@@ -1,8 +1,7 @@
 #pragma once
-// Speed against accuracy, as tables and as a picture.
+// Speed against accuracy, as tables.
 
 #include "engine/model/accuracy.h"
-#include "host/output/pictures/canvas.h"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -53,9 +52,6 @@ std::string tradeoff_csv(const Tradeoff &tradeoff);
 // For people, and for BENCHMARKS.md.
 std::string tradeoff_text(const Tradeoff &tradeoff);
 std::string tradeoff_markdown(const Tradeoff &tradeoff);
-// Largest error beside edges against frame time, both logarithmic, with the fronts.
-Canvas draw_tradeoff(const Tradeoff &tradeoff);
-
 // "exact", "reduced", "auto" or "samples", by colour in the picture.
 std::string series_name(const TradeoffPoint &point);
 // What tells the point from others of its series: "fp32", "0.1 µm", "S = 4".

@@ -1,4 +1,4 @@
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "host/output/files/manifest.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/support/random_scenes.h"

@@ -1,21 +1,19 @@
 // What a lens with distortion makes hard: triangles smaller than pixels, and images one pixel wide.
 
-#include "engine/model/lens_fault.h"
+#include "engine/lens/lens_fault.h"
 #include "tests/comparison/comparison.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 double bumpy_radius_m(const glm::dvec3 &direction, double radius_m) {
   return radius_m * (1 + 0.02 * std::sin(13 * direction.x) * std::sin(17 * direction.y + 5 * direction.z));

@@ -2,6 +2,7 @@
 
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/units.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,6 @@ namespace pmdsim::test {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr int squares_a_side = 14;         // of the wall of small triangles
 constexpr double squares_in_half_view = 6; // fewer than half of them, so that they fill it
 constexpr double widest_half_view = 0.25;  // slope of the view's border

@@ -3,7 +3,7 @@
 #include "host/input/gltf/data/accessor.h"
 #include "host/input/gltf/mesh/attributes.h"
 #include "host/input/gltf/mesh/points.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <algorithm>
 #include <array>

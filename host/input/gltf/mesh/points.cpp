@@ -1,7 +1,7 @@
 #include "host/input/gltf/mesh/points.h"
 
 #include "host/input/gltf/mesh/attributes.h"
-#include "host/input/setup/limits.h"
+#include "host/input/schema/limits.h"
 
 #include <cmath>
 #include <fmt/format.h>

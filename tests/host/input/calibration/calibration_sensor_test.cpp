@@ -1,6 +1,6 @@
 // A calibrated camera becomes a sensor that images as OpenCV's projectPoints does, and that a setup takes.
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "tests/host/input/setup/setup_fixture.h"
 

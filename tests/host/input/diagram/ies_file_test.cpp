@@ -3,17 +3,17 @@
 #include "host/input/diagram/diagram_file.h"
 #include "tests/host/input/file/input_error_of.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/units.h"
 
 #include <fmt/format.h>
 #include <numbers>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 using Catch::Contains;
 using Catch::EndsWith;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 Diagram read(const std::string &text, const char *name = "led.ies") {
   const test::TemporaryFolder folder;

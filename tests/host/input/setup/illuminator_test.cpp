@@ -2,6 +2,7 @@
 
 #include "host/input/diagram/diode_across.h"
 #include "tests/host/input/setup/setup_fixture.h"
+#include "tests/support/units.h"
 
 #include <numbers>
 #include <random>
@@ -14,7 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 const std::string diode_header = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern";
 const std::string small_diagram = "angle_deg,relative\n0,2\n90,1\n";
 

@@ -1,4 +1,4 @@
-#include "host/input/setup/schema_walk.h"
+#include "host/input/schema/schema_walk.h"
 
 #include <algorithm>
 #include <fmt/format.h>

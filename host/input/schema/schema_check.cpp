@@ -1,7 +1,7 @@
-#include "host/input/setup/schema_check.h"
+#include "host/input/schema/schema_check.h"
 
 #include "host/input/file/input_error.h"
-#include "host/input/setup/schema_walk.h"
+#include "host/input/schema/schema_walk.h"
 
 #include <fmt/format.h>
 #include <optional>

@@ -1,6 +1,6 @@
-#include "engine/model/lens_fault.h"
+#include "engine/lens/lens_fault.h"
 
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 
 #include <algorithm>
 #include <array>

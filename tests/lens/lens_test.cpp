@@ -1,19 +1,17 @@
 // The lens that raster and search are planned with: rays and places on the chip, and where it folds over.
 
-#include "engine/model/lens.h"
-#include "engine/model/lens_fault.h"
+#include "engine/lens/lens.h"
+#include "engine/lens/lens_fault.h"
 #include "tests/support/random_cameras.h"
+#include "tests/support/units.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // A square chip whose corners lie at the given slope, of 8 x 8 pixels behind a lens of 10 mm.
 Sensor sensor_to(double corner_slope, const Distortion &distortion) {

@@ -1,4 +1,4 @@
-#include "engine/model/lens.h"
+#include "engine/lens/lens.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "host/input/setup/schema_defaults.h"
+#include "host/input/schema/schema_defaults.h"
 
-#include "host/input/setup/schema_walk.h"
+#include "host/input/schema/schema_walk.h"
 
 namespace pmdsim {
 

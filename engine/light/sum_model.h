@@ -1,0 +1,41 @@
+#pragma once
+// What the sum over the sources has to model of a setup.
+
+#include "engine/light/camera_light.h"
+#include "engine/light/source_groups.h"
+#include "engine/light/tones.h"
+#include "engine/model/accuracy.h"
+#include "engine/model/scene.h"
+#include "shaders/shared/interface.h"
+
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// What the sum has to model; what a setup does not need is compiled out.
+struct SumModel {
+  std::uint32_t backscatter; // shader::backscatter_*
+  std::uint32_t pattern;     // shader::pattern_*
+  std::uint32_t order;       // of shader::pattern_power
+
+  // Of normals and heights a sample: none, one, or, to double precision, two.
+  std::uint32_t surface_vectors(Precision precision) const {
+    return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
+  }
+};
+
+// The powers of 1 / r in a diode's weight; nothing where it is no product of such a power and of lengths.
+std::optional<std::uint32_t> inverse_powers(const SumModel &model);
+
+// Has the moments of `groups` summed by powers where the model allows and it is worth it
+// (moment_polynomials.h).
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m);
+
+SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
+                   bool all_face_the_light);
+
+// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
+Precision sum_precision(const Signal &signal, Precision wanted);
+
+} // namespace pmdsim
