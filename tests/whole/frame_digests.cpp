@@ -86,15 +86,19 @@ void print(const Frame &frame, const Variant &variant, const std::string &way, c
 
 } // namespace
 
-int main() {
+int main(int argc, char **argv) {
+  const std::string wanted = argc > 1 ? argv[1] : "";
   try {
-    for (const Frame &frame : frames())
+    for (const Frame &frame : frames()) {
+      if (frame.name.find(wanted) == std::string::npos)
+        continue;
       for (const Variant &variant : variants) {
         print(frame, variant, "exact fp32", {});
         print(frame, variant, "exact fp64", {.mode = Mode::exact, .precision = Precision::fp64});
         print(frame, variant, "auto",
               {.mode = Mode::automatic, .precision = {}, .max_error_m = frame.max_error_m});
       }
+    }
   } catch (const std::exception &error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
