@@ -4,6 +4,7 @@
 #include "engine/light/source_windows.h"
 #include "engine/model/simulator_options.h"
 #include "engine/vulkan/compute_pipeline.h"
+#include "shaders/shadow/lit_interface.h"
 
 namespace pmdsim {
 
