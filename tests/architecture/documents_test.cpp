@@ -55,7 +55,7 @@ std::string comments_of(const std::string &source) {
     const std::size_t end = std::min(source.find('\n', begin), source.size());
     const std::string line = source.substr(begin, end - begin);
     const std::size_t slashes = line.find("//");
-    if (slashes != std::string::npos && std::count(line.begin(), line.begin() + slashes, '"') % 2 == 0)
+    if (slashes != std::string::npos && std::ranges::count(line.substr(0, slashes), '"') % 2 == 0)
       comments += line.substr(slashes + 2);
     else
       comments += '\n';
@@ -121,7 +121,7 @@ std::string anchor_of(const std::string &title) {
   return anchor;
 }
 
-// Of `docs/page.md, "Section"`.
+// Of a page's name, a comma, and a section's title in quotes.
 std::vector<std::string> missing_sections(const std::string &text) {
   static const std::regex section("([\\w./-]+\\.md)[,:]? \"([^\"]+)\"");
   std::vector<std::string> missing;
