@@ -3,6 +3,7 @@
 
 #include "host/output/pictures/canvas.h"
 
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 
