@@ -84,7 +84,7 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
       pipeline_(device, forms.choose(device, options), sizeof(shader::ShortWayConstants),
                 constants_of(sensor, groups, model, signal, ways)) {
   shader::ShortWayLight light = light_record(extent, signal, groups.phased);
-  light.diagrams = words(diagrams_.address());
+  light.diagrams = diagrams_.words();
   if (ways.sums) {
     std::ranges::copy(signal.all_tones(), light.tones);
     std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
@@ -94,7 +94,7 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
   work.lit_channel = signal.lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
-    work.lists[list] = words(lists.of(list).address());
+    work.lists[list] = lists.of(list).words();
   work_ = vulkan::upload(device, std::as_bytes(std::span(&work, 1)));
 }
 
@@ -104,16 +104,16 @@ void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::compute_barrier(commands);
   const shader::ShortWayConstants constants{strip,
                                             slope_,
-                                            words(chip_.address()),
-                                            words(buffers.tags.address()),
-                                            words(scene.planes.address()),
-                                            words(scene.paint.shapes.address()),
-                                            words(scene.paint.surfaces.address()),
-                                            words(buffers.lit.address()),
-                                            words(light_.address()),
-                                            words(diodes_.address()),
-                                            words(buffers.channels.address()),
-                                            words(work_.address())};
+                                            chip_.words(),
+                                            buffers.tags.words(),
+                                            scene.planes.words(),
+                                            scene.paint.shapes.words(),
+                                            scene.paint.surfaces.words(),
+                                            buffers.lit.words(),
+                                            light_.words(),
+                                            diodes_.words(),
+                                            buffers.channels.words(),
+                                            work_.words()};
   dispatch_listed(pipeline_, commands, constants, strip.padded_pixels, few, of_pixels);
 }
 

@@ -68,8 +68,7 @@ void PixelLists::record_clear(const vk::raii::CommandBuffer &commands) const {
 void PixelLists::record_count(const vk::raii::CommandBuffer &commands, std::uint32_t samples) const {
   vulkan::compute_barrier(commands);
   shader::PixelListConstants constants{{}, samples};
-  std::ranges::transform(lists_, constants.lists,
-                         [](const vulkan::Buffer &list) { return words(list.address()); });
+  std::ranges::transform(lists_, constants.lists, [](const vulkan::Buffer &list) { return list.words(); });
   count_.dispatch(commands, constants, 1, 1);
   vulkan::compute_barrier(commands);
 }

@@ -100,19 +100,18 @@ SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const
 
 void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                         const StripBuffers &buffers, const SceneBuffers &scene) const {
-  const shader::SearchConstants constants{
-      planned.strip,
-      words(lens_.address()),
-      words(views_.address() + planned.block * sizeof(shader::RasterView)),
-      words(buffers.fragments.address()),
-      words(scene.planes.address()),
-      words(corners_.address()),
-      words(buffers.tags.address()),
-      words(buffers.position.address()),
-      words(buffers.surface.address()),
-      words(buffers.backscatter.address()),
-      words(scene.paint.shapes.address()),
-      words(scene.paint.surfaces.address())};
+  const shader::SearchConstants constants{planned.strip,
+                                          lens_.words(),
+                                          views_.words(planned.block * sizeof(shader::RasterView)),
+                                          buffers.fragments.words(),
+                                          scene.planes.words(),
+                                          corners_.words(),
+                                          buffers.tags.words(),
+                                          buffers.position.words(),
+                                          buffers.surface.words(),
+                                          buffers.backscatter.words(),
+                                          scene.paint.shapes.words(),
+                                          scene.paint.surfaces.words()};
   pipeline_.dispatch(commands, constants, sample_count(planned.strip), shader::workgroup_size);
 }
 

@@ -22,14 +22,14 @@ void PointsPass::record(const vk::raii::CommandBuffer &commands, const shader::S
                         const vulkan::Buffer *list) const {
   const shader::PointsConstants constants{strip,
                                           slope_,
-                                          words(chip_.address()),
-                                          words(buffers.tags.address()),
-                                          words(scene.planes.address()),
-                                          words(buffers.position.address()),
-                                          words(buffers.surface.address()),
-                                          words(buffers.backscatter.address()),
-                                          words(scene.paint.shapes.address()),
-                                          words(scene.paint.surfaces.address()),
+                                          chip_.words(),
+                                          buffers.tags.words(),
+                                          scene.planes.words(),
+                                          buffers.position.words(),
+                                          buffers.surface.words(),
+                                          buffers.backscatter.words(),
+                                          scene.paint.shapes.words(),
+                                          scene.paint.surfaces.words(),
                                           address_of(list)};
   dispatch_listed(pipeline_, commands, constants, sample_count(strip), list, of_samples);
 }
