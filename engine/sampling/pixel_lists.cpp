@@ -1,7 +1,6 @@
 #include "engine/sampling/pixel_lists.h"
 
 #include "engine/vulkan/commands.h"
-#include "spirv/pixel_list_count.h"
 
 #include <algorithm>
 
@@ -43,7 +42,8 @@ std::uint32_t most_pixels(const std::vector<PlannedStrip> &strips) {
 PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
     : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips)),
              make_pixel_list(device, most_pixels(strips))},
-      count_(device, shader::pixel_list_count_spirv, sizeof(shader::PixelListConstants)) {}
+      count_(device, vulkan::shader_module(device, SamplePrecision::automatic, "pixel_list_count"),
+             sizeof(shader::PixelListConstants)) {}
 
 void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
                  std::span<const std::uint32_t> pixels, std::uint32_t samples) {
