@@ -21,7 +21,7 @@ int main(int argument_count, char **arguments) {
   try {
     stop_on_signals();
     if (const auto options = parse_options(argument_count, arguments)) {
-      settle_vector_width(options->no_wide_vectors);
+      settle_vector_width();
       run_command(*options);
     }
     return static_cast<int>(ExitCode::done);

@@ -31,7 +31,7 @@ struct Written {
   std::optional<std::string> samples, frames;
   std::optional<double> pixel_pitch_m;
   std::vector<std::string> formats;
-  bool no_wide_vectors = false, json = false;
+  bool json = false;
 };
 
 void add_setup(CLI::App &command, Written &written) {
@@ -52,8 +52,9 @@ void add_measuring(CLI::App &command, Written &written) {
   command.add_option("--device", written.device,
                      "part of a device's name, its index (see `pmdsim devices`), or `reference`");
   add_accuracy(command, written.accuracy);
-  command.add_flag("--no-wide-vectors", written.no_wide_vectors,
-                   "lavapipe: vectors of no more than 256 bits, whatever LP_NATIVE_VECTOR_WIDTH says");
+  command.add_flag(
+      "--no-wide-vectors",
+      "lavapipe: vectors of no more than 256 bits, whatever LP_NATIVE_VECTOR_WIDTH says; always so");
 }
 
 void add_output(CLI::App &command, Written &written) {
@@ -195,7 +196,6 @@ Options checked(const Written &written, const std::string &command) {
   options.sensor_name = written.sensor_name;
   options.device = written.device;
   options.json = written.json;
-  options.no_wide_vectors = written.no_wide_vectors;
   options.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
   options.mode_written = written.accuracy.mode.has_value();
   if (written.samples)

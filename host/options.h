@@ -35,7 +35,6 @@ struct Options {
   std::filesystem::path calibration;      // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;    // along the columns, instead of the default
   std::string sensor_name;                // instead of the file's; empty where it is not given
-  bool no_wide_vectors = false;           // vector_width.h
   bool json = false;
 };
 

@@ -37,11 +37,11 @@ std::optional<std::filesystem::path> cache_directory() {
 
 } // namespace
 
-void settle_vector_width(bool no_wide_vectors) {
+void settle_vector_width() {
   auto width = environment(width_variable);
   if (!width)
     return;
-  if (no_wide_vectors && bits(*width) > 256) {
+  if (bits(*width) > 256) {
     width = usual_width;
     set(width_variable, usual_width);
   }

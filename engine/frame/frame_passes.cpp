@@ -2,7 +2,7 @@
 
 #include "engine/shadow/occluders.h"
 #include "engine/view/projection.h"
-#include "engine/vulkan/sample_precision.h"
+#include "engine/vulkan/shader_module.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ SceneBuffers upload_scene(const vulkan::Device &device, const CameraScene &camer
 // Of one sample a pixel.
 TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOptions &options,
                                 const Scene &scene) {
-  TruthOfRecords truth{{}, uses_fp64(device, options.precision)};
+  TruthOfRecords truth{{}, vulkan::uses_fp64(device, options.precision)};
   truth.object_of_shape.reserve(scene.shape_count());
   for (std::uint32_t id = 0; id < scene.shape_count(); ++id)
     truth.object_of_shape.push_back(scene.object_of(id));

@@ -4,11 +4,7 @@
 #include "engine/signal/frequency_records.h"
 #include "engine/signal/resolve_pass.h"
 #include "engine/vulkan/commands.h"
-#include "engine/vulkan/forms.h"
-#include "spirv/short_way_looped_double_float.h"
-#include "spirv/short_way_looped_fp64.h"
-#include "spirv/short_way_straight_double_float.h"
-#include "spirv/short_way_straight_fp64.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <cstring>
@@ -17,26 +13,25 @@
 namespace pmdsim {
 namespace {
 
-const Forms forms{shader::short_way_straight_fp64_spirv, shader::short_way_straight_double_float_spirv,
-                  shader::short_way_looped_fp64_spirv, shader::short_way_looped_double_float_spirv};
+std::uint32_t lists_of(const ShortWayOptions &ways) {
+  if (!ways.lists)
+    return shader::lists_no_pixel;
+  return ways.few_follow ? shader::lists_in_three : shader::lists_in_two;
+}
 
-vulkan::Specialization constants_of(const Sensor &sensor, const DiodeGroups &groups, const SumModel &model,
+vulkan::Specialization constants_of(const vulkan::Device &device, const SimulatorOptions &options,
+                                    const Sensor &sensor, const DiodeGroups &groups, const SumModel &model,
                                     const Signal &signal, const ShortWayOptions &ways) {
-  vulkan::Specialization constants = sum_constants(groups, model, signal, {false, false}, true);
-  const vulkan::Specialization resolve =
-      resolve_constants(signal, {is_tiled(sensor), false, Precision::fp32, {}}, true);
-  constants.insert(constants.end(), resolve.begin(), resolve.end());
-  const vulkan::Specialization points{1,
-                                      sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
-                                      is_plain(sensor) ? 0u : 1u,
-                                      0,
-                                      ways.painted ? 1u : 0u,
-                                      0};
-  constants.insert(constants.end(), points.begin(), points.end());
-  constants.push_back(ways.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u);
-  constants.insert(constants.end(),
-                   {sensor.samples, ways.places, ways.lists ? 1u : 0u, ways.few_follow ? 1u : 0u});
-  return constants;
+  return sum_constants(device, options, groups, model, signal, {})
+      .merge(resolve_constants(signal, {is_tiled(sensor)}, true))
+      .merge({{shader::constant_surface_vectors, 1},
+              {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
+              {shader::constant_general_chip, !is_plain(sensor)},
+              {shader::constant_painted, ways.painted},
+              {shader::constant_runs, ways.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
+              {shader::constant_side, sensor.samples},
+              {shader::constant_places, ways.places},
+              {shader::constant_lists_pixels, lists_of(ways)}});
 }
 
 shader::ShortWayLight light_record(const LightExtent &extent, const Signal &signal, bool phased) {
@@ -81,10 +76,11 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
     : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
       diodes_(upload_diodes(device, groups, {})),
       diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      pipeline_(device, forms.choose(device, options), sizeof(shader::ShortWayConstants),
-                constants_of(sensor, groups, model, signal, ways)) {
+      pipeline_(device, vulkan::shader_module(device, options.precision, "uniform_pixels"),
+                sizeof(shader::ShortWayConstants),
+                constants_of(device, options, sensor, groups, model, signal, ways)) {
   shader::ShortWayLight light = light_record(extent, signal, groups.phased);
-  light.diagrams = words(diagrams_.address());
+  light.diagrams = diagrams_.words();
   if (ways.sums) {
     std::ranges::copy(signal.all_tones(), light.tones);
     std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
@@ -94,7 +90,7 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
   work.lit_channel = signal.lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
-    work.lists[list] = words(lists.of(list).address());
+    work.lists[list] = lists.of(list).words();
   work_ = vulkan::upload(device, std::as_bytes(std::span(&work, 1)));
 }
 
@@ -104,16 +100,16 @@ void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::compute_barrier(commands);
   const shader::ShortWayConstants constants{strip,
                                             slope_,
-                                            words(chip_.address()),
-                                            words(buffers.tags.address()),
-                                            words(scene.planes.address()),
-                                            words(scene.paint.shapes.address()),
-                                            words(scene.paint.surfaces.address()),
-                                            words(buffers.lit.address()),
-                                            words(light_.address()),
-                                            words(diodes_.address()),
-                                            words(buffers.channels.address()),
-                                            words(work_.address())};
+                                            chip_.words(),
+                                            buffers.tags.words(),
+                                            scene.planes.words(),
+                                            scene.paint.shapes.words(),
+                                            scene.paint.surfaces.words(),
+                                            buffers.lit.words(),
+                                            light_.words(),
+                                            diodes_.words(),
+                                            buffers.channels.words(),
+                                            work_.words()};
   dispatch_listed(pipeline_, commands, constants, strip.padded_pixels, few, of_pixels);
 }
 

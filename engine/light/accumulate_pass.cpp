@@ -2,22 +2,7 @@
 
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/float_pair.h"
-#include "engine/vulkan/forms.h"
-#include "spirv/accumulate_looped_double_float.h"
-#include "spirv/accumulate_looped_fp64.h"
-#include "spirv/accumulate_per_diode_looped_double_float.h"
-#include "spirv/accumulate_per_diode_looped_fp64.h"
-#include "spirv/accumulate_per_diode_straight_double_float.h"
-#include "spirv/accumulate_per_diode_straight_fp64.h"
-#include "spirv/accumulate_plain_looped_double_float.h"
-#include "spirv/accumulate_plain_looped_fp64.h"
-#include "spirv/accumulate_plain_straight_double_float.h"
-#include "spirv/accumulate_plain_straight_fp64.h"
-#include "spirv/accumulate_precise_looped_double_float.h"
-#include "spirv/accumulate_precise_looped_fp64.h"
-#include "spirv/accumulate_precise_straight_fp64.h"
-#include "spirv/accumulate_straight_double_float.h"
-#include "spirv/accumulate_straight_fp64.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,27 +14,20 @@ namespace {
 // What rounding does to a diode's height over a surface: this often u, 2^-24 of float and 2^-45 of fp64,
 // times the size of the light with its distance from the lens.
 constexpr double height_rounding = 14.0;
-const Forms moment_forms{shader::accumulate_straight_fp64_spirv,
-                         shader::accumulate_straight_double_float_spirv, shader::accumulate_looped_fp64_spirv,
-                         shader::accumulate_looped_double_float_spirv};
-const Forms plain_forms{
-    shader::accumulate_plain_straight_fp64_spirv, shader::accumulate_plain_straight_double_float_spirv,
-    shader::accumulate_plain_looped_fp64_spirv, shader::accumulate_plain_looped_double_float_spirv};
-const Forms direct_forms{shader::accumulate_per_diode_straight_fp64_spirv,
-                         shader::accumulate_per_diode_straight_double_float_spirv,
-                         shader::accumulate_per_diode_looped_fp64_spirv,
-                         shader::accumulate_per_diode_looped_double_float_spirv};
-// Pairs of floats as a straight line would take minutes to compile.
-const Forms precise_forms{
-    shader::accumulate_precise_straight_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv,
-    shader::accumulate_precise_looped_fp64_spirv, shader::accumulate_precise_looped_double_float_spirv};
 
-const Forms &forms_of(const Signal &signal, const AccumulatePass::Scope &scope) {
+std::string_view module_of(const Signal &signal, const AccumulatePass::Scope &scope) {
   if (scope.plain)
-    return plain_forms;
-  return !signal.by_moments                   ? direct_forms
-         : scope.precision == Precision::fp64 ? precise_forms
-                                              : moment_forms;
+    return "accumulate_plain";
+  if (!signal.by_moments)
+    return "accumulate_per_diode";
+  return scope.precision == Precision::fp64 ? "accumulate_precise" : "accumulate";
+}
+
+// Precise sums of pairs of floats would take minutes to compile as a straight line.
+bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, Precision precision) {
+  const bool loops = precision == Precision::fp64 && !vulkan::uses_fp64(device, options.precision);
+  return !loops &&
+         (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
 } // namespace
@@ -78,25 +56,25 @@ vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &gr
   return vulkan::upload(device, std::as_bytes(std::span(positions)));
 }
 
-vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
-                                     const AccumulatePass::Scope &scope, bool first) {
-  return {groups.moments,
-          model.backscatter,
-          model.pattern,
-          model.order,
-          groups.blocks_per_run,
-          first ? 1u : 0u,
-          signal.tones * signal.frequencies(),
-          signal.waveform,
-          signal.taps,
-          signal.distinct_taps,
-          groups.phased ? 1u : 0u,
-          scope.shadowed ? 1u : 0u,
-          scope.listed ? 1u : 0u,
-          signal.promised ? 1u : 0u,
-          groups.power_sums.powers,
-          sums_alike(groups, scope) ? 1u : 0u,
-          groups.power_sums.planar ? 1u : 0u};
+vulkan::Specialization sum_constants(const vulkan::Device &device, const SimulatorOptions &options,
+                                     const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Scope &scope) {
+  return {{shader::constant_straight, is_straight(device, options, scope.precision)},
+          {shader::constant_blocks_per_run, groups.blocks_per_run},
+          {shader::constant_moments, groups.moments},
+          {shader::constant_powers, groups.power_sums.powers},
+          {shader::constant_alike, sums_alike(groups, scope)},
+          {shader::constant_planar, groups.power_sums.planar},
+          {shader::constant_backscatter_model, model.backscatter},
+          {shader::constant_pattern_model, model.pattern},
+          {shader::constant_cosine_order, model.order},
+          {shader::constant_phased, groups.phased},
+          {shader::constant_shadowed, scope.shadowed},
+          {shader::constant_tones, signal.tones * signal.frequencies()},
+          {shader::constant_waveform, signal.waveform},
+          {shader::constant_taps, signal.taps},
+          {shader::constant_listed, scope.listed},
+          {shader::constant_promised, signal.promised}};
 }
 
 namespace {
@@ -105,15 +83,15 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
                                       const SumModel &model, const Signal &signal,
                                       const SimulatorOptions &options, const AccumulatePass::Scope &scope,
                                       bool first) {
-  vulkan::Specialization constants = sum_constants(groups, model, signal, scope, first);
-  if (scope.plain) {
-    constants.push_back(groups.runs.size() == 1 ? 1u : 0u);
-    constants.push_back(scope.plain->is_nominal() ? 0u : 1u);
-  }
-  const std::size_t bytes =
-      scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants);
-  return {device, forms_of(signal, scope).choose(device, options), static_cast<std::uint32_t>(bytes),
-          constants};
+  vulkan::Specialization constants = sum_constants(device, options, groups, model, signal, scope);
+  constants.set(shader::constant_is_first, first);
+  if (scope.plain)
+    constants.set(shader::constant_is_only, groups.runs.size() == 1)
+        .set(shader::constant_general_chip, !scope.plain->is_nominal());
+  const vulkan::ShaderModule &module =
+      vulkan::shader_module(device, options.precision, module_of(signal, scope));
+  return {device, module,
+          scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants), constants};
 }
 
 // At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
@@ -210,16 +188,16 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
     const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
     for (std::uint32_t d = 0; d < dispatches_; ++d) {
       const shader::AccumulateConstants constants{
-          words(buffers.position.address()),
-          words(buffers.surface.address()),
-          words(buffers.backscatter.address()),
-          words(buffers.sum.address() + vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
-          words(light_runs_.address() + run * sizeof(shader::LightRun)),
-          words(diodes_.address() + runs_[run].first * diode_bytes_),
-          words(tones_.address() + d * sizeof(shader::Tone)),
-          words(diagrams_.address()),
-          words(buffers.reached.address() + bundle * plane * sizeof(std::uint32_t)),
-          words(buffers.terms.address()),
+          buffers.position.words(),
+          buffers.surface.words(),
+          buffers.backscatter.words(),
+          buffers.sum.words(vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
+          light_runs_.words(run * sizeof(shader::LightRun)),
+          diodes_.words(runs_[run].first * diode_bytes_),
+          tones_.words(d * sizeof(shader::Tone)),
+          diagrams_.words(),
+          buffers.reached.words(bundle * plane * sizeof(std::uint32_t)),
+          buffers.terms.words(),
           address_of(list),
           blocks_per_run_,
           plane,
@@ -236,13 +214,13 @@ void AccumulatePass::record_plain(const vk::raii::CommandBuffer &commands, const
   const std::uint32_t plane = sample_count(strip);
   const shader::PlainSumConstants constants{plain_->of(strip),
                                             plain_->chip(),
-                                            words(buffers.tags.address()),
-                                            words(scene.planes.address()),
-                                            words(buffers.sum.address()),
-                                            words(light_runs_.address() + run * sizeof(shader::LightRun)),
-                                            words(diodes_.address() + runs_[run].first * diode_bytes_),
-                                            words(tones_.address()),
-                                            words(diagrams_.address()),
+                                            buffers.tags.words(),
+                                            scene.planes.words(),
+                                            buffers.sum.words(),
+                                            light_runs_.words(run * sizeof(shader::LightRun)),
+                                            diodes_.words(runs_[run].first * diode_bytes_),
+                                            tones_.words(),
+                                            diagrams_.words(),
                                             blocks_per_run_,
                                             plane,
                                             strip.columns * strip.rows * strip.samples * strip.samples,

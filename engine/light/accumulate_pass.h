@@ -63,8 +63,9 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
 
 // Of the moments' forms and what they share with other sums: specialization constants, and the diodes and
 // tones that they read.
-vulkan::Specialization sum_constants(const DiodeGroups &groups, const SumModel &model, const Signal &signal,
-                                     const AccumulatePass::Scope &scope, bool first);
+vulkan::Specialization sum_constants(const vulkan::Device &device, const SimulatorOptions &options,
+                                     const DiodeGroups &groups, const SumModel &model, const Signal &signal,
+                                     const AccumulatePass::Scope &scope);
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
                              const AccumulatePass::Scope &scope);
 vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal);

@@ -30,6 +30,6 @@ shader::SampleGrid ChipGrid::of(const shader::Strip &strip) const {
   return {slope_, glm::vec2(2.0 * corner + 1.0 - all), columns, 1.0f / static_cast<float>(columns)};
 }
 
-shader::uvec2 ChipGrid::chip() const { return words(chip_->address()); }
+shader::uvec2 ChipGrid::chip() const { return chip_->words(); }
 
 } // namespace pmdsim

@@ -1,7 +1,6 @@
 #include "engine/sampling/pixel_lists.h"
 
 #include "engine/vulkan/commands.h"
-#include "spirv/pixel_list_count.h"
 
 #include <algorithm>
 
@@ -43,7 +42,8 @@ std::uint32_t most_pixels(const std::vector<PlannedStrip> &strips) {
 PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
     : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips)),
              make_pixel_list(device, most_pixels(strips))},
-      count_(device, shader::pixel_list_count_spirv, sizeof(shader::PixelListConstants)) {}
+      count_(device, vulkan::shader_module(device, SamplePrecision::automatic, "pixel_list_count"),
+             sizeof(shader::PixelListConstants)) {}
 
 void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
                  std::span<const std::uint32_t> pixels, std::uint32_t samples) {
@@ -68,8 +68,7 @@ void PixelLists::record_clear(const vk::raii::CommandBuffer &commands) const {
 void PixelLists::record_count(const vk::raii::CommandBuffer &commands, std::uint32_t samples) const {
   vulkan::compute_barrier(commands);
   shader::PixelListConstants constants{{}, samples};
-  std::ranges::transform(lists_, constants.lists,
-                         [](const vulkan::Buffer &list) { return words(list.address()); });
+  std::ranges::transform(lists_, constants.lists, [](const vulkan::Buffer &list) { return list.words(); });
   count_.dispatch(commands, constants, 1, 1);
   vulkan::compute_barrier(commands);
 }

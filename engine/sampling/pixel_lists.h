@@ -51,7 +51,7 @@ void dispatch_listed(const vulkan::ComputePipeline &pipeline, const vk::raii::Co
 }
 
 inline shader::uvec2 address_of(const vulkan::Buffer *list) {
-  return list ? words(list->address()) : shader::uvec2(0);
+  return list ? list->words() : shader::uvec2(0);
 }
 
 } // namespace pmdsim

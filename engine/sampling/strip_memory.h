@@ -75,9 +75,4 @@ inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;
 }
 
-// The address of a buffer as push constants carry it.
-inline shader::uvec2 words(vk::DeviceAddress address) {
-  return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32)};
-}
-
 } // namespace pmdsim

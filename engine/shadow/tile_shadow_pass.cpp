@@ -66,12 +66,12 @@ LitScene upload_scene(const vulkan::Device &device, const Occluders &occluders, 
                vulkan::upload(device, std::as_bytes(std::span(tree.nodes))),
                vulkan::upload(device, std::as_bytes(std::span(occluders.bodies))),
                {}};
-  const shader::LitScene record{words(scene.planes.address()),
-                                words(lit.occluders.address()),
-                                words(lit.tree.address()),
-                                words(lit.bodies.address()),
-                                words(scene.paint.shapes.address()),
-                                words(scene.paint.surfaces.address()),
+  const shader::LitScene record{scene.planes.words(),
+                                lit.occluders.words(),
+                                lit.tree.words(),
+                                lit.bodies.words(),
+                                scene.paint.shapes.words(),
+                                scene.paint.surfaces.words(),
                                 nodes,
                                 static_cast<float>(scene.world_rounding_m)};
   lit.record = vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
@@ -109,9 +109,8 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
   vulkan::compute_barrier(commands);
-  const shader::LitTilesConstants constants{strip, words(buffers.position.address()),
-                                            words(buffers.tags.address()), words(scene_.record.address()),
-                                            words(parts_.address())};
+  const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.tags.words(),
+                                            scene_.record.words(), parts_.words()};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
 
@@ -147,13 +146,13 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
 shader::LitGatherConstants LitPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
                                                      std::size_t window) const {
   return {strip,
-          words(buffers.position.address()),
-          words(buffers.tags.address()),
-          words(parts_.address()),
-          words(scene_.record.address()),
-          words(diodes_[window].boxes.address()),
-          words(work_.address()),
-          words(candidates_.address()),
+          buffers.position.words(),
+          buffers.tags.words(),
+          parts_.words(),
+          scene_.record.words(),
+          diodes_[window].boxes.words(),
+          work_.words(),
+          candidates_.words(),
           parts_of(strip),
           0,
           slots_};
@@ -163,14 +162,14 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
                             const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const {
   shader::LitDecideConstants constants{
       strip,
-      words(buffers.position.address()),
-      words(buffers.tags.address()),
-      words(parts_.address()),
-      words(scene_.record.address()),
-      words(diodes_[window].bundles.address() + bundle * sizeof(shader::BundleDiodes)),
-      words(work_.address()),
-      words(candidates_.address()),
-      words(buffers.reached.address() + vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
+      buffers.position.words(),
+      buffers.tags.words(),
+      parts_.words(),
+      scene_.record.words(),
+      diodes_[window].bundles.words(bundle * sizeof(shader::BundleDiodes)),
+      work_.words(),
+      candidates_.words(),
+      buffers.reached.words(vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
       bundle,
       parts_of(strip),
       slots_,
@@ -192,9 +191,8 @@ void LitPass::record_count(const vk::raii::CommandBuffer &commands, const shader
                            const StripBuffers &buffers, std::size_t window) const {
   vulkan::compute_barrier(commands);
   const std::uint32_t plane = sample_count(strip);
-  const shader::LitCountConstants constants{words(buffers.reached.address()),
-                                            words(diodes_[window].bits.address()),
-                                            words(buffers.lit.address()), plane};
+  const shader::LitCountConstants constants{buffers.reached.words(), diodes_[window].bits.words(),
+                                            buffers.lit.words(), plane};
   pipelines_.counts[window].dispatch(commands, constants, plane, shader::workgroup_size);
 }
 

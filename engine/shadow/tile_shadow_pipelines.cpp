@@ -1,18 +1,7 @@
 #include "engine/shadow/tile_shadow_pipelines.h"
 
-#include "engine/vulkan/sample_precision.h"
-#include "spirv/lit_clear_double_float.h"
-#include "spirv/lit_clear_fp64.h"
-#include "spirv/lit_count.h"
-#include "spirv/lit_gather_double_float.h"
-#include "spirv/lit_gather_fp64.h"
-#include "spirv/lit_open.h"
-#include "spirv/lit_tiles_double_float.h"
-#include "spirv/lit_tiles_fp64.h"
-#include "spirv/lit_trace_double_float.h"
-#include "spirv/lit_trace_fp64.h"
-#include "spirv/lit_try_double_float.h"
-#include "spirv/lit_try_fp64.h"
+#include "shaders/shadow/lit_interface.h"
+#include "shaders/shared/constants.h"
 
 namespace pmdsim {
 namespace {
@@ -27,35 +16,29 @@ std::uint32_t lanes_to_try(const vulkan::Device &device) {
 
 LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
                                 const LitForm &form, SamplePrecision precision) {
-  const std::uint32_t lanes = lanes_to_try(device);
-  const auto pipeline = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float,
-                            std::size_t constants, const vulkan::Specialization &specialization) {
-    return vulkan::ComputePipeline(device, choose(device, precision, fp64, double_float),
-                                   static_cast<std::uint32_t>(constants), specialization);
+  vulkan::Specialization constants{{shader::constant_tiled, form.tiled},
+                                   {shader::constant_masked, form.masked},
+                                   {shader::constant_flat_bundles, form.flat},
+                                   {shader::constant_lanes, lanes_to_try(device)},
+                                   {shader::constant_is_first, 1}};
+  const auto pipeline = [&](std::string_view name, std::size_t push_constant_bytes) {
+    return vulkan::ComputePipeline(device, vulkan::shader_module(device, precision, name),
+                                   push_constant_bytes, constants);
   };
-  const auto tracing = [&](bool again) {
-    return pipeline(shader::lit_trace_fp64_spirv, shader::lit_trace_double_float_spirv,
-                    sizeof(shader::LitDecideConstants),
-                    {form.tiled ? 1u : 0u, form.masked ? 1u : 0u, again ? 1u : 0u});
-  };
-  LitPipelines made{
-      pipeline(shader::lit_tiles_fp64_spirv, shader::lit_tiles_double_float_spirv,
-               sizeof(shader::LitTilesConstants), {form.tiled ? 1u : 0u}),
-      pipeline(shader::lit_open_spirv, shader::lit_open_spirv, sizeof(shader::LitGatherConstants), {}),
-      pipeline(shader::lit_gather_fp64_spirv, shader::lit_gather_double_float_spirv,
-               sizeof(shader::LitGatherConstants), {form.tiled ? 1u : 0u}),
-      pipeline(shader::lit_try_fp64_spirv, shader::lit_try_double_float_spirv,
-               sizeof(shader::LitDecideConstants),
-               {form.tiled ? 1u : 0u, lanes, shader::tile_samples / lanes, form.flat ? 1u : 0u}),
-      pipeline(shader::lit_clear_fp64_spirv, shader::lit_clear_double_float_spirv,
-               sizeof(shader::LitDecideConstants), {form.tiled ? 1u : 0u}),
-      tracing(false),
-      tracing(true),
-      {}};
-  for (const LitWindow &window : windows)
-    made.counts.push_back(pipeline(shader::lit_count_spirv, shader::lit_count_spirv,
-                                   sizeof(shader::LitCountConstants),
-                                   {window.bundles, made.counts.empty() ? 1u : 0u}));
+  LitPipelines made;
+  made.tiles = pipeline("lit_tiles", sizeof(shader::LitTilesConstants));
+  made.open = pipeline("lit_open", sizeof(shader::LitGatherConstants));
+  made.gather = pipeline("lit_gather", sizeof(shader::LitGatherConstants));
+  made.attempt = pipeline("lit_try", sizeof(shader::LitDecideConstants));
+  made.clear = pipeline("lit_clear", sizeof(shader::LitDecideConstants));
+  made.trace = pipeline("lit_trace", sizeof(shader::LitDecideConstants));
+  for (const LitWindow &window : windows) {
+    constants.set(shader::constant_bundles, window.bundles)
+        .set(shader::constant_is_first, made.counts.empty());
+    made.counts.push_back(pipeline("lit_count", sizeof(shader::LitCountConstants)));
+  }
+  constants.set(shader::constant_is_first, 0);
+  made.walk = pipeline("lit_trace", sizeof(shader::LitDecideConstants));
   return made;
 }
 

@@ -2,26 +2,22 @@
 
 #include "engine/signal/frequency_records.h"
 #include "engine/vulkan/commands.h"
-#include "engine/vulkan/sample_precision.h"
-#include "spirv/resolve_double_float.h"
-#include "spirv/resolve_fp64.h"
-#include "spirv/resolve_plain_double_float.h"
-#include "spirv/resolve_plain_fp64.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 
 namespace pmdsim {
 vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
-  return {signal.planes,
-          signal.waveform,
-          signal.taps,
-          signal.keep_taps ? 1u : 0u,
-          first ? 1u : 0u,
-          scope.tiled ? 1u : 0u,
-          first && signal.lit ? 1u : 0u,
-          scope.listed ? 1u : 0u,
-          signal.promised ? 1u : 0u,
-          scope.precision == Precision::fp64 ? 1u : 0u};
+  return {{shader::constant_planes, signal.planes},
+          {shader::constant_waveform, signal.waveform},
+          {shader::constant_taps, signal.taps},
+          {shader::constant_keep_taps, signal.keep_taps},
+          {shader::constant_ground_truth, first},
+          {shader::constant_tiled, scope.tiled},
+          {shader::constant_lit_is_kept, first && signal.lit},
+          {shader::constant_listed, scope.listed},
+          {shader::constant_promised, signal.promised},
+          {shader::constant_precise_sum, scope.precision == Precision::fp64}};
 }
 
 namespace {
@@ -39,25 +35,24 @@ std::uint32_t frequencies_at_once(const Signal &signal) {
 vulkan::Specialization plain_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
   const ResolvePass::PlainScope &plain = *scope.plain;
   vulkan::Specialization constants = resolve_constants(signal, scope, first && !plain.truth_of_records);
-  const vulkan::Specialization points{0, plain.vignetting ? 1u : 0u, plain.grid.is_nominal() ? 0u : 1u,
-                                      0, plain.painted ? 1u : 0u,    0};
-  constants.insert(constants.end(), points.begin(), points.end());
-  constants.insert(constants.end(), {plain.single_run ? 1u : 0u, plain.samples, frequencies_at_once(signal),
-                                     plain.one_backscatter ? 1u : 0u});
-  return constants;
+  return constants.merge({{shader::constant_surface_vectors, 0},
+                          {shader::constant_vignetting, plain.vignetting},
+                          {shader::constant_general_chip, !plain.grid.is_nominal()},
+                          {shader::constant_painted, plain.painted},
+                          {shader::constant_is_only, plain.single_run},
+                          {shader::constant_side, plain.samples},
+                          {shader::constant_frequencies, frequencies_at_once(signal)},
+                          {shader::constant_one_backscatter, plain.one_backscatter}});
 }
 
 vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
                                       SamplePrecision precision, const ResolvePass::Scope &scope,
                                       bool first) {
-  const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
-    return choose(device, precision, fp64, double_float);
-  };
   if (scope.plain)
-    return {device, of(shader::resolve_plain_fp64_spirv, shader::resolve_plain_double_float_spirv),
+    return {device, vulkan::shader_module(device, precision, "resolve_plain"),
             sizeof(shader::PlainResolveConstants), plain_constants(signal, scope, first)};
-  return {device, of(shader::resolve_fp64_spirv, shader::resolve_double_float_spirv),
-          sizeof(shader::ResolveConstants), resolve_constants(signal, scope, first)};
+  return {device, vulkan::shader_module(device, precision, "resolve"), sizeof(shader::ResolveConstants),
+          resolve_constants(signal, scope, first)};
 }
 
 vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &signal,
@@ -90,25 +85,24 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
     const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
-    const shader::ResolveConstants constants{
-        words(buffers.position.address()),
-        words(buffers.sum.address() + first_plane * plane * sizeof(shader::vec4)),
-        words(buffers.tags.address()),
-        words(scene.planes.address()),
-        words(buffers.channels.address()),
-        words(harmonics_.address()),
-        words(frequencies_.address() + f * sizeof(shader::Frequency)),
-        words(buffers.lit.address()),
-        words(buffers.terms.address()),
-        words(buffers.broken.address()),
-        address_of(list),
-        strip.columns,
-        strip.samples,
-        strip.padded_pixels,
-        strip.columns * strip.rows,
-        plane,
-        signal_.lit_channel(),
-        diodes_};
+    const shader::ResolveConstants constants{buffers.position.words(),
+                                             buffers.sum.words(first_plane * plane * sizeof(shader::vec4)),
+                                             buffers.tags.words(),
+                                             scene.planes.words(),
+                                             buffers.channels.words(),
+                                             harmonics_.words(),
+                                             frequencies_.words(f * sizeof(shader::Frequency)),
+                                             buffers.lit.words(),
+                                             buffers.terms.words(),
+                                             buffers.broken.words(),
+                                             address_of(list),
+                                             strip.columns,
+                                             strip.samples,
+                                             strip.padded_pixels,
+                                             strip.columns * strip.rows,
+                                             plane,
+                                             signal_.lit_channel(),
+                                             diodes_};
     dispatch_listed(f == 0 ? first_ : later_, commands, constants, strip.padded_pixels, list, of_pixels);
   }
 }
@@ -122,14 +116,14 @@ void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const sh
   const shader::PlainResolveConstants constants{
       plain_->grid.of(strip),
       plain_->grid.chip(),
-      words(buffers.tags.address()),
-      words(scene.planes.address()),
-      words(buffers.sum.address() + first_plane * plane * sum_bytes),
-      words(buffers.channels.address()),
-      words(harmonics_.address()),
-      words(frequencies_.address() + first_frequency * sizeof(shader::Frequency)),
-      words(scene.paint.shapes.address()),
-      words(scene.paint.surfaces.address()),
+      buffers.tags.words(),
+      scene.planes.words(),
+      buffers.sum.words(first_plane * plane * sum_bytes),
+      buffers.channels.words(),
+      harmonics_.words(),
+      frequencies_.words(first_frequency * sizeof(shader::Frequency)),
+      scene.paint.shapes.words(),
+      scene.paint.surfaces.words(),
       strip.columns * strip.rows,
       strip.padded_pixels,
       plane,

@@ -3,22 +3,8 @@
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/errors.h"
 #include "engine/vulkan/float_pair.h"
-#include "engine/vulkan/sample_precision.h"
-#include "spirv/tags_double_float.h"
-#include "spirv/tags_fp64.h"
-#include "spirv/visibility_depth_frag_double_float.h"
-#include "spirv/visibility_depth_frag_fp64.h"
-#include "spirv/visibility_depth_masked_double_float.h"
-#include "spirv/visibility_depth_masked_fp64.h"
-#include "spirv/visibility_depth_vert_double_float.h"
-#include "spirv/visibility_depth_vert_fp64.h"
-#include "spirv/visibility_frag.h"
-#include "spirv/visibility_keys_frag.h"
-#include "spirv/visibility_keys_masked_double_float.h"
-#include "spirv/visibility_keys_masked_fp64.h"
-#include "spirv/visibility_masked_double_float.h"
-#include "spirv/visibility_masked_fp64.h"
-#include "spirv/visibility_vert.h"
+#include "engine/vulkan/shader_stage.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -49,10 +35,6 @@ std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
   return extents;
 }
 
-vk::raii::ShaderModule shader_module(const vulkan::Device &device, std::span<const std::uint32_t> spirv) {
-  return {device.get(), vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data())};
-}
-
 vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
   return vulkan::checked([&] {
     const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
@@ -72,44 +54,20 @@ vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<Ras
   return vulkan::upload(device, std::as_bytes(std::span(records)));
 }
 
-struct RasterShaders {
-  std::span<const std::uint32_t> vertex, fragment;
+// The shaders of a raster with the values of their constants, and what it draws on.
+struct Raster {
+  const vulkan::ShaderModule &vertex, &fragment;
+  vulkan::Specialization of_vertex, of_fragment;
+  vk::Format format;
 };
 
-RasterShaders choose_shaders(const vulkan::Device &device, bool masked, SamplePrecision precision,
-                             bool depths) {
-  const auto of = [&](std::span<const std::uint32_t> fp64, std::span<const std::uint32_t> double_float) {
-    return choose(device, precision, fp64, double_float);
-  };
-  if (!device.has_attachments())
-    return {shader::visibility_vert_spirv,
-            masked ? of(shader::visibility_keys_masked_fp64_spirv,
-                        shader::visibility_keys_masked_double_float_spirv)
-                   : std::span<const std::uint32_t>(shader::visibility_keys_frag_spirv)};
-  if (depths)
-    return {of(shader::visibility_depth_vert_fp64_spirv, shader::visibility_depth_vert_double_float_spirv),
-            masked ? of(shader::visibility_depth_masked_fp64_spirv,
-                        shader::visibility_depth_masked_double_float_spirv)
-                   : of(shader::visibility_depth_frag_fp64_spirv,
-                        shader::visibility_depth_frag_double_float_spirv)};
-  return {shader::visibility_vert_spirv,
-          masked ? of(shader::visibility_masked_fp64_spirv, shader::visibility_masked_double_float_spirv)
-                 : std::span<const std::uint32_t>(shader::visibility_frag_spirv)};
-}
-
 vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
-                                 float half_viewport, const RasterShaders &shaders, vk::Format format,
-                                 std::uint32_t general_chip) {
+                                 const Raster &raster) {
   return vulkan::checked([&] {
-    const auto vertex = shader_module(device, shaders.vertex);
-    const auto fragment = shader_module(device, shaders.fragment);
-    const vk::SpecializationMapEntry entry(0, 0, sizeof(std::uint32_t));
-    const vk::SpecializationInfo of_vertex(1, &entry, sizeof(half_viewport), &half_viewport),
-        of_fragment(1, &entry, sizeof(general_chip), &general_chip);
-    const std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &of_vertex),
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",
-                                          &of_fragment)};
+    using ShaderBit = vk::ShaderStageFlagBits;
+    const vulkan::ShaderStage vertex(device, ShaderBit::eVertex, raster.vertex, raster.of_vertex);
+    const vulkan::ShaderStage fragment(device, ShaderBit::eFragment, raster.fragment, raster.of_fragment);
+    const std::array stages{vertex.info(), fragment.info()};
     const vk::VertexInputBindingDescription binding(0, sizeof(shader::RasterVertex));
     const std::array attributes{
         vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32B32Sfloat,
@@ -119,41 +77,32 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
     const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
-    vk::PipelineRasterizationStateCreateInfo raster;
-    raster.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
+    vk::PipelineRasterizationStateCreateInfo filled;
+    filled.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
     // Of triangles at the same depth the one that comes first in the scene stays.
-    const bool attached = device.has_attachments();
-    const vk::PipelineDepthStencilStateCreateInfo depth({}, attached, attached, vk::CompareOp::eGreater);
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eGreater);
     vk::PipelineColorBlendAttachmentState write;
     using Component = vk::ColorComponentFlagBits;
     write.setColorWriteMask(Component::eR | Component::eG | Component::eB | Component::eA);
-    vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
-    if (!attached)
-      blend.setAttachments({});
+    const vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, write);
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
-    vk::PipelineRenderingCreateInfo rendering(0, format, RasterImages::depth_format);
-    if (!attached)
-      rendering.setColorAttachmentFormats({}).setDepthAttachmentFormat(vk::Format::eUndefined);
+    const vk::PipelineRenderingCreateInfo rendering(0, raster.format, RasterImages::depth_format);
     return vk::raii::Pipeline(device.get(), nullptr,
                               vk::GraphicsPipelineCreateInfo(
-                                  {}, stages, &input, &assembly, nullptr, &viewport, &raster, &multisample,
+                                  {}, stages, &input, &assembly, nullptr, &viewport, &filled, &multisample,
                                   &depth, &blend, &dynamic_state, *layout, {}, 0, {}, 0, &rendering));
   });
 }
 
-// A device has one viewport, so one pipeline for each pair of shaders.
-std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, float half_viewport,
-                                                 const RasterShaders &shaders, vk::Format format,
-                                                 std::uint32_t general_chip) {
-  return device.pipelines().get(
-      shaders.fragment.data(), {general_chip, static_cast<std::uint32_t>(format)}, [&] {
-        vk::raii::PipelineLayout layout = make_layout(device);
-        vk::raii::Pipeline pipeline =
-            make_pipeline(device, layout, half_viewport, shaders, format, general_chip);
-        return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
-      });
+// A device has one viewport, and each fragment shader one vertex shader.
+std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, const Raster &raster) {
+  return device.pipelines().get({raster.fragment.spirv.data(), raster.of_fragment, raster.format}, [&] {
+    vk::raii::PipelineLayout layout = make_layout(device);
+    vk::raii::Pipeline pipeline = make_pipeline(device, layout, raster);
+    return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
+  });
 }
 
 // A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes
@@ -179,17 +128,21 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
                                vk::BufferUsageFlagBits::eVertexBuffer)),
       planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))) {
-  const bool keys = !device.has_attachments();
-  const bool by_fragments = grid && !keys && vertices_fetch_planes(projection, sensor);
-  const std::uint32_t general_chip = grid && !grid->is_nominal() ? 1 : 0;
-  compiled_ = compiled(device, half_viewport_, choose_shaders(device, masked, precision, by_fragments),
-                       grid ? record_format : tag_format, general_chip);
-  if (keys || (grid && !by_fragments))
-    tags_.emplace(device, choose(device, precision, shader::tags_fp64_spirv, shader::tags_double_float_spirv),
-                  sizeof(shader::TagsConstants),
-                  vulkan::Specialization{grid ? 1u : 0u, general_chip, keys ? 1u : 0u});
-  if (keys)
-    return;
+  const bool by_fragments = grid && vertices_fetch_planes(projection, sensor);
+  const vulkan::Specialization constants{
+      {shader::constant_half_viewport, std::bit_cast<std::uint32_t>(half_viewport_)},
+      {shader::constant_general_chip, grid && !grid->is_nominal()},
+      {shader::constant_masked, masked}};
+  const vulkan::ShaderModule &vertex =
+      vulkan::shader_module(device, precision, by_fragments ? "id_raster_depth_vert" : "id_raster_vert");
+  const vulkan::ShaderModule &fragment =
+      vulkan::shader_module(device, precision, by_fragments ? "id_raster_depth_frag" : "id_raster_frag");
+  compiled_ =
+      compiled(device, {vertex, fragment, vulkan::declared_part(vertex, constants),
+                        vulkan::declared_part(fragment, constants), grid ? record_format : tag_format});
+  if (grid && !by_fragments)
+    depths_.emplace(device, vulkan::shader_module(device, precision, "tags"), sizeof(shader::TagsConstants),
+                    constants);
   images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : tag_format, tags,
                   std::move(previous));
 }
@@ -202,72 +155,28 @@ std::optional<RasterImages> VisibilityPass::release_images() {
 
 void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                             const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  if (images_)
-    record_images(commands, planned, scene, tags);
-  else
-    record_keys(commands, planned, scene, tags);
+  const vk::Extent2D extent = extent_of(planned, blocks_);
+  images_->begin(commands, extent, tags);
+  draw(commands, planned, scene);
+  images_->end(commands, extent, tags);
+  if (depths_)
+    add_depths(commands, planned, scene, tags);
 }
 
-void VisibilityPass::record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                 const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+void VisibilityPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                                const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
-  commands.fillBuffer(tags.get(), 0, vk::DeviceSize{fragments} * key_stride() * sizeof(shader::uvec2), 0);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
-                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
-  commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1));
-  draw(commands, planned, scene, tags);
-  commands.endRendering();
-  vulkan::memory_barrier(commands, Stage::eFragmentShader, Access::eShaderStorageWrite, Stage::eComputeShader,
-                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
-  complete_tags(commands, planned, scene, tags);
-}
-
-// Makes tags or records of what the fragments left.
-void VisibilityPass::complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  const vk::Extent2D extent = extent_of(planned, blocks_);
-  const std::uint32_t fragments = extent.width * extent.height;
-  const shader::Strip &strip = planned.strip;
-  const bool distorted = blocks_[planned.block].distorted;
-  const std::uint32_t tiles = is_tiled(sensor_) ? strip.samples : 1;
-  shader::SampleGrid grid{};
-  if (grid_)
-    grid = grid_->of(strip);
-  grid.columns = extent.width;
-  grid.inverse_columns = 1.0f / static_cast<float>(extent.width);
-  const shader::TagsConstants constants{grid,
-                                        grid_ ? grid_->chip() : shader::uvec2(0),
-                                        words(scene.planes.address()),
-                                        words(tags.address()),
-                                        fragments,
-                                        extent.width / tiles,
-                                        extent.height / tiles,
-                                        strip.column,
-                                        strip.row,
-                                        strip.resolution_x,
-                                        distorted           ? 0
-                                        : is_tiled(sensor_) ? 1
-                                                            : strip.samples,
-                                        0};
-  tags_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
+  const shader::TagsConstants constants{
+      grid_->of(planned.strip), grid_->chip(), scene.planes.words(), tags.words(), fragments, 0};
+  depths_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,
                          Access::eShaderStorageRead | Access::eTransferRead);
 }
 
-void VisibilityPass::record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                   const SceneBuffers &scene, const vulkan::Buffer &tags) const {
-  const vk::Extent2D extent = extent_of(planned, blocks_);
-  images_->begin(commands, extent, tags);
-  draw(commands, planned, scene, tags);
-  images_->end(commands, extent, tags);
-  if (tags_)
-    complete_tags(commands, planned, scene, tags);
-}
-
 void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+                          const SceneBuffers &scene) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
@@ -276,12 +185,11 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
   const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
   for (std::uint32_t row = 0; row < tiles; ++row)
     for (std::uint32_t column = 0; column < tiles; ++column)
-      draw_tile(commands, planned, scene, tags, {column, row});
+      draw_tile(commands, planned, scene, {column, row});
 }
 
 void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                               const SceneBuffers &scene, const vulkan::Buffer &tags,
-                               const glm::uvec2 &tile) const {
+                               const SceneBuffers &scene, const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   const bool tiled = is_tiled(sensor_);
@@ -310,13 +218,10 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       sample_shift(sensor_, tile),
       in_block.x,
       in_block.y,
-      words(planes_of_blocks_.address() + planned.block * sizeof(shader::BlockPlane)),
-      words(scene.planes.address()),
-      words(scene.paint.shapes.address()),
-      words(scene.paint.surfaces.address()),
-      words(tags.address()),
-      extent_of(planned, blocks_).width,
-      key_stride(),
+      planes_of_blocks_.words(planned.block * sizeof(shader::BlockPlane)),
+      scene.planes.words(),
+      scene.paint.shapes.words(),
+      scene.paint.surfaces.words(),
       grid.slope,
       grid.first,
       grid_ ? grid_->chip() : shader::uvec2(0)};

@@ -39,24 +39,19 @@ public:
   std::optional<RasterImages> release_images();
 
 private:
-  std::uint32_t key_stride() const { return grid_ ? 2 : 1; } // from one fragment's key to the next
-  void record_images(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
-  void record_keys(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                   const SceneBuffers &scene, const vulkan::Buffer &tags) const;
-  void complete_tags(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                     const SceneBuffers &scene, const vulkan::Buffer &tags) const;
-  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
-            const vulkan::Buffer &tags) const;
+  void add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+                  const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+            const SceneBuffers &scene) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                 const SceneBuffers &scene, const vulkan::Buffer &tags, const glm::uvec2 &tile) const;
+                 const SceneBuffers &scene, const glm::uvec2 &tile) const;
 
   Sensor sensor_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
-  vulkan::Buffer planes_of_blocks_;             // BlockPlane of each where shapes may have holes
-  std::optional<RasterImages> images_;          // nothing where fragments leave keys instead
-  std::optional<vulkan::ComputePipeline> tags_; // nothing where the fragments leave all that is asked for
+  vulkan::Buffer planes_of_blocks_;               // BlockPlane of each where shapes may have holes
+  std::optional<RasterImages> images_;            // nothing once released
+  std::optional<vulkan::ComputePipeline> depths_; // nothing where the fragments leave all that is asked for
   std::optional<ChipGrid> grid_;
   float half_viewport_;
   std::shared_ptr<const vulkan::Pipeline> compiled_;

@@ -4,9 +4,7 @@
 #include "engine/sampling/chip_place.h"
 #include "engine/view/triangle_corners.h"
 #include "engine/vulkan/float_pair.h"
-#include "engine/vulkan/sample_precision.h"
-#include "spirv/search_double_float.h"
-#include "spirv/search_fp64.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -90,29 +88,30 @@ SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const
                        std::uint32_t surface_vectors, const PaintBuffers &paint, SamplePrecision precision)
     : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
       corners_(upload_corners(device, camera, scene)),
-      pipeline_(device,
-                choose(device, precision, shader::search_fp64_spirv, shader::search_double_float_spirv),
+      pipeline_(device, vulkan::shader_module(device, precision, "lens_search"),
                 sizeof(shader::SearchConstants),
-                {surface_vectors, sensor.vignetting == Vignetting::cos4 ? 1u : 0u,
-                 std::holds_alternative<Fisheye>(sensor.distortion) ? shader::distortion_fisheye
-                                                                    : shader::distortion_brown,
-                 paint.masked ? 1u : 0u, paint.painted ? 1u : 0u}) {}
+                {{shader::constant_surface_vectors, surface_vectors},
+                 {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
+                 {shader::constant_distortion, std::holds_alternative<Fisheye>(sensor.distortion)
+                                                   ? shader::distortion_fisheye
+                                                   : shader::distortion_brown},
+                 {shader::constant_masked, paint.masked},
+                 {shader::constant_painted, paint.painted}}) {}
 
 void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                         const StripBuffers &buffers, const SceneBuffers &scene) const {
-  const shader::SearchConstants constants{
-      planned.strip,
-      words(lens_.address()),
-      words(views_.address() + planned.block * sizeof(shader::RasterView)),
-      words(buffers.fragments.address()),
-      words(scene.planes.address()),
-      words(corners_.address()),
-      words(buffers.tags.address()),
-      words(buffers.position.address()),
-      words(buffers.surface.address()),
-      words(buffers.backscatter.address()),
-      words(scene.paint.shapes.address()),
-      words(scene.paint.surfaces.address())};
+  const shader::SearchConstants constants{planned.strip,
+                                          lens_.words(),
+                                          views_.words(planned.block * sizeof(shader::RasterView)),
+                                          buffers.fragments.words(),
+                                          scene.planes.words(),
+                                          corners_.words(),
+                                          buffers.tags.words(),
+                                          buffers.position.words(),
+                                          buffers.surface.words(),
+                                          buffers.backscatter.words(),
+                                          scene.paint.shapes.words(),
+                                          scene.paint.surfaces.words()};
   pipeline_.dispatch(commands, constants, sample_count(planned.strip), shader::workgroup_size);
 }
 

@@ -113,7 +113,7 @@ shader::SurfacePaint surface_paint(const Surface &surface, const Texture &textur
                                    const vulkan::Buffer &texels, double per_reflectivity) {
   const Paint paint = surface.paint.value_or(Paint{});
   return {glm::vec4(per_reflectivity * glm::dvec4(paint.reflectivity_rgb, surface.reflectivity)),
-          words(texels.address()),
+          texels.words(),
           texture.size.x,
           texture.size.y,
           wrap_of(paint.wrap_u),

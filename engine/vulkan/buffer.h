@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -30,7 +31,12 @@ public:
   vk::DeviceSize bytes() const { return bytes_; }
   vk::DeviceMemory memory() const { return *memory_; } // the buffer's alone, from its beginning
   std::uint32_t memory_type() const { return memory_type_; }
-  vk::DeviceAddress address() const { return address_; } // Memory::device only
+  // The address of what lies `offset` bytes from its beginning, as shaders take it: low word, high word. Of
+  // Memory::device only.
+  glm::uvec2 words(vk::DeviceSize offset = 0) const {
+    const vk::DeviceAddress at = address_ + offset;
+    return {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at >> 32)};
+  }
   // Of upload and read; of device, too, where the host reads the device's memory as its own.
   bool is_mapped() const { return mapped_ != nullptr; }
   std::span<std::byte> mapped() const { return {mapped_, static_cast<std::size_t>(bytes_)}; }

@@ -1,38 +1,33 @@
 #include "engine/vulkan/compute_pipeline.h"
 
 #include "engine/vulkan/errors.h"
+#include "engine/vulkan/shader_stage.h"
 
 namespace pmdsim::vulkan {
 namespace {
 
-Pipeline compile(const Device &device, std::span<const std::uint32_t> spirv,
-                 std::uint32_t push_constant_bytes, const Specialization &constants) {
-  std::vector<vk::SpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < constants.size(); ++i)
-    entries.emplace_back(i, i * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t));
-  const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              constants.size() * sizeof(std::uint32_t), constants.data());
+Pipeline compile(const Device &device, const ShaderModule &module, std::uint32_t push_constant_bytes,
+                 const Specialization &constants) {
   return checked([&] {
     const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_constant_bytes);
     vk::raii::PipelineLayout layout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
-    const vk::raii::ShaderModule module(device.get(),
-                                        vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
-                                                  &specialization);
-    vk::raii::Pipeline pipeline(device.get(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
+    const ShaderStage stage(device, vk::ShaderStageFlagBits::eCompute, module, constants);
+    vk::raii::Pipeline pipeline(device.get(), nullptr,
+                                vk::ComputePipelineCreateInfo({}, stage.info(), *layout));
     return Pipeline{std::move(layout), std::move(pipeline)};
   });
 }
 
 } // namespace
 
-ComputePipeline::ComputePipeline(const Device &device, std::span<const std::uint32_t> spirv,
-                                 std::uint32_t push_constant_bytes, const Specialization &constants)
-    : push_constant_bytes_(push_constant_bytes) {
+ComputePipeline::ComputePipeline(const Device &device, const ShaderModule &module,
+                                 std::size_t push_constant_bytes, const Specialization &constants)
+    : push_constant_bytes_(static_cast<std::uint32_t>(push_constant_bytes)) {
   if (push_constant_bytes > 128)
     throw std::logic_error("more push constants than every device has");
-  compiled_ = device.pipelines().get(spirv.data(), constants,
-                                     [&] { return compile(device, spirv, push_constant_bytes, constants); });
+  const Specialization own = declared_part(module, constants);
+  compiled_ = device.pipelines().get({module.spirv.data(), own},
+                                     [&] { return compile(device, module, push_constant_bytes_, own); });
 }
 
 } // namespace pmdsim::vulkan

@@ -3,10 +3,10 @@
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
+#include "engine/vulkan/shader_module.h"
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -15,8 +15,9 @@ namespace pmdsim::vulkan {
 class ComputePipeline {
 public:
   ComputePipeline() = default;
-  ComputePipeline(const Device &device, std::span<const std::uint32_t> spirv,
-                  std::uint32_t push_constant_bytes, const Specialization &constants = {});
+  // `constants`: all that the module declares, and any others. Throws std::logic_error where one is missing.
+  ComputePipeline(const Device &device, const ShaderModule &module, std::size_t push_constant_bytes,
+                  const Specialization &constants = {});
 
   // Dispatches `invocations` / `workgroup` workgroups; the former is a multiple of the latter.
   template <typename Constants>

@@ -27,26 +27,22 @@ Limits read_limits(const vk::raii::PhysicalDevice &device) {
           static_cast<double>(limits.timestampPeriod)};
 }
 
-// lavapipe tells the width of its vectors in its name.
-bool is_wide(const vk::raii::PhysicalDevice &device) {
+// Fragments of 512 bits crash where they meet an attachment (Mesa 22.3 swizzles for vectors of 4 or 8 floats
+// only). lavapipe tells the width of its vectors in its name.
+bool is_too_wide(const vk::raii::PhysicalDevice &device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   return properties.deviceType == vk::PhysicalDeviceType::eCpu &&
          std::string(properties.deviceName.data()).find("512 bits") != std::string::npos;
 }
 
-vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64,
-                        bool int64_atomics) {
+vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t family, bool fp64) {
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features vulkan13;
   vulkan13.setDynamicRendering(true).setSynchronization2(true).setMaintenance4(true);
   vk::PhysicalDeviceVulkan12Features vulkan12;
-  vulkan12.setBufferDeviceAddress(true).setShaderBufferInt64Atomics(int64_atomics).setPNext(&vulkan13);
-  vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures()
-                                           .setShaderFloat64(fp64)
-                                           .setShaderInt64(int64_atomics)
-                                           .setFragmentStoresAndAtomics(int64_atomics),
-                                       &vulkan12);
+  vulkan12.setBufferDeviceAddress(true).setPNext(&vulkan13);
+  vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures().setShaderFloat64(fp64), &vulkan12);
   return checked([&] {
     return vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, nullptr, &features));
   });
@@ -65,10 +61,8 @@ std::string what_is_lacking(const vk::raii::PhysicalDevice &device) {
     return "dynamicRendering";
   if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
     return "synchronization2";
-  if (is_wide(device) && !(chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
-                           chain.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics &&
-                           chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics))
-    return "fragments' atomics of 64 bits"; // Device::has_attachments
+  if (is_too_wide(device))
+    return "vectors of at most 256 bits (LP_NATIVE_VECTOR_WIDTH)";
   if (device.getProperties().limits.subPixelPrecisionBits < 8)
     return "a raster of 1/256 pixel (subPixelPrecisionBits of 8)"; // what the projection snaps to
   if (!find_queue_family(device))
@@ -80,10 +74,8 @@ Device::Device(const Instance &instance, vk::raii::PhysicalDevice physical)
     : instance_(&instance), physical_(std::move(physical)), memory_(physical_.getMemoryProperties()),
       limits_(read_limits(physical_)),
       is_cpu_(physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu),
-      has_fp64_(physical_.getFeatures().shaderFloat64), has_attachments_(!is_wide(physical_)),
-      queue_family_(find_queue_family(physical_).value()),
-      device_(create(physical_, queue_family_, has_fp64_, !has_attachments_)),
-      queue_(device_, queue_family_, 0) {}
+      has_fp64_(physical_.getFeatures().shaderFloat64), queue_family_(find_queue_family(physical_).value()),
+      device_(create(physical_, queue_family_, has_fp64_)), queue_(device_, queue_family_, 0) {}
 
 void Device::require_no_validation_message() const {
   if (!instance_->messages().empty())

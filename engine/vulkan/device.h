@@ -31,9 +31,6 @@ public:
   const Limits &limits() const { return limits_; }
   bool is_cpu() const { return is_cpu_; }
   bool has_fp64() const { return has_fp64_; }
-  // Whether fragments can be tested by depth and written to images: lavapipe's cannot where its vectors hold
-  // 16 floats (Mesa 22.3 swizzles attachments for 4 or 8 only, and crashes).
-  bool has_attachments() const { return has_attachments_; }
   // Of this device: what is compiled does not change it.
   PipelineCache &pipelines() const { return pipelines_; }
   // Throws std::logic_error with the first of the validation layer's messages, if there is any.
@@ -53,7 +50,6 @@ private:
   Limits limits_;
   bool is_cpu_;
   bool has_fp64_;
-  bool has_attachments_;
   std::uint32_t queue_family_;
   vk::raii::Device device_;
   vk::raii::Queue queue_;

@@ -8,14 +8,13 @@ constexpr std::size_t capacity = 64;
 
 } // namespace
 
-std::shared_ptr<const Pipeline> PipelineCache::get(const std::uint32_t *spirv,
-                                                   const Specialization &constants,
+std::shared_ptr<const Pipeline> PipelineCache::get(const PipelineKey &key,
                                                    const std::function<Pipeline()> &make) {
-  if (const auto known = pipelines_.find({spirv, constants}); known != pipelines_.end())
+  if (const auto known = pipelines_.find(key); known != pipelines_.end())
     return known->second;
   if (pipelines_.size() >= capacity)
     std::erase_if(pipelines_, [](const auto &entry) { return entry.second.use_count() == 1; });
-  return pipelines_[{spirv, constants}] = std::make_shared<const Pipeline>(make());
+  return pipelines_[key] = std::make_shared<const Pipeline>(make());
 }
 
 } // namespace pmdsim::vulkan

@@ -6,8 +6,6 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
-#define RESOLVE_BASE short_way_resolve
-#define POINTS_BASE short_way_points
 #include "shaders/sampling/chip.glsl"
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/view/points.glsl"
@@ -21,12 +19,11 @@ layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Wor
 layout(push_constant, std430) uniform Constants { ShortWayConstants constants; };
 #define DIAGRAM_VALUES Lights(constants.light).at.diagrams
 #include "shaders/light/moments.glsl"
-layout(constant_id = short_way_points + constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_runs) const uint runs = 1;
-layout(constant_id = constant_samples) const uint side = 1; // S
+layout(constant_id = constant_side) const uint side = 1; // S
 layout(constant_id = constant_places) const uint places = 0;
-layout(constant_id = constant_lists_pixels) const uint lists_pixels = 1;
-layout(constant_id = constant_few_follow) const uint few_follow = 0;
+layout(constant_id = constant_lists_pixels) const uint lists_pixels = lists_in_two;
 const bool by_four = places == 4;
 const uint evaluations = by_four ? 4 : 1;
 // The variance of the samples' places, in half steps between them. Four places at its root each way from the centre share all
@@ -97,7 +94,7 @@ void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatt
     Point point;
     ReferencePath path = see_point(position, surface, run, point);
     float moment[moments];
-    sum_run(0u, point, run, constants.diodes, r * unrolled_blocks, unrolled_blocks, moment);
+    sum_run(0u, point, run, constants.diodes, r * blocks_per_run, blocks_per_run, moment);
     terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
     [[unroll]] for (uint t = 0; t < tones; ++t) {
       vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
@@ -238,9 +235,9 @@ void main() {
     store_ids(channels, seen.tag, plane.object, to);
     done = seen.alike && seen.lit && kept && (side == 1 || places != 0 || !hits);
   }
-  if (lists_pixels != 0 && !done && !pads) {
+  if (lists_pixels != lists_no_pixel && !done && !pads) {
     uint list = seen.lit ? list_lit : list_rest;
-    if (few_follow != 0)
+    if (lists_pixels == lists_in_three)
       list = seen.alike && seen.lit ? list_few : list;
     enlist(list, pixel);
   }

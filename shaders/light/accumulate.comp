@@ -1,7 +1,7 @@
 #version 460
 // The sum over the diodes of one run, for every sample, by moments.
-// STRAIGHT_LINE: one dispatch is one unrolled run of constant_blocks blocks, without a branch, so that lavapipe reads
-// the diodes once for all lanes; else a loop over the blocks, which suits GPUs.
+// As a straight line one dispatch is one unrolled run, without a branch, so that lavapipe reads the diodes once for all lanes;
+// else a loop over the blocks, which suits GPUs.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require

@@ -6,10 +6,10 @@
 #include "shaders/shared/compensated.glsl"
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/sampling/position.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
-layout(constant_id = constant_first) const uint is_first = 0;
+layout(constant_id = constant_is_first) const uint is_first = 0;
 layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_promised) const uint promised = 0;
 

@@ -2,7 +2,6 @@
 // The sum over the diodes of one group, for every sample, diode by diode: for waveforms whose harmonics never end, which
 // moments cannot serve. With rho = |P - G| and e = r_nm - rho each diode adds w_m C(phase of (rho + r_n) + kappa e) to
 // each tap; kappa |e| is at most 1/2 (source_groups.cpp), so no phase has to be wrapped inside the loop.
-// STRAIGHT_LINE: as in accumulate.comp.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -12,7 +11,8 @@
 layout(constant_id = constant_waveform) const uint waveform = waveform_square;
 layout(constant_id = constant_taps) const uint taps = 4;
 
-layout(constant_id = constant_distinct) const uint distinct_taps = 2;
+// Of an even N the later half follows from the first; a sine has one of its own.
+const uint distinct_taps = waveform != waveform_square ? 1 : taps % 2 == 0 ? taps / 2 : taps;
 // Square: of w * (C + 1) / 4 for each distinct tap, and of w. Sine: the complex return relative to the reference path.
 const uint totals = distinct_taps + 1;
 const uint tap_planes = (distinct_taps + 1) / 2;
@@ -77,13 +77,13 @@ void main() {
   [[unroll]] for (uint k = 0; k < totals; ++k)
     total[k] = 0.0;
   Diodes diodes = Diodes(constants.diodes);
-#ifdef STRAIGHT_LINE
-  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
-#else
-  for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
-#endif
+  if (straight != 0) {
+    [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
+      add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+  } else {
+    for (uint block = 0; block < constants.blocks; ++block)
+      add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+  }
 
   float backscatter = Floats(constants.backscatter).at[i];
   if (waveform == waveform_square) {

@@ -9,10 +9,10 @@
 #include "shaders/shared/compensated.glsl"
 #include "shaders/sampling/grid.glsl"
 #include "shaders/view/meet.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
 layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
-layout(constant_id = constant_only) const uint is_only = 0;
+layout(constant_id = constant_is_only) const uint is_only = 0;
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 #define DIAGRAM_VALUES constants.diagrams
 #include "shaders/light/moments.glsl"

@@ -49,13 +49,13 @@ void main() {
   [[unroll]] for (uint k = 0; k < moments; ++k)
     total[k] = real(0.0);
   PreciseDiodes diodes = PreciseDiodes(constants.diodes);
-#ifdef STRAIGHT_LINE
-  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-    add_block(total, point, diodes, block, reached_of_block(i, block));
-#else
-  for (uint block = 0; block < constants.blocks; ++block)
-    add_block(total, point, diodes, block, reached_of_block(i, block));
-#endif
+  if (straight != 0) {
+    [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
+      add_block(total, point, diodes, block, reached_of_block(i, block));
+  } else {
+    for (uint block = 0; block < constants.blocks; ++block)
+      add_block(total, point, diodes, block, reached_of_block(i, block));
+  }
 
   Real detour = add(path.rho, negate(path.range));
   float backscatter = Floats(constants.backscatter).at[i];

@@ -41,7 +41,7 @@ Real3 way_from(PrecisePoint point, Real3 twice_back) {
 
 Real whole_power(Real x) {
   Real result = real(1.0);
-  [[unroll]] for (uint n = 0; n < power; ++n)
+  [[unroll]] for (uint n = 0; n < cosine_order; ++n)
     result = multiply(result, x);
   return result;
 }

@@ -49,7 +49,7 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
 void find_moments(float total[sums], Point point, LightRun run, out float moment[moments]) {
   float inverse_rho2 = 1.0 / (point.rho * point.rho), scale = inverse_rho2;
-  uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? power : 0);
+  uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
@@ -74,24 +74,29 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
 #define REACHED_OF_BLOCK(i, block) 0u
 #endif
 
+// Adds a block to a stretch, and the stretch, where it ends, to the run's sums.
+void add_block_of_run(inout float total[sums], inout float stretch[sums], Point point, uvec2 diodes, uint first, uint block,
+                      uint reached) {
+  add_block(stretch, point, diodes, first + block, reached);
+  bool ends = block % blocks_per_stretch == blocks_per_stretch - 1;
+  [[unroll]] for (uint k = 0; k < sums; ++k) {
+    total[k] += ends ? stretch[k] : 0.0;
+    stretch[k] = ends ? 0.0 : stretch[k];
+  }
+}
+
 // The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form. Long runs are
 // summed stretch by stretch, so that rounding is no worse than of short ones.
 void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments]) {
   float total[sums], stretch[sums];
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] = stretch[k] = 0.0;
-#ifdef STRAIGHT_LINE
-  [[unroll]] for (uint block = 0; block < unrolled_blocks; ++block)
-#else
-  for (uint block = 0; block < blocks; ++block)
-#endif
-  {
-    add_block(stretch, point, diodes, first + block, REACHED_OF_BLOCK(i, block));
-    bool ends = block % blocks_per_stretch == blocks_per_stretch - 1;
-    [[unroll]] for (uint k = 0; k < sums; ++k) {
-      total[k] += ends ? stretch[k] : 0.0;
-      stretch[k] = ends ? 0.0 : stretch[k];
-    }
+  if (straight != 0) {
+    [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
+      add_block_of_run(total, stretch, point, diodes, first, block, REACHED_OF_BLOCK(i, block));
+  } else {
+    for (uint block = 0; block < blocks; ++block)
+      add_block_of_run(total, stretch, point, diodes, first, block, REACHED_OF_BLOCK(i, block));
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] += stretch[k];

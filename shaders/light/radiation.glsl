@@ -6,7 +6,7 @@
 
 float whole_power(float x) {
   float result = 1.0;
-  [[unroll]] for (uint n = 0; n < power; ++n)
+  [[unroll]] for (uint n = 0; n < cosine_order; ++n)
     result *= x;
   return result;
 }

@@ -6,13 +6,14 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/elementary.glsl"
 #include "shaders/shared/real.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = constant_backscatter) const uint backscatter_model = backscatter_flat;
-layout(constant_id = constant_pattern) const uint pattern_model = pattern_isotropic;
-layout(constant_id = constant_order) const uint power = 1;
-layout(constant_id = constant_blocks) const uint unrolled_blocks = 1;
+layout(constant_id = constant_straight) const uint straight = 1;
+layout(constant_id = constant_backscatter_model) const uint backscatter_model = backscatter_flat;
+layout(constant_id = constant_pattern_model) const uint pattern_model = pattern_isotropic;
+layout(constant_id = constant_cosine_order) const uint cosine_order = 1;
+layout(constant_id = constant_blocks_per_run) const uint blocks_per_run = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
 layout(constant_id = constant_shadowed) const uint shadowed = 0;
 layout(constant_id = constant_powers) const uint powers = 0;

@@ -3,6 +3,7 @@
 #define PMDSIM_LIT_GLSL
 
 #include "shaders/shared/buffers.glsl"
+#include "shaders/shared/constants.h"
 #include "shaders/shadow/lit_interface.h"
 #include "shaders/sampling/position.glsl"
 

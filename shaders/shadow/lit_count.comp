@@ -5,12 +5,13 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/buffers.glsl"
+#include "shaders/shared/constants.h"
 #include "shaders/shadow/lit_interface.h"
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { LitCountConstants constants; };
-layout(constant_id = constant_lit_bundles) const uint bundles = bundles_per_window;
-layout(constant_id = constant_lit_first) const uint is_first = 0;
+layout(constant_id = constant_bundles) const uint bundles = bundles_per_window;
+layout(constant_id = constant_is_first) const uint is_first = 0;
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

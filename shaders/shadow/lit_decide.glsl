@@ -7,7 +7,7 @@
 
 layout(push_constant, std430) uniform Constants { LitDecideConstants constants; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Bundles { BundleDiodes at; };
-layout(constant_id = constant_lit_tiled) const uint tiled = 0;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 // A sample of the part, or one that is not to be decided.
 struct PartSample {

@@ -7,7 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_gather.glsl"
 
-layout(constant_id = constant_lit_tiled) const uint tiled = 0;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 const uint too_many = largest_candidates + 1u;
 

@@ -8,16 +8,6 @@
 namespace pmdsim::shader {
 #endif
 
-// Specialization constants of the lit pass's shaders.
-PMDSIM_CONSTANT constant_lit_tiled = 0;   // all that look at tags: 1: the tags lie in tiles
-PMDSIM_CONSTANT constant_lit_lanes = 1;   // try: invocations that share a part
-PMDSIM_CONSTANT constant_lit_samples = 2; // try: samples of each
-PMDSIM_CONSTANT constant_lit_flat = 3; // try: 1: no diode stands before another of its bundle, z is the same
-PMDSIM_CONSTANT constant_lit_masked = 1;  // trace: 1: occluders may have holes
-PMDSIM_CONSTANT constant_lit_again = 2;   // trace: 1: of walks that were too long
-PMDSIM_CONSTANT constant_lit_bundles = 0; // count: of the window
-PMDSIM_CONSTANT constant_lit_first = 1;   // count: 1: this is the frame's first window
-
 // Which diodes reach which sample. Samples are taken in tiles of pixels, diodes in bundles; a sample has a
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
 PMDSIM_CONSTANT tile_side = 8;

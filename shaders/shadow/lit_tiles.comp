@@ -8,7 +8,7 @@
 
 layout(local_size_x = workgroup_size) in;
 layout(push_constant, std430) uniform Constants { LitTilesConstants constants; };
-layout(constant_id = constant_lit_tiled) const uint tiled = 0;
+layout(constant_id = constant_tiled) const uint tiled = 0;
 
 const float infinity = 1.0 / 0.0, far_m = 1e37; // farther than anything
 

@@ -11,8 +11,8 @@
 #include "shaders/view/surface_appearance.glsl"
 
 layout(local_size_x = tile_samples) in;
-layout(constant_id = constant_lit_masked) const uint masked = 0;
-layout(constant_id = constant_lit_again) const uint again = 0;
+layout(constant_id = constant_masked) const uint masked = 0;
+layout(constant_id = constant_is_first) const uint is_first = 1;
 
 // Whether an occluder with holes is there where the way from the point to the diode meets it.
 bool is_there(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, DiodeFrame frame) {
@@ -77,7 +77,7 @@ bool is_unclear(uint part, uint within) {
 
 void main() {
   DiodeFrame frame = diode_frame();
-  uint list = (again != 0 ? list_walked : list_unclear) + constants.bundle;
+  uint list = (is_first != 0 ? list_unclear : list_walked) + constants.bundle;
   uint part = part_of_workgroup(constants.work, list, constants.part_count);
   if (part == no_part)
     return;
@@ -90,7 +90,7 @@ void main() {
   if (!blocked) {
     LitScene scene = LitScenes(constants.scene).at;
     Shaft ray = ray_of(at.point, diode.xyz, frame);
-    if (again != 0) {
+    if (is_first == 0) {
       blocked = is_blocked_between(constants.first_node, constants.last_node, scene, at.point, diode.xyz, frame, ray);
     } else {
       Walk walk = walk_through(scene, at.point, diode.xyz, frame, ray);

@@ -7,9 +7,10 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_decide.glsl"
 
-layout(local_size_x_id = constant_lit_lanes) in;
-layout(constant_id = constant_lit_samples) const uint samples_per_lane = 8;
-layout(constant_id = constant_lit_flat) const uint flat_bundles = 0;
+layout(local_size_x_id = constant_lanes) in;
+layout(constant_id = constant_lanes) const uint lanes = 8;
+layout(constant_id = constant_flat_bundles) const uint flat_bundles = 0;
+const uint samples_per_lane = tile_samples / lanes;
 
 void main() {
   // Before anything branches, so that lavapipe reads the diodes once for all lanes.

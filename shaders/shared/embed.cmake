@@ -1,10 +1,11 @@
-# Writes the SPIR-V module IN as a C++ array NAME_spirv of 32-bit words to OUT.
+# Writes the SPIR-V module IN as an array of 32-bit words, pmdsim::shader::spirv::NAME, to OUT.
 file(READ ${IN} hex HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words ${hex})
-file(WRITE ${OUT} "#pragma once
-#include <array>
-#include <cstdint>
-namespace pmdsim::shader {
-inline constexpr auto ${NAME}_spirv = std::to_array<std::uint32_t>({${words}});
+file(WRITE ${OUT} "#include <cstdint>
+#include <span>
+namespace pmdsim::shader::spirv {
+static constexpr std::uint32_t words[] = {${words}};
+extern const std::span<const std::uint32_t> ${NAME};
+constinit const std::span<const std::uint32_t> ${NAME}(words);
 }
 ")

@@ -4,19 +4,10 @@
 #ifndef PMDSIM_INTERFACE_H
 #define PMDSIM_INTERFACE_H
 
+#include "shaders/shared/languages.h"
+
 #ifdef __cplusplus
-#include <cstddef>
-#include <cstdint>
-#include <glm/glm.hpp>
 namespace pmdsim::shader {
-using uint = std::uint32_t;
-using glm::uvec2;
-using glm::uvec4;
-using glm::vec2;
-using glm::vec4;
-#define PMDSIM_CONSTANT inline constexpr uint
-#else
-#define PMDSIM_CONSTANT const uint
 #endif
 
 PMDSIM_CONSTANT workgroup_size = 64;
@@ -227,34 +218,21 @@ struct VisibilityConstants {
   uvec2 planes;          // in: TrianglePlane[]
   uvec2 shapes;          // in: ShapePaint[]
   uvec2 surfaces;        // in: SurfacePaint[]
-  // Where fragments leave keys:
-  uvec2 tags;       // in and out: of all of the strip's fragments, row by row
-  uint tag_columns; // fragments in a row
-  uint tag_stride;  // from one key to the next, keys
   // Where fragments leave their depth, too, as in SampleGrid:
   vec4 slope;
   vec2 first;
   uvec2 chip; // in: ChipPlace
 };
 
-// Turns keys into tags or records, or adds the depths to records. A fragment's key is its triangle's number, all bits turned, and above it the bits of its inverse
-// depth: the largest is the nearest, and of triangles at one depth the first.
+// Adds the depths to records that the raster left without.
 struct TagsConstants {
-  SampleGrid grid;   // of all fragments; where tags are left, only the columns are
-  uvec2 chip;        // in, where records are left: ChipPlace
-  uvec2 planes;      // likewise: TrianglePlane[]
-  uvec2 tags;        // in: keys, 0 where nothing was hit, or records without depths; out: tags, or records
-  uint fragments;    // in all
-  uint tile_columns; // of a tile, fragments: as many as there are where samples are an even grid
-  uint tile_rows;
-  uint column, row;  // of the strip's first pixel
-  uint resolution_x; // of the frame
-  uint fragments_per_pixel_side; // 0: with distortion
+  SampleGrid grid; // of all fragments
+  uvec2 chip;      // in: ChipPlace
+  uvec2 planes;    // in: TrianglePlane[]
+  uvec2 tags;      // in: records without depths; out: with them
+  uint fragments;  // in all
   uint padding;
 };
-PMDSIM_CONSTANT constant_tags_records = 0; // specialization: 1: leaves records
-PMDSIM_CONSTANT constant_tags_chip = 1;    // as constant_general_chip
-PMDSIM_CONSTANT constant_tags_keys = 2;    // 1: from keys; 0: from the tags of records
 
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
@@ -470,9 +448,9 @@ static_assert(sizeof(ChipPlace) == 160);
 static_assert(sizeof(LensModel) == 224);
 static_assert(sizeof(RasterView) == 64);
 static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
-static_assert(sizeof(VisibilityConstants) == 128 && offsetof(VisibilityConstants, slope) == 96);
+static_assert(sizeof(VisibilityConstants) == 112 && offsetof(VisibilityConstants, slope) == 80);
 static_assert(sizeof(PlainSumConstants) == 112 && sizeof(PlainResolveConstants) == 120);
-static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 88);
+static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 64);
 static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
 static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
 static_assert(sizeof(Tone) == 16);

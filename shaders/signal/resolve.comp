@@ -10,8 +10,8 @@
 #include "shaders/signal/resolve.glsl"
 
 layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
-layout(constant_id = constant_resolve_listed) const uint listed = 0;
-layout(constant_id = constant_resolve_precise) const uint precise_sum = 0;
+layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
 vec4 add_precisely(vec4 sum, vec4 z, Real turns) {

@@ -6,20 +6,17 @@
 #include "shaders/shared/compensated.glsl"
 #include "shaders/shared/elementary.glsl"
 #include "shaders/shared/real.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
-#ifndef RESOLVE_BASE // the first specialization constant's number
-#define RESOLVE_BASE 0
-#endif
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = RESOLVE_BASE + constant_planes) const uint planes = 1;
-layout(constant_id = RESOLVE_BASE + constant_resolve_waveform) const uint waveform = waveform_sine;
-layout(constant_id = RESOLVE_BASE + constant_resolve_taps) const uint taps = 4;
-layout(constant_id = RESOLVE_BASE + constant_keep_taps) const uint keep_taps = 0;
-layout(constant_id = RESOLVE_BASE + constant_ground_truth) const uint ground_truth = 1;
-layout(constant_id = RESOLVE_BASE + constant_resolve_tiled) const uint tiled = 0;
-layout(constant_id = RESOLVE_BASE + constant_resolve_lit) const uint lit_is_kept = 0;
-layout(constant_id = RESOLVE_BASE + constant_resolve_promised) const uint promised = 0;
+layout(constant_id = constant_planes) const uint planes = 1;
+layout(constant_id = constant_waveform) const uint waveform = waveform_sine;
+layout(constant_id = constant_taps) const uint taps = 4;
+layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
+layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
+layout(constant_id = constant_tiled) const uint tiled = 0;
+layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
+layout(constant_id = constant_promised) const uint promised = 0;
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 

@@ -5,18 +5,17 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_control_flow_attributes : require
-#define POINTS_BASE plain_resolve_points
 #include "shaders/sampling/grid.glsl"
 #include "shaders/view/meet.glsl"
 #include "shaders/view/points.glsl"
 #include "shaders/signal/resolve.glsl"
 
 layout(push_constant, std430) uniform Constants { PlainResolveConstants constants; };
-layout(constant_id = plain_resolve_points + constant_chip) const uint general_chip = 0;
-layout(constant_id = constant_plain_only) const uint is_only = 0;
-layout(constant_id = constant_plain_side) const uint side = 1; // S
-layout(constant_id = constant_plain_frequencies) const uint frequencies = 1;
-layout(constant_id = constant_plain_one) const uint one_backscatter = 0;
+layout(constant_id = constant_general_chip) const uint general_chip = 0;
+layout(constant_id = constant_is_only) const uint is_only = 0;
+layout(constant_id = constant_side) const uint side = 1; // S
+layout(constant_id = constant_frequencies) const uint frequencies = 1;
+layout(constant_id = constant_one_backscatter) const uint one_backscatter = 0;
 const uint all_planes = frequencies * planes;
 
 // Of frequency f, the p-th of its planes, but for the backscatter.

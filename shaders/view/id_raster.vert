@@ -10,6 +10,7 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/view/sight.glsl"
 #endif
+#include "shaders/shared/constants.h"
 #include "shaders/shared/interface.h"
 
 layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
@@ -17,7 +18,7 @@ layout(location = 0) in vec3 corner; // x_fragments, y_fragments, inverse_depth
 layout(location = 1) in uint triangle;
 layout(location = 0) flat out uint visible_triangle;
 
-layout(constant_id = 0) const float half_viewport = 8192.0; // a power of two
+layout(constant_id = constant_half_viewport) const float half_viewport = 8192.0; // a power of two
 
 void main() {
   // The block's fragments fill the middle half of the viewport.

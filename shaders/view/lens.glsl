@@ -5,7 +5,7 @@
 
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/real.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
 layout(constant_id = constant_distortion) const uint distortion = distortion_brown;
 const uint newton_steps = 6;

@@ -11,9 +11,9 @@
 #include "shaders/shared/real.glsl"
 
 layout(push_constant, std430) uniform Constants { PointsConstants constants; };
-layout(constant_id = constant_chip) const uint general_chip = 0;
+layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_tiled) const uint tiled = 0;
-layout(constant_id = constant_points_listed) const uint listed = 0;
+layout(constant_id = constant_listed) const uint listed = 0;
 
 Real3 sample_ray(Sample at) {
   Strip strip = constants.strip;

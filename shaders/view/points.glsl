@@ -7,15 +7,12 @@
 #include "shaders/view/surface_appearance.glsl"
 #include "shaders/sampling/position.glsl"
 #include "shaders/shared/real.glsl"
-#include "shaders/shared/specialization.glsl"
+#include "shaders/shared/constants.h"
 
-#ifndef POINTS_BASE // the first specialization constant's number
-#define POINTS_BASE 0
-#endif
 layout(local_size_x = workgroup_size) in;
-layout(constant_id = POINTS_BASE + constant_surfaces) const uint surface_vectors = 1;
-layout(constant_id = POINTS_BASE + constant_vignetting) const uint vignetting = 0;
-layout(constant_id = POINTS_BASE + constant_painted) const uint painted = 0;
+layout(constant_id = constant_surface_vectors) const uint surface_vectors = 1;
+layout(constant_id = constant_vignetting) const uint vignetting = 0;
+layout(constant_id = constant_painted) const uint painted = 0;
 
 // Which sample an invocation is.
 struct Sample {

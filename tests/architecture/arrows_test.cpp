@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 const fs::path root = PMDSIM_SOURCE_DIR;
 constexpr std::size_t largest_room = 25;
 
-// Each room with what it may include beside itself: rooms, and folders of Vulkan, Embree and the compiled
-// shaders.
+// Each room with what it may include beside itself: rooms, and folders of Vulkan and Embree.
 using Arrows = std::map<std::string, std::vector<std::string>>;
 
 std::vector<std::string> names_in(const std::string &cell) {
@@ -69,7 +68,7 @@ std::vector<std::string> rooms() {
 }
 
 // Paths that belong to the project, to Vulkan or to Embree; any other library is a matter of CMake.
-const std::regex ours("(engine|host|shaders|spirv|tests|vulkan|embree3)/.*");
+const std::regex ours("(engine|host|shaders|tests|vulkan|embree3)/.*");
 
 std::vector<std::string> includes_of(const fs::path &file) {
   static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");

@@ -16,7 +16,7 @@ struct Compiler {
   int compiled = 0;
 
   std::shared_ptr<const Pipeline> get(const std::uint32_t *spirv, const Specialization &constants) {
-    return cache.get(spirv, constants, [&] {
+    return cache.get({spirv, constants}, [&] {
       ++compiled;
       return Pipeline{};
     });
@@ -27,22 +27,22 @@ struct Compiler {
 
 TEST_CASE("a pipeline is known by its shader and its constants") {
   Compiler compiler;
-  const auto first = compiler.get(&one_shader, {1, 2});
-  CHECK(compiler.get(&one_shader, {1, 2}) == first);
+  const auto first = compiler.get(&one_shader, {{0, 1}, {1, 2}});
+  CHECK(compiler.get(&one_shader, {{0, 1}, {1, 2}}) == first);
   CHECK(compiler.compiled == 1);
-  CHECK(compiler.get(&one_shader, {1, 3}) != first);
-  CHECK(compiler.get(&one_shader, {1}) != first);
-  CHECK(compiler.get(&other_shader, {1, 2}) != first);
+  CHECK(compiler.get(&one_shader, {{0, 1}, {1, 3}}) != first);
+  CHECK(compiler.get(&one_shader, {{0, 1}}) != first);
+  CHECK(compiler.get(&other_shader, {{0, 1}, {1, 2}}) != first);
   CHECK(compiler.compiled == 4);
 }
 
 TEST_CASE("a full cache forgets what nobody uses") {
   Compiler compiler;
-  const auto used = compiler.get(&one_shader, {0});
+  const auto used = compiler.get(&one_shader, {{0, 0}});
   for (std::uint32_t i = 1; i < 1000; ++i)
-    compiler.get(&one_shader, {i});
-  CHECK(compiler.get(&one_shader, {0}) == used);
+    compiler.get(&one_shader, {{0, i}});
+  CHECK(compiler.get(&one_shader, {{0, 0}}) == used);
   CHECK(compiler.compiled == 1000);
-  compiler.get(&one_shader, {1});
+  compiler.get(&one_shader, {{0, 1}});
   CHECK(compiler.compiled == 1001);
 }

@@ -1,0 +1,61 @@
+// Specialization constants: one number and one name for each meaning in all modules. Where a module declares one, it is called as
+// here without `constant_`. Read by GLSL and C++ alike.
+#ifndef PMDSIM_CONSTANTS_H
+#define PMDSIM_CONSTANTS_H
+
+#include "shaders/shared/languages.h"
+
+#ifdef __cplusplus
+namespace pmdsim::shader {
+#endif
+
+PMDSIM_CONSTANT constant_straight = 0; // 1: what a dispatch sums is one straight line; 0: a loop over blocks of diodes
+PMDSIM_CONSTANT constant_blocks_per_run = 1; // blocks of diodes of a run, as a straight line has to know them
+PMDSIM_CONSTANT constant_runs = 2; // of diodes; 0: no pixel is summed, pixels are only listed
+PMDSIM_CONSTANT constant_moments = 3; // K, the number of moments
+PMDSIM_CONSTANT constant_powers = 4; // of q that are summed for the moments; 0: none, but those of e
+PMDSIM_CONSTANT constant_alike = 5; // by powers: 1: every diode has the same weight but for its distance, and is there as a position
+PMDSIM_CONSTANT constant_planar = 6; // by powers: 1: all diodes of a run lie in the reference's plane across the view
+PMDSIM_CONSTANT constant_backscatter_model = 7; // one of backscatter_*
+PMDSIM_CONSTANT constant_pattern_model = 8; // one of pattern_*
+PMDSIM_CONSTANT constant_cosine_order = 9; // of pattern_power
+PMDSIM_CONSTANT constant_phased = 10; // 1: an illuminator has a modulation phase
+PMDSIM_CONSTANT constant_shadowed = 11; // 1: not every diode reaches every sample
+PMDSIM_CONSTANT constant_tones = 12; // that one dispatch sums
+PMDSIM_CONSTANT constant_waveform = 13; // one of waveform_*
+PMDSIM_CONSTANT constant_taps = 14; // N
+PMDSIM_CONSTANT constant_planes = 15; // of the sum that belong to one frequency
+PMDSIM_CONSTANT constant_frequencies = 16; // that one dispatch resolves
+PMDSIM_CONSTANT constant_is_first = 17; // 1: of the runs, windows or walks that follow each other this is the first: there is nothing yet
+PMDSIM_CONSTANT constant_is_only = 18; // 1: the frame has no other run
+PMDSIM_CONSTANT constant_listed = 19; // 1: only the samples or pixels of a list
+PMDSIM_CONSTANT constant_promised = 20; // 1: an error was promised; what the terms come to without their phases is kept
+PMDSIM_CONSTANT constant_precise_sum = 21; // 1: samples' returns are turned and added in Real
+PMDSIM_CONSTANT constant_keep_taps = 22; // 1: the taps are channels, too
+PMDSIM_CONSTANT constant_ground_truth = 23; // 1: store the ground truth, too
+PMDSIM_CONSTANT constant_lit_is_kept = 24; // 1: store how much of the light reaches the pixel, too
+PMDSIM_CONSTANT constant_side = 25; // S: a pixel has S x S samples
+PMDSIM_CONSTANT constant_tiled = 26; // 1: the tags lie in tiles
+PMDSIM_CONSTANT constant_general_chip = 27; // 1: the chip stands anyhow or is filled in part; 0: nominal
+PMDSIM_CONSTANT constant_distortion = 28; // one of distortion_*
+PMDSIM_CONSTANT constant_vignetting = 29; // 1: cos^4
+PMDSIM_CONSTANT constant_painted = 30; // 1: shapes have paint
+PMDSIM_CONSTANT constant_masked = 31; // 1: shapes may have holes
+PMDSIM_CONSTANT constant_one_backscatter = 32; // 1: all surfaces have one backscatter
+PMDSIM_CONSTANT constant_surface_vectors = 33; // a sample that the sum asks for: 0, 1 or, precise, 2
+PMDSIM_CONSTANT constant_places = 34; // at which a pixel of several samples is evaluated: 1, its centre; 4, pixels of list_few; 0: none
+PMDSIM_CONSTANT constant_lists_pixels = 35; // one of lists_*
+PMDSIM_CONSTANT constant_lanes = 36; // invocations that try the candidates of a part
+PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another of its bundle: z is the same
+PMDSIM_CONSTANT constant_bundles = 38; // of the window
+PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
+
+PMDSIM_CONSTANT lists_no_pixel = 0; // all go the short way and none can break the promise
+PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_lit or list_rest
+PMDSIM_CONSTANT lists_in_three = 2; // list_few is for pixels that one place does not do for
+
+#ifdef __cplusplus
+} // namespace pmdsim::shader
+#endif
+
+#endif

@@ -1,0 +1,85 @@
+// A pipeline gets all constants that its shader declares and no others.
+
+#include "engine/vulkan/compute_pipeline.h"
+#include "shaders/light/source_windows.h"
+#include "shaders/shadow/lit_interface.h"
+#include "shaders/shared/constants.h"
+
+#include <catch2/catch.hpp>
+
+using namespace pmdsim;
+using namespace pmdsim::vulkan;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const ShaderModule &module_of(std::string_view name) {
+  for (const ShaderModule &module : shader_modules())
+    if (module.name == name)
+      return module;
+  throw std::logic_error("no such shader");
+}
+
+Specialization all_of(const ShaderModule &module) {
+  Specialization constants;
+  for (const DeclaredConstant &constant : declared_constants(module.spirv))
+    constants.set(constant.number, 1);
+  return constants;
+}
+
+Specialization all_but(const ShaderModule &module, std::uint32_t forgotten) {
+  Specialization constants;
+  for (const auto &[constant, value] : all_of(module).values())
+    if (constant != forgotten)
+      constants.set(constant, value);
+  return constants;
+}
+
+} // namespace
+
+TEST_CASE("a pipeline refuses a constant that was forgotten, by its shader's name and its own") {
+  const Instance instance(false);
+  for (auto &physical : instance.devices()) {
+    if (!what_is_lacking(physical).empty())
+      continue;
+    const Device device(instance, physical);
+    const ShaderModule &module = module_of("lit_count");
+    const auto make = [&](const Specialization &constants) {
+      return ComputePipeline(device, module, sizeof(shader::LitCountConstants), constants);
+    };
+    CHECK_NOTHROW(make(all_of(module)));
+    CHECK_THROWS_AS(make({}), std::logic_error);
+    CHECK_THROWS_WITH(make(all_but(module, shader::constant_is_first)),
+                      Contains("lit_count") && Contains("is_first"));
+    CHECK_THROWS_WITH(make(all_but(module, shader::constant_bundles)),
+                      Contains("lit_count") && Contains("bundles"));
+  }
+}
+
+TEST_CASE("no shader takes the default of any of its constants") {
+  for (const ShaderModule &module : shader_modules())
+    for (const DeclaredConstant &constant : declared_constants(module.spirv)) {
+      INFO(module.name << ": " << constant.name);
+      CHECK_THROWS_WITH(declared_part(module, all_but(module, constant.number)),
+                        Contains(std::string(module.name)) && Contains(constant.name));
+    }
+}
+
+TEST_CASE("a vertex shader's constant may be a float") {
+  const ShaderModule &module = module_of("id_raster_vert");
+  CHECK_THROWS_WITH(declared_part(module, {}), Contains("half_viewport"));
+}
+
+TEST_CASE("constants that a module does not declare stay outside") {
+  const ShaderModule &module = module_of("lit_count");
+  Specialization constants = all_of(module);
+  constants.set(shader::constant_taps, 4);
+  CHECK(declared_part(module, constants) == all_of(module));
+}
+
+TEST_CASE("a constant has one value") {
+  Specialization constants{{shader::constant_taps, 4}};
+  CHECK_NOTHROW(constants.merge({{shader::constant_taps, 4}, {shader::constant_planes, 2}}));
+  CHECK(constants == Specialization{{shader::constant_taps, 4}, {shader::constant_planes, 2}});
+  CHECK_THROWS_AS(constants.merge({{shader::constant_taps, 5}}), std::logic_error);
+}
