@@ -1,4 +1,4 @@
-#include "engine/light/pattern_slope.h"
+#include "engine/light/radiation_laws.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
