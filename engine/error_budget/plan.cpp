@@ -1,7 +1,7 @@
 #include "engine/error_budget/plan.h"
 
 #include "engine/error_budget/rounding_bound.h"
-#include "engine/light/pattern_slope.h"
+#include "engine/light/radiation_laws.h"
 #include "engine/model/error.h"
 #include "engine/reduction/reduced_set.h"
 
@@ -104,6 +104,15 @@ struct RoundedSum {
   RoundingBound bound;
 };
 
+const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
+  DiagramTables tables;
+  for (const CameraIlluminator &illuminator : lights)
+    for (const Diode &diode : illuminator.diodes)
+      if (!std::isfinite(law_error(diode.pattern, tables)))
+        return law_of(diode.pattern).unbounded;
+  return "";
+}
+
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
 RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
@@ -119,7 +128,7 @@ RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::
   }
   if (last)
     refuse(accuracy, *last);
-  refuse(accuracy, "a measured diagram that varies about its own axis has no bound");
+  refuse(accuracy, why_unbounded(view.lights));
 }
 
 Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {

@@ -8,7 +8,7 @@ namespace pmdsim {
 // What the short way has to know of the light.
 struct LightExtent {
   VisibleBox box;             // holds all diodes, camera frame
-  double pattern_slope = 0.0; // pattern_slope.h
+  double pattern_slope = 0.0; // radiation_laws.h
 };
 
 // Four places of a pixel, whose ranges differ by no more, may stand in for its samples.

@@ -1,6 +1,8 @@
 #include "engine/error_budget/rounding_bound.h"
 
 #include "engine/light/path_difference.h"
+#include "engine/light/radiation_laws.h"
+#include "engine/light/rounding_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +12,13 @@
 // sin(phi_m - arg z) / |z|, at most
 //   condition * a * min(kappa * spread, 1)       spread: of the paths, m
 // since arg z lies among the phi_m; an error of each path by b_m metres turns it by condition * kappa * b.
-// Half of the angle over kappa is distance. Below, a and b are counted operation by operation in units of u:
-// 2^-24 of float, 2^-45 of fp64 and of pairs of floats. Vulkan allows a division 2.5 units in the last place,
-// 5 u, and a square root, an inverse one inverted, 4.5.
+// Half of the angle over kappa is distance. Below, a and b are counted operation by operation in units of u
+// (engine/light/rounding_units.h).
 
 namespace pmdsim {
 namespace {
 
 constexpr double float_rounding = 0x1p-24, precise_rounding = 0x1p-45;
-constexpr double division = 5.0, root = 9.0;  // u
-constexpr double largest_exponent = 87.0;     // of e that float holds
 constexpr double pair_rounding = 0x1p-38;     // of ranges: pairs of floats, planes seen at 89 degrees
 constexpr double phasor = 10.0;               // u: a phase as a float, its cosine and sine, their product
 constexpr double angle = 6.0;                 // u: z as floats, its angle
@@ -80,54 +79,14 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
   return result;
 }
 
-// What is left of r^2 = rho^2 + q, u; t is the largest radius of a group over its range, so that r >= (1 - t)
-// rho. |q| <= 2 rho R + R^2, and six roundings are in its larger part, two in its smaller.
-double squared_range_error(double t) {
-  return 1.0 + (3.0 + 12.0 * t + 2.0 * t * t) / ((1.0 - t) * (1.0 - t));
-}
-
-// An inner product with a unit vector, `count` roundings of the length rho, as a cosine: over r.
-double cosine_error(double count, double t) { return count / (1.0 - t); }
-
-// Of the cosine to a diode's axis.
-double along_error(double t) { return cosine_error(6.0 + 2.0 * t, t); }
-
-// cos^n = exp(n / 2 log(1 - sin^2)), u.
-double real_power_error(double order, double t, double least_cosine) {
-  const double c = std::max(least_cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
-  const double s2 = std::min(0.5, 1.0 - c * c), r2 = squared_range_error(t);
-  const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
-  double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);
-  if (c * c < 0.5)
-    log_error = std::max(log_error, 2.0 * along_error(t) / c + r2 + 9.0);
-  const double exponent = -order * std::log(c);
-  return 0.5 * order * log_error + 14.0 * exponent + 6.0;
-}
-
-// Beyond beam_cosine a power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14
-// / (e cos): over the order, times the cosine.
-double rim_error(const SumModel &model, double t) {
-  return along_error(t) + (model.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
-}
-
-double pattern_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
-  const double t = groups.radius_over_range;
-  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
-  if (model.pattern == shader::pattern_isotropic)
-    return 0.0;
-  if (model.pattern == shader::pattern_power) {
-    const double cosine = along_error(t) / least_cosine;
-    return model.order * (cosine + 0.5 * squared_range_error(t) + root + division + 5.0);
-  }
-  double largest = 0.0;
-  for (const shader::GroupDiode &diode : groups.diodes)
-    largest = std::max(largest, static_cast<double>(diode.order));
-  return real_power_error(largest, t, least_cosine);
+LawRounding law_rounding(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
+  return {model.pattern, groups.radius_over_range,
+          scope.rims_are_terms ? beam_cosine : scope.emission_cosine};
 }
 
 // What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and three in its
 // smaller; 1 / rho^2 is a product and a division of the rounded rho.
-constexpr double inverse_square = division + 3.0;
+constexpr double inverse_square = division_u + 3.0;
 double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
 
 // Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
@@ -138,26 +97,24 @@ double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.power_s
 // u)^(-p/2).
 double power_weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope,
                           double inverse_powers) {
-  const double t = groups.radius_over_range;
-  const double least_cosine = scope.rims_are_terms ? beam_cosine : scope.emission_cosine;
-  double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division + 2.0) +
+  const auto [form, t, least_cosine] = law_rounding(groups, model, scope);
+  double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
                  groups.power_sums.growth * polynomial_error(groups) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
-  if (model.pattern == shader::pattern_power)
-    error += model.order * (along_error(t) / least_cosine + 1.0);
+  error += model.order * (along_error_u(t) / least_cosine + 1.0);
   if (model.backscatter == shader::backscatter_lambert)
-    error += 2.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
+    error += 2.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
   return error;
 }
 
 // a of I J cos / r^2, u.
 double weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
-  const double t = groups.radius_over_range, r2 = squared_range_error(t);
+  const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
   if (groups.power_sums.powers > 0)
     return power_weight_error(groups, model, scope, inverse_powers(model).value());
-  double error = r2 + division + 4.0 + pattern_error(groups, model, scope);
+  double error = r2 + division_u + 4.0 + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
-    error += 0.5 * r2 + root + division + 6.0 + cosine_error(9.0 + 5.0 * t, t) / scope.incidence_cosine;
+    error += 0.5 * r2 + root_u + division_u + 6.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
   return error;
 }
 
@@ -169,7 +126,7 @@ double excess_error_m(const DiodeGroups &groups) {
            groups.excess_m *
                (groups.power_sums.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
-         groups.excess_m * (0.25 * squared_range_error(t) + 0.5 * root + division + 4.5);
+         groups.excess_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
 
 // Of every term: its weight, relative, and its path.
@@ -257,7 +214,7 @@ private:
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
     if (scope_.rims_are_terms)
-      bound.rim_error = u_ * rim_error(model_, groups_.radius_over_range);
+      bound.rim_error = u_ * rim_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
     return bound;
   }
 
@@ -338,7 +295,7 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope) {
   if (!std::ranges::all_of(groups.places,
-                           [](const DiodePlace &place) { return std::isfinite(place.diagram_error); }))
+                           [](const DiodePlace &place) { return std::isfinite(place.law_error); }))
     return std::nullopt;
   const Bound bound(groups, visible, model, signal, scope);
   RoundingBound largest{};
@@ -362,7 +319,7 @@ double least_emission_cosine(const DiodeGroups &groups, const std::vector<Visibl
   double least = 1.0;
   for (std::size_t i = 0; i < groups.diodes.size() && least > grazing_cosine; ++i) {
     const glm::dvec3 &place_m = groups.places[i].position_m;
-    if (groups.places[i].number == no_id || groups.diodes[i].order < 0.0f)
+    if (groups.places[i].number == no_id || law_of(groups.diodes[i]).rim == nullptr)
       continue;
     for (const VisibleBox &box : boxes)
       least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));

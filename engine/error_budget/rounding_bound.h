@@ -49,7 +49,7 @@ struct RoundingScope {
   double backscatter_error = 0x1p-24;
 };
 
-// Nothing where a measured diagram is infinitely steep; else what is off in diagrams is in the pixel's terms
+// Nothing where a diode's law has no bound (law_error); else what is off in diagrams is in the pixel's terms
 // (shaders/light/sum.glsl), as grazing light is where the scope's cosine is 1.
 std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,

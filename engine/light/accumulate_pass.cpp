@@ -1,5 +1,6 @@
 #include "engine/light/accumulate_pass.h"
 
+#include "engine/light/radiation_laws.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/float_pair.h"
 #include "shaders/shared/constants.h"
@@ -94,24 +95,18 @@ vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeG
           scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants), constants};
 }
 
-// At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
-// as a step.
-double steepness(double order) { return order < 1.0 ? 54.0 : order; }
-
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
 // shaders/light/sum.glsl).
 void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const Promise &promise,
               shader::LightRun &record) {
-  double steepest = 0.0, least_order = std::numeric_limits<double>::infinity();
-  for (std::size_t i = first; i < last; ++i) {
-    const auto order = static_cast<double>(groups.diodes[i].order);
-    if (order <= 0.0) // no cosine, or a half-space
-      continue;
-    steepest = std::max(steepest, steepness(order));
-    least_order = std::min(least_order, std::max(order, 1.0));
-  }
+  double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
+  for (std::size_t i = first; i < last; ++i)
+    if (const auto rim = beam_rim(groups.diodes[i])) {
+      steepest = std::max(steepest, rim->steepness);
+      least_power = std::min(least_power, rim->power);
+    }
   record.rims = static_cast<float>(promise.terms_of_rims * steepest);
-  record.rim_root = static_cast<float>(1.0 / least_order);
+  record.rim_root = static_cast<float>(1.0 / least_power);
 }
 
 } // namespace
@@ -121,12 +116,12 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
   for (const DiodeRun &run : groups.runs) {
-    double intensity = 0.0, diagrams = 0.0; // relative; times what the diagrams are off by
+    double intensity = 0.0, diagrams = 0.0; // relative; times what the laws are off by
     glm::dvec4 detours(0.0);
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
       detours += glm::dvec4(groups.diodes[i].position);
-      diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].diagram_error;
+      diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].law_error;
     }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);

@@ -2,6 +2,7 @@
 
 #include "engine/light/diagram_tables.h"
 #include "engine/light/path_difference.h"
+#include "engine/light/radiation_laws.h"
 #include "engine/model/error.h"
 
 #include <algorithm>
@@ -56,27 +57,11 @@ Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::v
   return group;
 }
 
-// Of GroupDiode::order.
-constexpr float isotropic_order = -1.0f, diagram_order = -2.0f;
-
 shader::GroupDiode dark_diode() {
   shader::GroupDiode diode{};
   diode.axis = {0, 0, 1, 0};
-  diode.order = isotropic_order;
+  diode.order = law_of(Pattern{}).number;
   return diode;
-}
-
-void set_diagram(const Diode &diode, const DiagramGrid &grid, shader::GroupDiode &record) {
-  // Turned so that phi counts from the grid's first.
-  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
-                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
-  record.order = diagram_order;
-  record.diagram = grid.first_value;
-  record.theta_steps = static_cast<float>(grid.theta_steps);
-  record.first_theta = static_cast<float>(grid.first_theta_rad);
-  record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
-  record.row_length = grid.row_length;
-  record.across = glm::vec4(across, grid.phi_steps);
 }
 
 shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
@@ -87,10 +72,10 @@ shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m
   record.axis = glm::vec4(diode.axis, glm::dot(diode.axis, position_m));
   if (largest_intensity_w_sr > 0.0)
     record.intensity = static_cast<float>(diode.intensity_w_sr / largest_intensity_w_sr);
-  if (diode.pattern.kind == Pattern::Kind::cosine)
-    record.order = static_cast<float>(diode.pattern.order);
-  if (diode.pattern.kind == Pattern::Kind::diagram)
-    set_diagram(diode, diagrams.grid_of(diode.pattern.diagram), record);
+  const RadiationLaw &law = law_of(diode.pattern);
+  record.order = law.number;
+  if (law.describe != nullptr)
+    law.describe(diode, diagrams, record);
   return record;
 }
 
@@ -121,7 +106,7 @@ shader::PreciseDiode precise_diode(const shader::GroupDiode &rounded, const Diod
       rest(glm::dvec4(-2.0 * position_m, glm::dot(position_m, position_m)), rounded.position);
   record.axis_rest = rest(glm::dvec4(diode.axis, glm::dot(diode.axis, position_m)), rounded.axis);
   record.intensity_rest = rest(diode.intensity_w_sr / largest_intensity_w_sr, rounded.intensity);
-  if (diode.pattern.kind == Pattern::Kind::cosine)
+  if (rounded.order >= 0.0f)
     record.order_rest = rest(diode.pattern.order, rounded.order);
   return record;
 }
@@ -206,10 +191,6 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
-double diagram_error(const Diode &diode, DiagramTables &diagrams) {
-  return diode.pattern.kind == Pattern::Kind::diagram ? diagrams.grid_of(diode.pattern.diagram).error : 0.0;
-}
-
 void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
@@ -225,7 +206,7 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
         result.precise_diodes.push_back(
             precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
       result.places.push_back(
-          {diode.position_m, dark ? no_id : diode.number, diagram_error(diode, diagrams)});
+          {diode.position_m, dark ? no_id : diode.number, law_error(diode.pattern, diagrams)});
     }
   }
 }

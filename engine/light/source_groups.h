@@ -26,7 +26,7 @@ struct DiodeRun {
 struct DiodePlace {
   glm::dvec3 position_m;        // camera frame
   std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
-  double diagram_error = 0.0;   // of a measured diagram (diagram_tables.h)
+  double law_error = 0.0;       // of its J, beside what rounding does (radiation_laws.h)
 };
 
 struct DiodeGroups {

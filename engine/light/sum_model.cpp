@@ -1,55 +1,23 @@
 #include "engine/light/sum_model.h"
 
+#include "engine/light/radiation_laws.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace pmdsim {
-namespace {
-
-// Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
-constexpr double largest_whole_power = 8.0;
-
-template <typename Property>
-bool every_pattern(const std::vector<CameraIlluminator> &illuminators, const Property &holds) {
-  return std::ranges::all_of(illuminators, [&](const CameraIlluminator &illuminator) {
-    return std::ranges::all_of(illuminator.diodes, holds, &Diode::pattern);
-  });
-}
-
-// The plainest of shader::pattern_* that holds all patterns.
-std::uint32_t pattern_of(const std::vector<CameraIlluminator> &illuminators) {
-  const auto every = [&](const auto &holds) { return every_pattern(illuminators, holds); };
-  const Pattern &first = illuminators.front().diodes.front().pattern;
-  if (every([](const Pattern &pattern) { return pattern.kind == Pattern::Kind::isotropic; }))
-    return shader::pattern_isotropic;
-  if (first.order >= 1.0 && first.order <= largest_whole_power && first.order == std::floor(first.order) &&
-      every([&](const Pattern &pattern) {
-        return pattern.kind == Pattern::Kind::cosine && pattern.order == first.order;
-      }))
-    return shader::pattern_power;
-  if (every([](const Pattern &pattern) { return pattern.kind != Pattern::Kind::diagram; }))
-    return shader::pattern_general;
-  if (every([](const Pattern &pattern) {
-        return pattern.kind == Pattern::Kind::diagram && pattern.diagram->phi_rad.size() == 1;
-      }))
-    return shader::pattern_axial;
-  return shader::pattern_any;
-}
-
-} // namespace
-
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light) {
-  SumModel model{shader::backscatter_lambert, pattern_of(illuminators), 0};
+  const LawForm form = form_of(illuminators);
+  SumModel model{shader::backscatter_lambert, form.pattern, form.range_powers.value_or(0),
+                 form.range_powers.has_value()};
   if (backscatter == Backscatter::constant)
     model.backscatter = all_face_the_light ? shader::backscatter_flat : shader::backscatter_facing;
-  if (model.pattern == shader::pattern_power)
-    model.order = static_cast<std::uint32_t>(illuminators.front().diodes.front().pattern.order);
   return model;
 }
 
 std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
-  if (model.pattern > shader::pattern_power)
+  if (!model.of_lengths)
     return std::nullopt;
   return 2 + (model.backscatter == shader::backscatter_lambert ? 1 : 0) + model.order;
 }

@@ -18,6 +18,7 @@ struct SumModel {
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
+  bool of_lengths = true;    // a diode's weight is a product of lengths and of a power of 1 / r
 
   // Of normals and heights a sample: none, one, or, to double precision, two.
   std::uint32_t surface_vectors(Precision precision) const {
@@ -25,7 +26,7 @@ struct SumModel {
   }
 };
 
-// The powers of 1 / r in a diode's weight; nothing where it is no product of such a power and of lengths.
+// The powers of 1 / r in a diode's weight; nothing where it is not SumModel::of_lengths.
 std::optional<std::uint32_t> inverse_powers(const SumModel &model);
 
 // Has the moments of `groups` summed by powers where the model allows and it is worth it

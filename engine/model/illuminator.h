@@ -3,6 +3,7 @@
 
 #include "engine/model/pose.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,16 @@ struct Pattern {
   double order = 0.0;                               // cosine only, any real >= 0
   std::shared_ptr<const Diagram> diagram = nullptr; // diagram only
 };
+
+// A law's name in setups and tables of diodes, and the number that it has there.
+struct LawName {
+  const char *key;
+  double Pattern::*number = nullptr; // nothing: none
+};
+
+// In the order of Pattern::Kind.
+inline constexpr std::array law_names{LawName{"isotropic"}, LawName{"order", &Pattern::order},
+                                      LawName{"file"}};
 
 struct Diode {
   glm::dvec3 position_m{0.0};     // illuminator frame

@@ -1,5 +1,7 @@
 #include "engine/reduction/cluster.h"
 
+#include "engine/light/radiation_laws.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -87,8 +89,7 @@ DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::s
   cluster.axes = axes_of(covariance);
   const Diode &first = diodes[members.front()];
   cluster.beam = first.axis;
-  if (first.pattern.kind == Pattern::Kind::cosine)
-    cluster.order = first.pattern.order;
+  cluster.order = law_series(first.pattern).value().order;
   for (const std::size_t member : members) {
     const glm::dvec3 p = diodes[member].position_m - cluster.centre_m;
     const glm::dvec3 offset_m = glm::transpose(cluster.axes) * p;

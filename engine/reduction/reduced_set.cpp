@@ -1,5 +1,6 @@
 #include "engine/reduction/reduced_set.h"
 
+#include "engine/light/radiation_laws.h"
 #include "engine/reduction/dominant_moments.h"
 #include "engine/reduction/nonnegative_quadrature.h"
 
@@ -143,16 +144,13 @@ public:
 
   void reduce(CameraIlluminator &illuminator) {
     std::vector<Diode> &diodes = illuminator.diodes;
-    std::map<std::tuple<bool, double, double, double, double>, std::vector<std::size_t>> classes;
+    std::map<std::tuple<std::optional<double>, double, double, double>, std::vector<std::size_t>> classes;
     for (std::size_t i = 0; i < diodes.size(); ++i) {
-      const auto &[kind, order, diagram] = diodes[i].pattern;
-      if (!(diodes[i].intensity_w_sr > 0.0))
+      const std::optional<LawSeries> series = law_series(diodes[i].pattern);
+      if (!series || !(diodes[i].intensity_w_sr > 0.0))
         continue;
-      const glm::dvec3 &axis = diodes[i].axis;
-      if (kind == Pattern::Kind::isotropic)
-        classes[{false, 0, 0, 0, 0}].push_back(i);
-      if (kind == Pattern::Kind::cosine)
-        classes[{true, order, axis.x, axis.y, axis.z}].push_back(i);
+      const glm::dvec3 axis = series->order ? diodes[i].axis : glm::dvec3(0.0);
+      classes[{series->order, axis.x, axis.y, axis.z}].push_back(i);
     }
     drop_.assign(diodes.size(), false);
     for (auto &[kind, members] : classes) {

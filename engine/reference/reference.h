@@ -51,6 +51,10 @@ Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illum
                Backscatter backscatter, const Options &options = {},
                const std::function<void(double)> &progress = {});
 
+// The integral of J over all directions: 4 pi of an isotropic diode, 2 pi / (n + 1) of a cosine's order n,
+// and of a diagram what its interpolation makes of it, exactly.
+double solid_angle_sr(const Pattern &pattern);
+
 // Rounded to the float channels that the simulator gives.
 Measurement to_measurement(const Frame &frame);
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <numbers>
 #include <numeric>
 
 namespace pmdsim {
@@ -55,42 +54,15 @@ SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor) {
   return findings;
 }
 
-// At index `theta` of the diagram, the integral over phi, which is piecewise linear.
-double around_axis(const Diagram &diagram, std::size_t theta) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  const std::size_t phis = diagram.phi_rad.size();
-  const double *relative = &diagram.relative[theta * phis];
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < phis; ++i)
-    sum += 0.5 * (relative[i] + relative[i + 1]) * (diagram.phi_rad[i + 1] - diagram.phi_rad[i]);
-  return sum +
-         0.5 * (relative[phis - 1] + relative[0]) * (diagram.phi_rad.front() + turn - diagram.phi_rad.back());
-}
-
-// Between two angles to the axis the integral over phi is linear in theta: a + slope * theta, and the
-// integral of that times sin(theta) has a closed form.
-double diagram_sr(const Diagram &diagram) {
-  double sum_sr = 0.0;
-  for (std::size_t i = 0; i + 1 < diagram.theta_rad.size(); ++i) {
-    const double from = diagram.theta_rad[i];
-    const double to = diagram.theta_rad[i + 1];
-    const double at_from = around_axis(diagram, i);
-    const double at_to = around_axis(diagram, i + 1);
-    sum_sr += at_from * std::cos(from) - at_to * std::cos(to) +
-              (at_to - at_from) / (to - from) * (std::sin(to) - std::sin(from));
-  }
-  return sum_sr;
-}
-
 // Many diodes share a diagram.
 using DiagramAngles = std::map<const Diagram *, double>;
 
 double known_or_new_sr(const Pattern &pattern, DiagramAngles &known_sr) {
-  if (pattern.kind != Pattern::Kind::diagram)
-    return solid_angle_sr(pattern);
+  if (!pattern.diagram)
+    return reference::solid_angle_sr(pattern);
   const auto [known, is_new] = known_sr.try_emplace(pattern.diagram.get(), 0.0);
   if (is_new)
-    known->second = solid_angle_sr(pattern);
+    known->second = reference::solid_angle_sr(pattern);
   return known->second;
 }
 
@@ -168,18 +140,6 @@ std::vector<std::string> warnings_of(const Findings &findings) {
   for (const SensorFindings &sensor : findings.sensors)
     add_tap_warning(warnings, sensor, findings.frames);
   return warnings;
-}
-
-double solid_angle_sr(const Pattern &pattern) {
-  switch (pattern.kind) {
-  case Pattern::Kind::isotropic:
-    return 4.0 * std::numbers::pi;
-  case Pattern::Kind::cosine:
-    return 2.0 * std::numbers::pi / (pattern.order + 1.0);
-  case Pattern::Kind::diagram:
-    return diagram_sr(*pattern.diagram);
-  }
-  return 0.0;
 }
 
 std::optional<double> common_ambiguity_m(const std::vector<double> &modulation_hz) {

@@ -60,10 +60,6 @@ Findings findings_of(const Setup &setup);
 // Beyond what loading the setup has warned of already, one line each.
 std::vector<std::string> warnings_of(const Findings &findings);
 
-// The integral of J over all directions: 4 pi of an isotropic diode, 2 pi / (n + 1) of a cosine's order n,
-// and of a diagram what its interpolation makes of it, exactly.
-double solid_angle_sr(const Pattern &pattern);
-
 // c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers
 // of hertz.
 std::optional<double> common_ambiguity_m(const std::vector<double> &modulation_hz);

@@ -1,10 +1,10 @@
 // A diode's weight at a point and how much longer its path is than the reference point's, as in sum.glsl and
-// radiation.glsl, in Real throughout. Only measured diagrams, which are tables of floats, are looked up in float.
+// radiation_laws.glsl, in Real throughout. Only measured diagrams, which are tables of floats, are looked up in float.
 #ifndef PMDSIM_ACCUMULATE_PRECISE_GLSL
 #define PMDSIM_ACCUMULATE_PRECISE_GLSL
 
+#define SUM_IN_REAL
 #include "shaders/light/accumulate.glsl"
-#include "shaders/shared/real_elementary.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PreciseDiodes { PreciseDiode at[]; };
 
@@ -31,54 +31,10 @@ ReferencePath load_point(uint i, LightRun run, out PrecisePoint point) {
   return path;
 }
 
-Real half_of(Real a) { return multiply(a, real(0.5)); }
-
 // The way from a diode to a point, m; `twice_back` is -2 (diode - G).
 Real3 way_from(PrecisePoint point, Real3 twice_back) {
   return Real3(add(point.position.x, half_of(twice_back.x)), add(point.position.y, half_of(twice_back.y)),
                add(point.position.z, half_of(twice_back.z)));
-}
-
-Real whole_power(Real x) {
-  Real result = real(1.0);
-  [[unroll]] for (uint n = 0; n < cosine_order; ++n)
-    result = multiply(result, x);
-  return result;
-}
-
-// x, or 0 where it is negative.
-Real at_least_zero(Real x) { return high(x) > 0.0 ? x : real(0.0); }
-
-// As real_power of radiation.glsl.
-Real real_power(Real3 way, Real3 axis, Real order, Real along_m, Real r2) {
-  Real3 across = cross3(axis, way);
-  Real sine2 = real_clamp(divide(dot3(across, across), r2), 0.0, 1.0);
-  Real cosine2 = high(sine2) < 0.5 ? add(real(1.0), negate(sine2)) : divide(multiply(along_m, along_m), r2);
-  Real j = real_exp_of(multiply(half_of(order), real_log_of(real_clamp(cosine2, 1e-37, 1.0), sine2)));
-  return high(along_m) > 0.0 ? j : real(0.0);
-}
-
-// J from a diode's table.
-float measured_diagram(PrecisePoint point, GroupDiode diode, Real along_m, Real r) {
-  Point rounded;
-  rounded.position = high3(point.position);
-  Way way = way_from(diode, rounded, high(along_m), high(r));
-  return pattern_model == pattern_axial ? axial_diagram(way, diode) : diagram(way, diode);
-}
-
-Real radiation(PrecisePoint point, PreciseDiode diode, Real3 twice_back, Real r, Real r2) {
-  Real3 axis = real3(diode.rounded.axis.xyz, diode.axis_rest.xyz);
-  Real along_m = add(dot3(axis, point.position), negate(real(diode.rounded.axis.w, diode.axis_rest.w)));
-  if (pattern_model == pattern_power)
-    return whole_power(at_least_zero(divide(along_m, r)));
-  if (pattern_model == pattern_axial)
-    return real(measured_diagram(point, diode.rounded, along_m, r));
-  Real order = real(diode.rounded.order, diode.order_rest);
-  Real j = diode.rounded.order < 0.0 ? real(1.0)
-                                     : real_power(way_from(point, twice_back), axis, order, along_m, r2);
-  if (pattern_model == pattern_any)
-    j = diode.rounded.order < -1.0 ? real(measured_diagram(point, diode.rounded, along_m, r)) : j;
-  return j;
 }
 
 struct WeightAndExcess {
@@ -97,7 +53,7 @@ WeightAndExcess weight_and_excess(PrecisePoint point, PreciseDiode diode, bool r
     weight = high(height) > 0.0 ? multiply(weight, cosine) : real(0.0);
   }
   if (pattern_model != pattern_isotropic)
-    weight = multiply(weight, radiation(point, diode, twice_back, r, r2));
+    weight = multiply(weight, radiation(point.position, way_from(point, twice_back), diode, r, r2));
   if (shadowed != 0)
     weight = reached ? weight : real(0.0);
   return WeightAndExcess(weight, divide(q, add(r, point.rho)));

@@ -28,7 +28,7 @@ struct Point {
   float height;  // of G over the surface's plane, m
 };
 
-#include "shaders/light/radiation.glsl"
+#include "shaders/light/radiation_laws.glsl"
 
 // w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
 vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {

@@ -135,7 +135,8 @@ struct GroupDiode {
   vec4 position;   // -2 * position_m, |position_m|^2
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
-  float order;     // of the cosine; -1: isotropic; -2: a diagram
+  float order;     // of the cosine; below 0 the number of another law (engine/light/radiation_laws.cpp)
+  // What follows is the law's own; of a measured diagram:
   uint diagram;    // index of its first value in the table of all (diagram_tables.h)
   float theta_steps;
   float first_theta; // rad

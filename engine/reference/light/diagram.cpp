@@ -52,6 +52,17 @@ double relative(const Diagram &diagram, double theta_rad, double phi_rad) {
   return std::lerp(at_theta(theta.first), at_theta(theta.second), theta.fraction);
 }
 
+// At index `theta` of the diagram, the integral over phi, which is piecewise linear.
+double around_axis(const Diagram &diagram, std::size_t theta) {
+  const std::size_t phis = diagram.phi_rad.size();
+  const double *relative = &diagram.relative[theta * phis];
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < phis; ++i)
+    sum += 0.5 * (relative[i] + relative[i + 1]) * (diagram.phi_rad[i + 1] - diagram.phi_rad[i]);
+  return sum + 0.5 * (relative[phis - 1] + relative[0]) *
+                   (diagram.phi_rad.front() + full_turn_rad - diagram.phi_rad.back());
+}
+
 } // namespace
 
 // The arctangent is exact all around, where an arccosine loses half of the digits near the axis.
@@ -61,6 +72,21 @@ double diagram_gain(const Diode &diode, const glm::dvec3 &direction) {
   const double phi_rad = std::atan2(glm::dot(glm::cross(diode.axis, diode.across), direction),
                                     glm::dot(diode.across, direction));
   return relative(*diode.pattern.diagram, theta_rad, phi_rad);
+}
+
+// Between two angles to the axis the integral over phi is linear in theta: a + slope * theta, and the
+// integral of that times sin(theta) has a closed form.
+double diagram_solid_angle_sr(const Diagram &diagram) {
+  double sum_sr = 0.0;
+  for (std::size_t i = 0; i + 1 < diagram.theta_rad.size(); ++i) {
+    const double from = diagram.theta_rad[i];
+    const double to = diagram.theta_rad[i + 1];
+    const double at_from = around_axis(diagram, i);
+    const double at_to = around_axis(diagram, i + 1);
+    sum_sr += at_from * std::cos(from) - at_to * std::cos(to) +
+              (at_to - at_from) / (to - from) * (std::sin(to) - std::sin(from));
+  }
+  return sum_sr;
 }
 
 } // namespace pmdsim::reference

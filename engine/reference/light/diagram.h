@@ -13,4 +13,7 @@ inline constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 // diode's axis).
 double diagram_gain(const Diode &diode, const glm::dvec3 &direction);
 
+// The integral of J over all directions, of what is linear between those of the table.
+double diagram_solid_angle_sr(const Diagram &diagram);
+
 } // namespace pmdsim::reference

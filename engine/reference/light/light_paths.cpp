@@ -1,6 +1,6 @@
 #include "engine/reference/light/light_paths.h"
 
-#include "engine/reference/light/diagram.h"
+#include "engine/reference/light/radiation_laws.h"
 
 #include <cmath>
 #include <cstddef>
@@ -15,20 +15,6 @@ double backscatter_per_sr(Backscatter backscatter, double reflectivity, double c
     return 0.0;
   return backscatter == Backscatter::constant ? reflectivity
                                               : reflectivity * std::numbers::inv_pi * cos_incidence;
-}
-
-double pattern_gain(const Diode &diode, const glm::dvec3 &to_diode_m, double diode_range_m) {
-  switch (diode.pattern.kind) {
-  case Pattern::Kind::cosine: {
-    const double cos_theta = -glm::dot(diode.axis, to_diode_m) / diode_range_m;
-    return cos_theta > 0 ? std::pow(cos_theta, diode.pattern.order) : 0.0;
-  }
-  case Pattern::Kind::diagram:
-    return diagram_gain(diode, -to_diode_m);
-  case Pattern::Kind::isotropic:
-    break;
-  }
-  return 1.0;
 }
 
 } // namespace
@@ -48,7 +34,7 @@ std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<
       const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
       const double returned_w_sr2 = point.lens_gain *
                                     backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
-                                    diode.intensity_w_sr * pattern_gain(diode, to_diode_m, diode_range_m);
+                                    diode.intensity_w_sr * radiation(diode, to_diode_m, diode_range_m);
       if (returned_w_sr2 != 0)
         paths.push_back({diode_range_m + lens_range_m, returned_w_sr2 / (diode_range_m * diode_range_m),
                          light.phase_turns});

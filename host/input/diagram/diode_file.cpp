@@ -2,6 +2,7 @@
 
 #include "host/input/diagram/csv_table.h"
 #include "host/input/diagram/diode_across.h"
+#include "host/input/diagram/radiation_law.h"
 #include "host/input/schema/limits.h"
 
 #include <algorithm>
@@ -18,25 +19,7 @@ using Table = CsvTable<columns.size()>;
 
 constexpr Range coordinates_m{-max_coordinate_m, max_coordinate_m};
 constexpr Range intensities_w_sr{0.0, max_intensity_w_sr};
-constexpr Range pattern_orders{0.0, max_pattern_order};
 constexpr Range rolls_deg{-max_roll_deg, max_roll_deg};
-
-// What is written like a number is one, if a wrong one; a file of that name is "./1.5".
-bool is_number_like(std::string_view text) {
-  constexpr std::string_view first = "0123456789.+-";
-  return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;
-}
-
-Pattern pattern_of(const Table &row, const std::filesystem::path &folder, DiagramFiles &diagrams) {
-  const std::string_view text = row.text(pattern);
-  if (text.empty())
-    throw input_error(row.here(), "pattern: expected an order, isotropic or a diagram's file name");
-  if (text == "isotropic")
-    return {};
-  if (is_number_like(text))
-    return {Pattern::Kind::cosine, row.number_within(pattern_orders, pattern)};
-  return {Pattern::Kind::diagram, 0.0, diagrams.read(folder / text, row.here())};
-}
 
 glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
   const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
@@ -45,13 +28,13 @@ glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
   return glm::normalize(axis / largest);
 }
 
-Diode diode_of(const Table &row, const std::filesystem::path &folder, DiagramFiles &diagrams) {
+Diode diode_of(const Table &row, DiagramFiles &diagrams) {
   Diode diode;
   diode.position_m = {row.number_within(coordinates_m, x_m), row.number_within(coordinates_m, y_m),
                       row.number_within(coordinates_m, z_m)};
   diode.axis = unit_axis({row.number(axis_x), row.number(axis_y), row.number(axis_z)}, row.here());
   diode.intensity_w_sr = row.number_within(intensities_w_sr, intensity_w_sr);
-  diode.pattern = pattern_of(row, folder, diagrams);
+  diode.pattern = law_in_field(row.text(pattern), row.here(), diagrams);
   const double roll = row.has(roll_deg) ? row.number_within(rolls_deg, roll_deg) : 0.0;
   diode.across = diode_across(diode.axis, glm::radians(roll));
   return diode;
@@ -67,7 +50,7 @@ std::vector<Diode> read_diode_file(const std::filesystem::path &file, const Plac
   while (table.next_row()) {
     if (diodes.size() == max_diodes)
       throw input_error(table.here(), fmt::format("expected at most {} diodes", max_diodes));
-    diodes.push_back(diode_of(table, file.parent_path(), diagrams));
+    diodes.push_back(diode_of(table, diagrams));
   }
   if (diodes.empty())
     throw input_error(table.end(), "expected at least one diode");

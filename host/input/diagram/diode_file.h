@@ -1,9 +1,8 @@
 #pragma once
 // Diode files: CSV with a header line and the columns x_m, y_m, z_m (position), axis_x, axis_y, axis_z
-// (normalised when read), intensity_w_sr (>= 0), pattern (the order of a cosine, `isotropic`, or the name of
-// a diagram's file, relative to the diode file's folder) and, where it is wanted, roll_deg (of a diagram
-// about the axis, see diode_across.h), in any order, one diode a line, all in the illuminator's frame. Blank
-// lines are skipped. limits.h bounds the values.
+// (normalised when read), intensity_w_sr (>= 0), pattern (a field of radiation_law.h) and, where it is
+// wanted, roll_deg (of a diagram about the axis, see diode_across.h), in any order, one diode a line, all in
+// the illuminator's frame. Blank lines are skipped. limits.h bounds the values.
 
 #include "engine/model/illuminator.h"
 #include "host/input/diagram/diagram_file.h"

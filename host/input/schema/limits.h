@@ -10,7 +10,6 @@ namespace pmdsim {
 
 inline constexpr double max_coordinate_m = 1e9; // of a position, to either side of its frame's origin
 inline constexpr double max_intensity_w_sr = 1e30;
-inline constexpr double max_pattern_order = 1e6;
 inline constexpr double max_roll_deg = 3600.0;    // of a diagram about its axis, to either side
 inline constexpr double max_modulation_hz = 1e12; // of a waveform's highest harmonic too
 inline constexpr std::uint32_t max_resolution = 8192;

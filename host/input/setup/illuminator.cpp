@@ -2,6 +2,7 @@
 
 #include "host/input/diagram/diode_across.h"
 #include "host/input/diagram/diode_file.h"
+#include "host/input/diagram/radiation_law.h"
 #include "host/input/schema/limits.h"
 #include "host/input/setup/pose.h"
 
@@ -15,15 +16,6 @@ namespace pmdsim {
 using nlohmann::ordered_json;
 
 namespace {
-
-Pattern pattern_of(const ordered_json &pattern, const Place &place, DiagramFiles &diagrams) {
-  if (pattern.contains("isotropic"))
-    return {};
-  if (pattern.contains("order"))
-    return {Pattern::Kind::cosine, pattern.at("order").get<double>()};
-  const std::filesystem::path file = place.file.parent_path() / pattern.at("file").get<std::string>();
-  return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place / "file")};
-}
 
 // `degrees` modulo 360, in [0, 360).
 double full_turn(double degrees) {
@@ -103,7 +95,7 @@ std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place
   const ordered_json &pattern = illuminator.at("pattern");
   Diode diode;
   diode.intensity_w_sr = intensity_w_sr;
-  diode.pattern = pattern_of(pattern, place / "pattern", diagrams);
+  diode.pattern = law_in_setup(pattern, place / "pattern", diagrams);
   diode.across = diode_across(diode.axis, glm::radians(pattern.value("roll_deg", 0.0)));
   return diodes.contains("rings") ? ring_diodes(diodes.at("rings"), diode, place / "diodes" / "rings")
                                   : std::vector<Diode>{diode};

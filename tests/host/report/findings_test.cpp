@@ -30,7 +30,7 @@ Setup setup_of(const Sensor &sensor, const Scene &scene) {
 }
 
 double table_sr(const Diagram &diagram) {
-  return solid_angle_sr({Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>(diagram)});
+  return reference::solid_angle_sr({Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>(diagram)});
 }
 
 } // namespace
@@ -71,9 +71,9 @@ TEST_CASE("vignetting is told of the corner that it darkens most") {
 
 TEST_CASE("a diode shines into the integral of its diagram") {
   constexpr double pi = std::numbers::pi;
-  CHECK(solid_angle_sr({}) == Approx(4.0 * pi));
-  CHECK(solid_angle_sr({Pattern::Kind::cosine, 0.0}) == Approx(2.0 * pi)); // half of the sphere
-  CHECK(solid_angle_sr({Pattern::Kind::cosine, 1.0}) == Approx(pi));       // Lambert's
+  CHECK(reference::solid_angle_sr({}) == Approx(4.0 * pi));
+  CHECK(reference::solid_angle_sr({Pattern::Kind::cosine, 0.0}) == Approx(2.0 * pi)); // half of the sphere
+  CHECK(reference::solid_angle_sr({Pattern::Kind::cosine, 1.0}) == Approx(pi));       // Lambert's
 }
 
 TEST_CASE("a table's integral is that of its interpolation") {
@@ -95,7 +95,7 @@ TEST_CASE("a table of cos^3 in steps of a degree shines as cos^3 does, to its in
     table.theta_rad.push_back(glm::radians(static_cast<double>(angle)));
     table.relative.push_back(std::pow(std::max(0.0, std::cos(table.theta_rad.back())), 3));
   }
-  const double exact_sr = solid_angle_sr({Pattern::Kind::cosine, 3.0});
+  const double exact_sr = reference::solid_angle_sr({Pattern::Kind::cosine, 3.0});
   CHECK(table_sr(table) == Approx(exact_sr).epsilon(1e-4));
   CHECK(table_sr(table) != Approx(exact_sr).epsilon(1e-6));
 }

@@ -37,6 +37,16 @@ TEST_CASE("A diode file gives position, unit axis, intensity and pattern") {
   CHECK(diodes[1].pattern.kind == Pattern::Kind::isotropic);
 }
 
+TEST_CASE("A law may be named by its key and its number") {
+  const auto diodes = read(header + "0,0,0,0,0,1,1,order 2.5\n");
+  CHECK(diodes[0].pattern.kind == Pattern::Kind::cosine);
+  CHECK(diodes[0].pattern.order == 2.5);
+  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,order -1\n"),
+             EndsWith(":2: pattern: expected a number from 0 to 1000000, found \"-1\""));
+  for (const char *file : {"order", "isotropic 1", "file"})
+    CHECK_THAT(error_of(header + "0,0,0,0,0,1,1," + file + "\n"), EndsWith("no such file"));
+}
+
 TEST_CASE("Columns come in any order, lines end in any way") {
   const auto diodes = read("pattern, z_m,y_m,x_m,intensity_w_sr,axis_z,axis_y,axis_x\r\nisotropic, 3 "
                            ",2,1,4,1,0,0\r\n1,3,2,1,4,1,0,0");

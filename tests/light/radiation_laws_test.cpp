@@ -1,7 +1,9 @@
-#include "engine/light/pattern_slope.h"
+#include "engine/light/radiation_laws.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 using namespace pmdsim;
 
@@ -64,4 +66,33 @@ TEST_CASE("a half-space of light is even") {
 TEST_CASE("a measured diagram has edges") {
   const auto table = std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}});
   CHECK(pattern_slope(light_of({{Pattern::Kind::diagram, 0.0, table}}), on_axis) == unbounded);
+}
+
+TEST_CASE("a record's number tells its law") {
+  CHECK(law_of(Pattern{}).kind == Pattern::Kind::isotropic);
+  for (const float order : {0.0f, 0.5f, 3.0f, 1e6f}) {
+    shader::GroupDiode diode{};
+    diode.order = order;
+    CHECK(law_of(diode).kind == Pattern::Kind::cosine);
+  }
+  for (const Pattern::Kind kind : {Pattern::Kind::isotropic, Pattern::Kind::diagram}) {
+    shader::GroupDiode diode{};
+    diode.order = law_of(Pattern{kind}).number;
+    CHECK(diode.order < 0.0f);
+    CHECK(law_of(diode).kind == kind);
+  }
+}
+
+TEST_CASE("measured diagrams have no series, and no bound where they vary about their axis") {
+  const Pattern axial{Pattern::Kind::diagram, 0.0,
+                      std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}})};
+  const Pattern any{Pattern::Kind::diagram, 0.0,
+                    std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0, 3.0}, {1.0, 0.9, 0.5, 0.4}})};
+  DiagramTables tables;
+  CHECK_FALSE(law_series(axial));
+  CHECK(std::isfinite(law_error(axial, tables)));
+  CHECK_FALSE(std::isfinite(law_error(any, tables)));
+  CHECK(law_error(cosine(3.0), tables) == 0.0);
+  CHECK_FALSE(law_series(Pattern{}).value().order);
+  CHECK(law_series(cosine(3.0)).value().order == 3.0);
 }

@@ -1,0 +1,238 @@
+#include "engine/light/radiation_laws.h"
+
+#include "engine/light/rounding_units.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pmdsim {
+namespace {
+
+using Kind = Pattern::Kind;
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+// Isotropic: J = 1.
+
+LawForm isotropic_form(const Pattern &) { return {shader::pattern_isotropic, 0}; }
+
+// A cosine to a power: J = max(0, cos theta)^n.
+
+// Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
+constexpr double largest_whole_power = 8.0;
+constexpr double largest_exponent = 87.0; // of e that float holds
+
+void describe_cosine(const Diode &diode, DiagramTables &, shader::GroupDiode &record) {
+  record.order = static_cast<float>(diode.pattern.order);
+}
+
+LawForm cosine_form(const Pattern &pattern) {
+  const double order = pattern.order;
+  if (order >= 1.0 && order <= largest_whole_power && order == std::floor(order))
+    return {shader::pattern_power, static_cast<std::uint32_t>(order)};
+  return {shader::pattern_general, {}};
+}
+
+// The largest tangent of the angle to the diode's axis over a box; a cone is convex, so it is at a corner.
+// Infinite where the box reaches beside or behind the diode.
+double largest_tangent(const Diode &diode, const VisibleBox &box) {
+  double largest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 place_m((corner & 1) != 0 ? box.high_m.x : box.low_m.x,
+                             (corner & 2) != 0 ? box.high_m.y : box.low_m.y,
+                             (corner & 4) != 0 ? box.high_m.z : box.low_m.z);
+    const glm::dvec3 way_m = place_m - diode.position_m;
+    const double along_m = glm::dot(way_m, diode.axis);
+    if (!(along_m > 0.0))
+      return unbounded;
+    largest = std::max(largest, glm::length(glm::cross(diode.axis, way_m)) / along_m);
+  }
+  return largest;
+}
+
+double cosine_slope(const Diode &diode, const std::vector<VisibleBox> &visible) {
+  double tangent = 0.0;
+  for (const VisibleBox &box : visible)
+    tangent = std::max(tangent, largest_tangent(diode, box));
+  if (tangent == unbounded) // also of order 0, which ends as an edge
+    return unbounded;
+  // d ln cos^n = -n tan, and the second derivative is -n / cos^2.
+  const double order = diode.pattern.order;
+  return std::max(order * tangent, std::sqrt(order * (1.0 + tangent * tangent)));
+}
+
+// cos^n = exp(n / 2 log(1 - sin^2)).
+double real_power_rounding_u(double order, double t, double least_cosine) {
+  const double c = std::max(least_cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
+  const double s2 = std::min(0.5, 1.0 - c * c), r2 = squared_range_error_u(t);
+  const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
+  double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);
+  if (c * c < 0.5)
+    log_error = std::max(log_error, 2.0 * along_error_u(t) / c + r2 + 9.0);
+  const double exponent = -order * std::log(c);
+  return 0.5 * order * log_error + 14.0 * exponent + 6.0;
+}
+
+double cosine_rounding_u(float order, const LawRounding &sum) {
+  const double t = sum.radius_over_range;
+  if (sum.pattern != shader::pattern_power)
+    return real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
+  const double cosine = along_error_u(t) / sum.least_cosine;
+  return static_cast<double>(order) * (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
+}
+
+// At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
+// as a step. A half-space, order 0, has no rim but an edge.
+std::optional<BeamRim> cosine_rim(float order) {
+  const auto power = static_cast<double>(order);
+  if (power <= 0.0)
+    return std::nullopt;
+  return BeamRim{power < 1.0 ? 54.0 : power, std::max(power, 1.0)};
+}
+
+// A power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14 / (e cos).
+double cosine_rim_rounding_u(const LawRounding &sum) {
+  return along_error_u(sum.radius_over_range) +
+         (sum.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
+}
+
+// A measured diagram: J from a table.
+
+void describe_diagram(const Diode &diode, DiagramTables &tables, shader::GroupDiode &record) {
+  const DiagramGrid grid = tables.grid_of(diode.pattern.diagram);
+  // Turned so that phi counts from the grid's first.
+  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
+                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
+  record.diagram = grid.first_value;
+  record.theta_steps = static_cast<float>(grid.theta_steps);
+  record.first_theta = static_cast<float>(grid.first_theta_rad);
+  record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
+  record.row_length = grid.row_length;
+  record.across = glm::vec4(across, grid.phi_steps);
+}
+
+LawForm diagram_form(const Pattern &pattern) {
+  return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any, {}};
+}
+
+// Of the interpolation; what the direction is off by is in the table's error.
+double diagram_rounding_u(float, const LawRounding &) { return 6.0; }
+
+double diagram_error(const Pattern &pattern, DiagramTables &tables) {
+  return tables.grid_of(pattern.diagram).error;
+}
+
+constexpr std::array laws{
+    RadiationLaw{.kind = Kind::isotropic,
+                 .number = -1.0f,
+                 .form = isotropic_form,
+                 .form_beside_others = shader::pattern_general,
+                 .slope = [](const Diode &, const std::vector<VisibleBox> &) { return 0.0; },
+                 .rounding_u = [](float, const LawRounding &) { return 0.0; },
+                 .series = [](const Pattern &) { return std::optional(LawSeries{}); }},
+    RadiationLaw{.kind = Kind::cosine,
+                 .number = 0.0f,
+                 .describe = describe_cosine,
+                 .form = cosine_form,
+                 .form_beside_others = shader::pattern_general,
+                 .slope = cosine_slope,
+                 .rounding_u = cosine_rounding_u,
+                 .rim = cosine_rim,
+                 .rim_rounding_u = cosine_rim_rounding_u,
+                 .series = [](const Pattern &cosine) { return std::optional(LawSeries{cosine.order}); }},
+    RadiationLaw{.kind = Kind::diagram,
+                 .number = -2.0f,
+                 .describe = describe_diagram,
+                 .form = diagram_form,
+                 .rounding_u = diagram_rounding_u,
+                 .error = diagram_error,
+                 .unbounded = "a measured diagram that varies about its own axis has no bound"},
+};
+
+constexpr bool are_in_order() {
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (laws[i].kind != static_cast<Kind>(i))
+      return false;
+  return laws.size() == law_names.size();
+}
+static_assert(are_in_order(), "laws[kind] is the law of that kind");
+
+// The largest of what each law's function has for the largest order among its diodes; 0 of laws without it.
+template <class Member, class ValueOf>
+double largest_of(std::span<const shader::GroupDiode> diodes, Member member, ValueOf value_of) {
+  std::array<std::optional<float>, laws.size()> orders;
+  for (const shader::GroupDiode &diode : diodes) {
+    std::optional<float> &order = orders[static_cast<std::size_t>(law_of(diode).kind)];
+    order = std::max(order.value_or(diode.order), diode.order);
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if (orders[i] && laws[i].*member != nullptr)
+      largest = std::max(largest, value_of(laws[i].*member, *orders[i]));
+  return largest;
+}
+
+} // namespace
+
+const RadiationLaw &law_of(const Pattern &pattern) { return laws[static_cast<std::size_t>(pattern.kind)]; }
+
+const RadiationLaw &law_of(const shader::GroupDiode &diode) {
+  return *std::ranges::find(laws, std::min(diode.order, 0.0f), &RadiationLaw::number);
+}
+
+double law_error(const Pattern &pattern, DiagramTables &tables) {
+  const RadiationLaw &law = law_of(pattern);
+  if (law.rounding_u == nullptr)
+    return unbounded;
+  return law.error != nullptr ? law.error(pattern, tables) : 0.0;
+}
+
+std::optional<BeamRim> beam_rim(const shader::GroupDiode &diode) {
+  const RadiationLaw &law = law_of(diode);
+  return law.rim != nullptr ? law.rim(diode.order) : std::nullopt;
+}
+
+std::optional<LawSeries> law_series(const Pattern &pattern) {
+  const RadiationLaw &law = law_of(pattern);
+  return law.series != nullptr ? law.series(pattern) : std::nullopt;
+}
+
+LawForm form_of(const std::vector<CameraIlluminator> &illuminators) {
+  std::optional<LawForm> all;
+  std::uint32_t beside_others = shader::pattern_isotropic;
+  bool alike = true;
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes) {
+      const RadiationLaw &law = law_of(diode.pattern);
+      const LawForm form = law.form != nullptr ? law.form(diode.pattern) : LawForm{};
+      alike = alike && form == all.value_or(form);
+      all = form;
+      beside_others = std::max(beside_others, law.form_beside_others);
+    }
+  return alike ? all.value() : LawForm{beside_others, {}};
+}
+
+double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
+                     const std::vector<VisibleBox> &visible) {
+  double largest = 0.0;
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes)
+      if (const auto slope = law_of(diode.pattern).slope; largest < unbounded)
+        largest = std::max(largest, slope != nullptr ? slope(diode, visible) : unbounded);
+  return largest;
+}
+
+double law_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum) {
+  return largest_of(diodes, &RadiationLaw::rounding_u,
+                    [&](auto rounding_u, float order) { return rounding_u(order, sum); });
+}
+
+double rim_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum) {
+  return largest_of(diodes, &RadiationLaw::rim_rounding_u,
+                    [&](auto rounding_u, float) { return rounding_u(sum); });
+}
+
+} // namespace pmdsim

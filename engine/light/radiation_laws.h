@@ -1,0 +1,96 @@
+#pragma once
+// Radiation laws, J of the paper's eq. 5, a row each: all that the sum, its error bounds and the reduction of
+// the diodes ask of a law. The laws as the device computes them stand in shaders/light/radiation_laws.glsl,
+// their names in setups in engine/model/illuminator.h.
+
+#include "engine/light/camera_light.h"
+#include "engine/light/diagram_tables.h"
+#include "engine/view/view_bounds.h"
+#include "shaders/shared/interface.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+// A form of the sum, by what it knows of J.
+struct LawForm {
+  std::uint32_t pattern = shader::pattern_any; // shader::pattern_*
+  // n where J is the n-th power of a cosine: a weight is then a product of lengths and of a power of 1 / r,
+  // which polynomials can sum (moment_polynomials.h). Nothing: by the moments themselves.
+  std::optional<std::uint32_t> range_powers;
+
+  bool operator==(const LawForm &) const = default;
+};
+
+// The sum in which J is rounded.
+struct LawRounding {
+  std::uint32_t pattern;    // its form, shader::pattern_*
+  double radius_over_range; // as in DiodeGroups
+  double least_cosine;      // to the axis of any diode, of all that it lights
+};
+
+// How the light ends beyond 45 degrees off a diode's axis (rim_terms in shaders/light/sum.glsl).
+struct BeamRim {
+  double steepness; // how many times its own relative error a cosine's is in J, at most
+  double power;     // J falls like this power of the cosine, >= 1, or more slowly
+};
+
+// How the reduction expands J about a place (engine/reduction/dominant_moments.h).
+struct LawSeries {
+  std::optional<double> order; // of a cosine around the axis; nothing: J is 1
+};
+
+// What is left out is not claimed: a law of which the first three members are given is summed in mode exact
+// alone, with no bound of its error, and its diodes are never reduced.
+struct RadiationLaw {
+  Pattern::Kind kind;
+  // GroupDiode::order of its diodes, by which shaders/light/radiation_laws.glsl knows the law: below 0, as
+  // numbers from 0 on are orders of cosines.
+  float number;
+  // Writes what J is made of into a diode's record, which has the law's number.
+  void (*describe)(const Diode &, DiagramTables &, shader::GroupDiode &) = nullptr;
+  // The cheapest form for diodes that are alike in this; left out: pattern_any.
+  LawForm (*form)(const Pattern &) = nullptr;
+  // And the one beside others: shader::pattern_general, or pattern_any for what that does not know.
+  std::uint32_t form_beside_others = shader::pattern_any;
+  // The largest slope of ln J over what is visible, per radian, and such that its square bounds the
+  // curvature. Left out: infinite, and no pixel of several samples is summed at fewer points.
+  double (*slope)(const Diode &, const std::vector<VisibleBox> &) = nullptr;
+  // What J is off by, relative to itself, u; `order` is the largest GroupDiode::order.
+  double (*rounding_u)(float order, const LawRounding &) = nullptr;
+  // And beside that, as such; left out: 0. Infinite where there is no bound of it.
+  double (*error)(const Pattern &, DiagramTables &) = nullptr;
+  // Why an error cannot be promised where there is no bound.
+  const char *unbounded = "a diode has a radiation law whose rounding has no bound";
+  // Where beams have a rim: how steep it is, for GroupDiode::order, nothing where it is an edge; and J's own
+  // rounding there, over the order and times the cosine, u.
+  std::optional<BeamRim> (*rim)(float order) = nullptr;
+  double (*rim_rounding_u)(const LawRounding &) = nullptr;
+  std::optional<LawSeries> (*series)(const Pattern &) = nullptr;
+};
+
+const RadiationLaw &law_of(const Pattern &pattern);
+const RadiationLaw &law_of(const shader::GroupDiode &diode);
+
+// What J of a diode is off by beside its rounding; infinite where its law claims nothing.
+double law_error(const Pattern &pattern, DiagramTables &tables);
+
+// Of a diode's beam, and how the reduction expands its J; nothing where its law has none.
+std::optional<BeamRim> beam_rim(const shader::GroupDiode &diode);
+std::optional<LawSeries> law_series(const Pattern &pattern);
+
+// The cheapest form that knows the laws of all diodes.
+LawForm form_of(const std::vector<CameraIlluminator> &illuminators);
+
+// The largest slope of ln J of any diode, as in RadiationLaw.
+double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
+                     const std::vector<VisibleBox> &visible);
+
+// The largest rounding of J of any diode, u, and that at the rims of beams, as in RadiationLaw; 0
+// of laws that claim none.
+double law_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum);
+double rim_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum);
+
+} // namespace pmdsim

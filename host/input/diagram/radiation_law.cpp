@@ -1,0 +1,68 @@
+#include "host/input/diagram/radiation_law.h"
+
+#include "host/input/schema/schemas.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+Pattern::Kind kind_of(const LawName &law) { return static_cast<Pattern::Kind>(&law - law_names.data()); }
+
+Pattern numbered(const LawName &law, double number) {
+  Pattern pattern{kind_of(law)};
+  if (law.number != nullptr)
+    pattern.*law.number = number;
+  return pattern;
+}
+
+// What stands in a table of diodes for itself.
+const LawName &cosine = law_names[static_cast<std::size_t>(Pattern::Kind::cosine)];
+
+// Of the number behind a law's key.
+Range limits_of(const LawName &law) {
+  static const json schema = json::parse(setup_schema_text);
+  static const json &laws =
+      schema.at("properties").at("illuminators").at("items").at("properties").at("pattern").at("anyOf");
+  const auto of_law = std::ranges::find_if(
+      laws, [&](const json &alternative) { return alternative.at("properties").contains(law.key); });
+  const json &number = of_law->at("properties").at(law.key);
+  return {number.at("minimum").get<double>(), number.at("maximum").get<double>()};
+}
+
+// What is written like a number is one, if a wrong one; a file of that name is "./1.5".
+bool is_number_like(std::string_view text) {
+  constexpr std::string_view first = "0123456789.+-";
+  return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;
+}
+
+} // namespace
+
+Pattern law_in_setup(const ordered_json &pattern, const Place &place, DiagramFiles &diagrams) {
+  for (const LawName &law : law_names)
+    if (const auto value = pattern.find(law.key); value != pattern.end() && !value->is_string())
+      return numbered(law, value->is_number() ? value->get<double>() : 0.0);
+  const std::filesystem::path file = place.file.parent_path() / pattern.at("file").get<std::string>();
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place / "file")};
+}
+
+Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFiles &diagrams) {
+  if (field.empty())
+    throw input_error(place, "pattern: expected an order, isotropic or a diagram's file name");
+  if (is_number_like(field))
+    return numbered(cosine, number_in(limits_of(cosine), field, "pattern", place));
+  const std::string_view key = field.substr(0, field.find(' '));
+  const bool has_number = key.size() < field.size();
+  for (const LawName &law : law_names)
+    if (key == law.key && has_number == (law.number != nullptr) && key != "file")
+      return has_number
+                 ? numbered(law, number_in(limits_of(law), field.substr(key.size() + 1), "pattern", place))
+                 : numbered(law, 0.0);
+  return {Pattern::Kind::diagram, 0.0, diagrams.read(place.file.parent_path() / field, place)};
+}
+
+} // namespace pmdsim
