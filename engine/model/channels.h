@@ -96,8 +96,7 @@ inline constexpr std::array channel_rows = [] {
       {"lit",
        "",
        "mean visibility: share of the diodes that reach the pixel, mean over its samples that hit; 0 where "
-       "none does; absent "
-       "with \"shadows\": \"off\"",
+       "none does; absent with \"shadows\": \"off\"",
        &Measurement::lit,
        {Area::shadow, 0},
        Preview{"lit", Scale::share}},
