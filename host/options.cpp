@@ -1,5 +1,6 @@
 #include "host/options.h"
 
+#include "engine/model/channels.h"
 #include "engine/model/error.h"
 #include "host/accuracy_options.h"
 #include "host/input/calibration/calibration_sensor.h"
@@ -85,12 +86,24 @@ void add_importing(CLI::App &command, Written &written) {
   command.add_option("--name", written.sensor_name, "the sensor's name, instead of the file's");
 }
 
+// What `render` writes.
+std::string channel_list() {
+  std::string text = "Channels:\n";
+  for (const ChannelRow &row : channel_rows) {
+    const std::string name =
+        is_of_taps(row) ? fmt::format("{0}0, {0}1, ...", row.name) : std::string(row.name);
+    text += fmt::format("  {:<16}{:<14}{}\n", name, row.unit, row.about);
+  }
+  return text;
+}
+
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
   add_setup(*render, written);
   add_writing(*render, written, "exr,png");
   add_measuring(*render, written);
+  render->footer(channel_list());
 
   CLI::App *deform =
       app.add_subcommand("deform", "bistatic minus monostatic distance: map, profile, statistics");

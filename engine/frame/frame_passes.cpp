@@ -1,6 +1,7 @@
 #include "engine/frame/frame_passes.h"
 
 #include "engine/shadow/occluders.h"
+#include "engine/signal/channel_layout.h"
 #include "engine/view/projection.h"
 #include "engine/vulkan/shader_module.h"
 
@@ -75,9 +76,9 @@ HostView look(const vulkan::Device &device, const SimulatorOptions &options, con
   view.signal.promised = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   view.model = sum_model(view.lights, request.backscatter, facing);
   // With shadows a quarter on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
-  view.largest_strip =
-      samples_of_a_strip(view.signal.lit && !device.is_cpu() ? 1u << 18 : 1u << 20, view.signal.sum_planes(),
-                         view.signal.channels(), request.sensor.samples * request.sensor.samples);
+  view.largest_strip = samples_of_a_strip(view.signal.lit && !device.is_cpu() ? 1u << 18 : 1u << 20,
+                                          view.signal.sum_planes(), ChannelLayout(view.signal).channels(),
+                                          request.sensor.samples * request.sensor.samples);
   view.projection = project_blocks(device, view.camera, request.sensor, view.largest_strip);
   return view;
 }
@@ -194,7 +195,7 @@ SampleLayout layout_of(const Signal &signal, bool host_reads_tags, bool plain, b
                       .surface_vectors = plain ? 0 : surface_vectors,
                       .sum_bytes = plain && single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
                       .sum_planes = signal.sum_planes(),
-                      .channels = signal.channels(),
+                      .channels = ChannelLayout(signal).channels(),
                       .visibility_words = signal.lit ? shader::bundles_per_window : 0,
                       .keeps_terms = signal.promised};
   return layout;

@@ -1,6 +1,7 @@
 #include "engine/frame/spot_check.h"
 
 #include "engine/sampling/raster_blocks.h"
+#include "engine/signal/channel_layout.h"
 
 #include <algorithm>
 #include <bit>
@@ -91,21 +92,20 @@ void ExactCheck::record_channels(const vk::raii::CommandBuffer &commands, const 
 void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
                          const Measurement &measured, AccuracyReport &report) const {
   const shader::Strip &of = planned.strip;
+  const ChannelLayout layout(signal_);
   double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
   for (const std::uint32_t pixel : of_strip_[strip])
     for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
       const std::size_t at =
           std::size_t{of.row + pixel / of.columns} * of.resolution_x + of.column + pixel % of.columns;
-      const auto exact = [&](std::uint32_t channel) {
-        return channel_value(buffers, of, signal_.first_channel(f) + channel, pixel);
+      const auto exact = [&](std::vector<float> Return::*channel) {
+        return channel_value(buffers, of, layout.number({row_of(channel), f}), pixel);
       };
       const double ambiguity_m = speed_of_light_m_s / (2.0 * signal_.modulation_hz[f]);
       const Return &found = measured.returns[f];
-      distance_m =
-          std::max(distance_m,
-                   wrapped(difference(found.distance_m[at], exact(shader::channel_distance_m)), ambiguity_m));
-      amplitude =
-          std::max(amplitude, relative_difference(found.amplitude[at], exact(shader::channel_amplitude)));
+      distance_m = std::max(
+          distance_m, wrapped(difference(found.distance_m[at], exact(&Return::distance_m)), ambiguity_m));
+      amplitude = std::max(amplitude, relative_difference(found.amplitude[at], exact(&Return::amplitude)));
     }
   report.found_m = distance_m;
   report.found_amplitude = amplitude;

@@ -1,7 +1,7 @@
 #include "engine/frame/uniform_pixels_pass.h"
 
 #include "engine/sampling/chip_place.h"
-#include "engine/signal/frequency_records.h"
+#include "engine/signal/channel_layout.h"
 #include "engine/signal/resolve_pass.h"
 #include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
@@ -87,7 +87,7 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
   }
   light_ = upload_light(device, light, light_runs(groups, promise));
   shader::ShortWayWork work{};
-  work.lit_channel = signal.lit_channel();
+  work.lit_channel = ChannelLayout(signal).lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
     work.lists[list] = lists.of(list).words();

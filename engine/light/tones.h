@@ -1,6 +1,6 @@
 #pragma once
-// How a sensor's modulation is summed: the planes of the sum (shaders/shared/interface.h) and the channels
-// that come of them.
+// How a sensor's modulation is summed: the planes of the sum (shaders/shared/interface.h). The channels that
+// come of them are laid out in engine/signal/channel_layout.h.
 
 #include "engine/model/sensor.h"
 #include "engine/model/simulator_options.h"
@@ -21,19 +21,10 @@ struct Signal {
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
   bool promised = false;             // an error was promised: what the terms come to is kept
-  bool lit = false;                  // how much of the light reaches a pixel is a channel, the last one
+  bool lit = false;                  // how much of the light reaches a pixel is a channel, too
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
   std::uint32_t sum_planes() const { return planes * frequencies(); }
-  // Channels lie in pairs.
-  std::uint32_t channels_of_frequency() const {
-    return (shader::channel_first_tap + (keep_taps ? taps : 0) + 1) / 2 * 2;
-  }
-  std::uint32_t first_channel(std::uint32_t frequency) const {
-    return shader::truth_channels + frequency * channels_of_frequency();
-  }
-  std::uint32_t lit_channel() const { return first_channel(frequencies()); }
-  std::uint32_t channels() const { return lit_channel() + (lit ? 2 : 0); }
   // 2 pi f / c of the highest tone, rad/m.
   double largest_wavenumber_rad_m() const;
   // Frequency by frequency, the harmonics of each in order.

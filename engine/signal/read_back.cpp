@@ -3,7 +3,7 @@
 #include "engine/model/error.h"
 #include "engine/model/scene.h"
 #include "engine/sampling/raster_blocks.h"
-
+#include "engine/signal/channel_layout.h"
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include <limits>
 #include <span>
 #include <tbb/parallel_for.h>
+#include <type_traits>
+#include <variant>
 
 namespace pmdsim {
 namespace {
@@ -27,21 +29,35 @@ Row row_of(const shader::Strip &strip, std::uint32_t row) {
           strip.columns};
 }
 
+// Where the values of a channel on the device go; nowhere where it only fills a pair.
+using Destination = std::variant<std::monostate, float *, std::uint32_t *>;
+
 template <typename T>
-void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<T> &even,
-                std::vector<T> &odd) {
+void put(T *to, std::size_t at, std::uint32_t word) {
+  to[at] = std::bit_cast<T>(word);
+}
+void put(std::monostate, std::size_t, std::uint32_t) {}
+
+void store_pair(std::span<const shader::uvec2> pair, const Row &row, const Destination &even,
+                const Destination &odd) {
   const shader::uvec2 *const from = pair.data() + row.in_strip;
-  T *const to_even = even.data() + row.in_frame, *const to_odd = odd.data() + row.in_frame;
-  for (std::size_t i = 0; i < row.pixels; ++i) {
-    to_even[i] = std::bit_cast<T>(from[i].x);
-    to_odd[i] = std::bit_cast<T>(from[i].y);
-  }
+  const auto store = [&](auto to_even, auto to_odd) {
+    for (std::size_t i = 0; i < row.pixels; ++i) {
+      put(to_even, row.in_frame + i, from[i].x);
+      put(to_odd, row.in_frame + i, from[i].y);
+    }
+  };
+  std::visit(store, even, odd);
 }
 
-// Of the first of a pair alone.
-void store_pair(std::span<const shader::uvec2> pair, const Row &row, std::vector<float> &even) {
-  std::ranges::transform(pair.subspan(row.in_strip, row.pixels), even.data() + row.in_frame,
-                         [](const shader::uvec2 &words) { return std::bit_cast<float>(words.x); });
+// Of each channel on the device.
+std::vector<Destination> destinations(const ChannelLayout &layout, Measurement &to) {
+  std::vector<Destination> result(layout.channels());
+  for_each_channel(to, [&](const ChannelIndex &of, auto &values) {
+    if (layout.holds(of.row))
+      result[layout.number(of)] = values.data();
+  });
+  return result;
 }
 
 // Of a channel that a float may be too small for. Counted, not searched, as the compiler makes vectors of
@@ -53,8 +69,11 @@ void check_finite(const std::vector<float> &channel, const Row &row) {
                                  "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
 }
 
+// All of DeviceSlot::Area::truth, which is no more than a record tells.
 void store_truth(std::span<const shader::uvec4> records, const Row &row, const TruthOfRecords &truth,
                  Measurement &to) {
+  static_assert(std::ranges::count(channel_rows, DeviceSlot::Area::truth,
+                                   [](const ChannelRow &channel) { return channel.slot.area; }) == 4);
   for (std::size_t i = 0; i < row.pixels; ++i) {
     const shader::uvec4 &record = records[row.in_strip + i];
     const float depth_m =
@@ -69,32 +88,20 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
   }
 }
 
-void store_row(const Row &row, const shader::Strip &strip, const StripBuffers &buffers, const Signal &signal,
-               const std::optional<TruthOfRecords> &truth, Measurement &to) {
-  const auto store = [&](std::uint32_t channel, auto &...channels) {
-    store_pair(pair_for_host(buffers, strip, channel), row, channels...);
-  };
-  if (truth) {
-    store_truth(records_for_host(buffers), row, *truth, to);
-  } else {
-    store(shader::channel_coverage, to.coverage, to.z_m);
-    store(shader::channel_triangle_id, to.triangle_id, to.object_id);
-  }
-  if (signal.lit)
-    store(signal.lit_channel(), to.lit);
-  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
-    const std::uint32_t first = signal.first_channel(f);
-    Return &of = to.returns[f];
-    store(first + shader::channel_amplitude, of.amplitude, of.phase_rad);
-    store(first + shader::channel_distance_m, of.distance_m, to.range_m);
-    for (std::uint32_t k = 0; k + 1 < of.taps.size(); k += 2)
-      store(first + shader::channel_first_tap + k, of.taps[k], of.taps[k + 1]);
-    if (of.taps.size() % 2 == 1)
-      store(first + shader::channel_first_tap + signal.taps - 1, of.taps.back());
-    check_finite(of.amplitude, row);
-    for (const std::vector<float> &tap : of.taps)
-      check_finite(tap, row);
-  }
+// `to`: of each channel; those before `first` are left out.
+void store_channels(const Row &row, const shader::Strip &strip, const StripBuffers &buffers,
+                    const std::vector<Destination> &to, std::uint32_t first) {
+  for (std::uint32_t channel = first; channel < to.size(); channel += 2)
+    store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
+}
+
+// Light has no upper bound.
+void check_radiance(const Row &row, const Measurement &measurement) {
+  for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
+    if constexpr (std::is_same_v<decltype(values), const std::vector<float> &>)
+      if (of.row.unit == radiance_unit && !values.empty())
+        check_finite(values, row);
+  });
 }
 
 // Where `tiled`, tags lie in tiles (shaders/shared/interface.h).
@@ -123,20 +130,14 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
   Measurement measurement = std::move(memory);
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
-  measurement.returns.resize(signal.frequencies());
-  for (Return &of_frequency : measurement.returns) {
-    for (auto *channel : {&of_frequency.amplitude, &of_frequency.phase_rad, &of_frequency.distance_m})
-      channel->resize(pixels);
-    of_frequency.taps.resize(signal.keep_taps ? signal.taps : 0);
-    for (std::vector<float> &tap : of_frequency.taps)
-      tap.resize(pixels);
-  }
-  for (auto *channel : {&measurement.range_m, &measurement.z_m, &measurement.coverage})
-    channel->resize(pixels);
-  measurement.triangle_id.resize(pixels);
-  measurement.object_id.resize(pixels);
-  if (signal.lit)
-    measurement.lit.resize(pixels);
+  const ChannelLayout layout(signal);
+  measurement.returns.resize(layout.frequencies);
+  for (Return &of_frequency : measurement.returns)
+    of_frequency.taps.resize(layout.taps);
+  for_each_channel(measurement, [&](const ChannelIndex &of, auto &values) {
+    if (layout.holds(of.row)) // what else there is, the host fills or clears
+      values.resize(pixels);
+  });
   const bool keeps_tags = options.keep_sample_tags || options.keep_reached;
   for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
     ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
@@ -152,10 +153,11 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
   const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
-  const vk::DeviceSize first = channel_bytes * (truth ? signal.first_channel(0) : 0);
+  const ChannelLayout layout(signal);
+  const vk::DeviceSize first = channel_bytes * (truth ? layout.first_channel(0) : 0);
   if (!buffers.channels.is_mapped())
     commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
-                        vk::BufferCopy(first, first, channel_bytes * signal.channels() - first));
+                        vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
   if (signal.promised)
     commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
@@ -177,8 +179,14 @@ shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
                  const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
-  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t row) {
-    store_row(row_of(strip, row), strip, buffers, signal, truth, measurement);
+  const ChannelLayout layout(signal);
+  const std::vector<Destination> to = destinations(layout, measurement);
+  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
+    const Row row = row_of(strip, index);
+    if (truth)
+      store_truth(records_for_host(buffers), row, *truth, measurement);
+    store_channels(row, strip, buffers, to, truth ? layout.first_channel(0) : 0);
+    check_radiance(row, measurement);
   });
   if (!measurement.sample_pixel_id.empty())
     store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);

@@ -1,6 +1,6 @@
 #include "engine/signal/resolve_pass.h"
 
-#include "engine/signal/frequency_records.h"
+#include "engine/signal/channel_layout.h"
 #include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
 
@@ -101,7 +101,7 @@ void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::
                                              strip.padded_pixels,
                                              strip.columns * strip.rows,
                                              plane,
-                                             signal_.lit_channel(),
+                                             ChannelLayout(signal_).lit_channel(),
                                              diodes_};
     dispatch_listed(f == 0 ? first_ : later_, commands, constants, strip.padded_pixels, list, of_pixels);
   }

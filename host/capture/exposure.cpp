@@ -1,5 +1,6 @@
 #include "host/capture/exposure.h"
 
+#include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
 
 #include <algorithm>
@@ -56,8 +57,11 @@ double samples_of_frame(const Setup &setup) {
 }
 
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps) {
-  const std::size_t of_frequency = 3 + (keep_taps ? sensor.taps : 0), of_geometry = 6;
-  return (sensor.modulation_hz.size() * of_frequency + of_geometry) * sizeof(float) * sensor.pixel_count();
+  const std::size_t frequencies = sensor.modulation_hz.size(), taps = keep_taps ? sensor.taps : 0;
+  std::size_t channels = 0;
+  for (const ChannelRow &row : channel_rows)
+    channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
+  return channels * sizeof(float) * sensor.pixel_count();
 }
 
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {

@@ -8,31 +8,20 @@
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <map>
 
 namespace pmdsim {
 namespace {
 
-using Scale = PreviewStyle::Scale;
-
-PreviewStyle preview_style(const Channel &channel) {
-  static const std::map<std::string, std::pair<std::string, Scale>> known{
-      {"amplitude", {"amplitude", Scale::sequential}},
-      {"phase_rad", {"phase", Scale::turn}},
-      {"distance_m", {"distance", Scale::sequential}},
-      {"lit", {"lit", Scale::share}},
-      {"deformation_mm", {"deformation", Scale::zero_centred}}};
-  const auto &[quantity, scale] = known.at(channel.quantity);
-  const ColourMap &colours = scale == Scale::turn           ? twilight
-                             : scale == Scale::zero_centred ? blue_white_red
-                                                            : viridis;
-  return {quantity, channel.unit, colours, scale};
+PreviewStyle preview_style(const Channel &channel, const Preview &preview) {
+  const ColourMap &colours = preview.scale == ColourScale::turn           ? twilight
+                             : preview.scale == ColourScale::zero_centred ? blue_white_red
+                                                                          : viridis;
+  return {std::string(preview.quantity), channel.unit, colours, preview.scale};
 }
 
 void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
-  const PreviewStyle style = preview_style(channel);
+  const PreviewStyle style = preview_style(channel, *channel.preview);
   const std::string title = picture_title(style.quantity, frame, channel.frequency);
   const std::scoped_lock alone(drawing_mutex());
   draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
@@ -85,7 +74,7 @@ std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &fra
     const std::string name = fmt::format("{}.{}", stem, channel.name());
     if (formats.contains(Format::npy))
       add(name + ".npy", [&set, &channel](OutputFile &file) { write_npy(file, channel, set.resolution); });
-    if (formats.contains(Format::png) && std::ranges::count(frame->previewed, channel.quantity) != 0)
+    if (formats.contains(Format::png) && channel.preview)
       add(name + ".png", [&at = *frame, &channel](OutputFile &file) { write_preview(file, at, channel); });
   }
   return files;

@@ -26,7 +26,6 @@ struct FrameToWrite {
   Sensor sensor;
   std::uint32_t frame;
   ChannelSet channels;
-  std::vector<std::string> previewed;   // quantities of the channels that get a picture
   std::shared_ptr<const void> measured; // what the channels look at
 };
 

@@ -10,8 +10,8 @@ namespace pmdsim {
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats) {
   const auto &[sensor, measurement, mode] = *taken;
-  auto frame = std::make_shared<const FrameToWrite>(FrameToWrite{
-      sensor, at.frame, channels_of(measurement), {"amplitude", "phase_rad", "distance_m", "lit"}, taken});
+  auto frame =
+      std::make_shared<const FrameToWrite>(FrameToWrite{sensor, at.frame, channels_of(measurement), taken});
   return {{sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy},
           [frame = std::move(frame), formats] { return files_of(frame, formats); }};
 }

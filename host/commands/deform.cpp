@@ -101,12 +101,16 @@ std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair
   const Maps &deformations = pair->deformations_mm;
   ChannelSet set{bistatic.resolution, {}};
   for (std::size_t i = 0; i < deformations.size(); ++i)
-    set.channels.push_back(
-        {"deformation_mm", "mm", std::span(deformations[i]), frequency_of(i, deformations.size())});
-  const ChannelSet measured = channels_of(bistatic);
-  set.channels.insert(set.channels.end(), measured.channels.begin(), measured.channels.end());
+    set.channels.push_back({"deformation_mm", "mm", std::span(deformations[i]),
+                            frequency_of(i, deformations.size()),
+                            Preview{"deformation", ColourScale::zero_centred}});
+  ChannelSet measured = channels_of(bistatic);
+  for (Channel &channel : measured.channels) {
+    channel.preview = std::nullopt;
+    set.channels.push_back(std::move(channel));
+  }
   const auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{pair->bistatic.sensor, frame_number, std::move(set), {"deformation_mm"}, pair});
+      FrameToWrite{pair->bistatic.sensor, frame_number, std::move(set), pair});
   std::vector<FileToWrite> files = files_of(frame, formats);
   if (formats.contains(Format::png))
     for (std::size_t i = 0; i < deformations.size(); ++i)

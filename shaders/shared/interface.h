@@ -425,20 +425,6 @@ struct ShortWayWork {
   uint diodes; // of all illuminators
 };
 
-// The ground truth comes first (but for the range, and empty where the host finds it in records), then the channels of each
-// frequency, the taps (if kept) last. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores
-// lane by lane, two words as fast as one.
-PMDSIM_CONSTANT channel_coverage = 0;
-PMDSIM_CONSTANT channel_z_m = 1;
-PMDSIM_CONSTANT channel_triangle_id = 2;
-PMDSIM_CONSTANT channel_object_id = 3;
-PMDSIM_CONSTANT truth_channels = 4;
-PMDSIM_CONSTANT channel_amplitude = 0;
-PMDSIM_CONSTANT channel_phase_rad = 1;
-PMDSIM_CONSTANT channel_distance_m = 2;
-PMDSIM_CONSTANT channel_range_m = 3; // the same of each frequency: it fills a pair
-PMDSIM_CONSTANT channel_first_tap = 4;
-
 #ifdef __cplusplus
 static_assert(sizeof(RasterVertex) == 16);
 static_assert(sizeof(TrianglePlane) == 48);

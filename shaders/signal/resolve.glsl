@@ -18,6 +18,19 @@ layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
 layout(constant_id = constant_promised) const uint promised = 0;
 
+// The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
+// of each frequency. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores lane by lane, two
+// words as fast as one.
+const uint channel_coverage = 0;
+const uint channel_z_m = 1;
+const uint channel_triangle_id = 2;
+const uint channel_object_id = 3;
+const uint channel_amplitude = 0;
+const uint channel_phase_rad = 1;
+const uint channel_distance_m = 2;
+const uint channel_range_m = 3; // the same of each frequency: it fills a pair
+const uint channel_tap = 4;     // the first
+
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
@@ -152,7 +165,7 @@ float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samp
     find_taps(sum, frequency, amplitudes, tap);
   if (keep_taps != 0)
     [[unroll]] for (uint k = 0; k < taps; ++k)
-      store(to, frequency.first_channel + channel_first_tap + k, pixel, scale * tap[k]);
+      store(to, frequency.first_channel + channel_tap + k, pixel, scale * tap[k]);
   // A sine's phase stays relative to the range, which makes it exact to the last bit of the output.
   vec2 z = waveform == waveform_sine     ? compensated_value(sum.z[0])
            : waveform == waveform_square ? demodulate(tap)

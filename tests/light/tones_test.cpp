@@ -1,4 +1,4 @@
-// How many planes, channels and tones each waveform takes, and which.
+// How many planes and tones each waveform takes, and which.
 
 #include "engine/light/tones.h"
 
@@ -72,17 +72,4 @@ TEST_CASE("only a sine's sum is a matter of choice") {
   CHECK_FALSE(signal_of(sensor_with(sine, 4, {20e6}), direct).by_moments);
   CHECK(signal_of(sensor_with(three_harmonics, 4, {20e6}), direct).by_moments);
   CHECK_FALSE(signal_of(sensor_with(square, 4, {20e6}), direct).by_moments);
-}
-
-TEST_CASE(
-    "channels are the ground truth, then each frequency's in pairs, with its taps where they are kept") {
-  const Sensor sensor = sensor_with(sine, 7, {20e6, 30e6});
-  const Signal without = signal_of(sensor, {});
-  CHECK(without.first_channel(0) == 4);
-  CHECK(without.first_channel(1) == 8);
-  CHECK(without.channels() == 12);
-  const Signal with = signal_of(sensor, {.device = {}, .keep_taps = true});
-  CHECK(with.first_channel(0) == 4);
-  CHECK(with.first_channel(1) == 16);
-  CHECK(with.channels() == 28);
 }

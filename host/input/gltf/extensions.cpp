@@ -1,9 +1,8 @@
 #include "host/input/gltf/extensions.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
-#include <string_view>
+#include <stdexcept>
 
 namespace pmdsim {
 
@@ -11,30 +10,53 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array<std::string_view, 3> implemented = {"KHR_mesh_quantization", "EXT_meshopt_compression",
-                                                         "KHR_texture_transform"};
-
-// What these add is nothing that is simulated: lights for pictures (ours come from the setup), shading that
-// leaves the base colour as it is, glow and gloss upon it, other materials to choose from. They move and hide
-// no geometry. Transmission and volumes are not among them, as they change what is seen.
-constexpr std::array<std::string_view, 10> without_effect = {
-    "KHR_lights_punctual",   "KHR_materials_anisotropy",  "KHR_materials_clearcoat",
-    "KHR_materials_ior",     "KHR_materials_iridescence", "KHR_materials_emissive_strength",
-    "KHR_materials_sheen",   "KHR_materials_specular",    "KHR_materials_unlit",
-    "KHR_materials_variants"};
-
-template <class List>
-bool holds(const List &list, std::string_view name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+const GltfExtension *find(std::string_view name) {
+  const auto &rows = gltf_extensions();
+  const auto found = std::ranges::find(rows, name, &GltfExtension::name);
+  return found == rows.end() ? nullptr : &*found;
 }
 
 } // namespace
+
+const std::vector<GltfExtension> &gltf_extensions() {
+  using enum GltfExtension::Use;
+  static const std::vector<GltfExtension> rows{
+      {"KHR_mesh_quantization", read}, // has no parts: attributes may have other types
+      {"EXT_meshopt_compression", read, {{"bufferViews/*", "buffer", "buffers"}}},
+      {"KHR_texture_transform", read},
+      // What these add is nothing that is simulated: lights for pictures (ours come from the setup), shading
+      // that leaves the base colour as it is, glow and gloss upon it, other materials to choose from. They
+      // move and hide no geometry. Transmission and volumes are not among them, as they change what is seen.
+      {"KHR_lights_punctual", without_effect},
+      {"KHR_materials_anisotropy", without_effect},
+      {"KHR_materials_clearcoat", without_effect},
+      {"KHR_materials_ior", without_effect},
+      {"KHR_materials_iridescence", without_effect},
+      {"KHR_materials_emissive_strength", without_effect},
+      {"KHR_materials_sheen", without_effect},
+      {"KHR_materials_specular", without_effect},
+      {"KHR_materials_unlit", without_effect},
+      {"KHR_materials_variants", without_effect},
+  };
+  return rows;
+}
+
+const json *extension_part(const json &object, std::string_view name) {
+  const GltfExtension *known = find(name);
+  if (known == nullptr || known->use != GltfExtension::Use::read)
+    throw std::logic_error(fmt::format("the extension {} is not one that is read", name));
+  const auto extensions = object.find("extensions");
+  if (extensions == object.end())
+    return nullptr;
+  const auto part = extensions->find(std::string(name));
+  return part == extensions->end() ? nullptr : &*part;
+}
 
 void refuse_other_extensions(const json &document, const Place &root) {
   const json required = document.value("extensionsRequired", json::array());
   for (std::size_t i = 0; i < required.size(); ++i) {
     const auto &name = required[i].get_ref<const std::string &>();
-    if (!holds(implemented, name) && !holds(without_effect, name))
+    if (find(name) == nullptr)
       throw input_error(root / "extensionsRequired" / i,
                         fmt::format("extension {} is not supported", in_quotes(name)));
   }

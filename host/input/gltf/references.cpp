@@ -1,6 +1,6 @@
 #include "host/input/gltf/references.h"
 
-#include "host/input/gltf/data/meshopt.h"
+#include "host/input/gltf/extensions.h"
 
 #include <algorithm>
 #include <array>
@@ -158,11 +158,8 @@ void check_accessors(const json &document, const Place &root) {
 
 void check_views(const json &document, const Place &root) {
   const Reference buffers(document, "buffers");
-  for_each(document, "bufferViews", root, [&](const json &view, const Place &place) {
-    buffers.check_member(view, "buffer", place);
-    if (const json *compressed = meshopt_part(view))
-      buffers.check_member(*compressed, "buffer", place / "extensions" / meshopt_extension);
-  });
+  for_each(document, "bufferViews", root,
+           [&](const json &view, const Place &place) { buffers.check_member(view, "buffer", place); });
 }
 
 void check_textures(const json &document, const Place &root) {
@@ -182,6 +179,34 @@ void check_textures(const json &document, const Place &root) {
            [&](const json &image, const Place &place) { views.check_member(image, "bufferView", place); });
 }
 
+// Calls visit(value, place) for whatever `path` leads to, "*" being every element of an array.
+template <class Visit>
+void for_each_at(const json &from, std::string_view path, const Place &place, const Visit &visit) {
+  if (path.empty()) {
+    visit(from, place);
+    return;
+  }
+  const std::string key(path.substr(0, path.find('/')));
+  const std::string_view rest = path.substr(std::min(key.size() + 1, path.size()));
+  if (key == "*")
+    for (std::size_t i = 0; i < from.size(); ++i)
+      for_each_at(from[i], rest, place / i, visit);
+  else if (from.contains(key))
+    for_each_at(from.at(key), rest, place / key, visit);
+}
+
+void check_extensions(const json &document, const Place &root) {
+  for (const GltfExtension &extension : gltf_extensions())
+    for (const ExtensionReference &reference : extension.references) {
+      const Reference target(document, std::string(reference.into));
+      for_each_at(document, reference.holder, root, [&](const json &holder, const Place &place) {
+        if (const json *part = extension_part(holder, extension.name))
+          for_each_at(*part, reference.member, place / "extensions" / std::string(extension.name),
+                      [&](const json &index, const Place &at) { target.check(index, at); });
+      });
+    }
+}
+
 } // namespace
 
 void check_references(const json &document, const Place &root) {
@@ -192,6 +217,7 @@ void check_references(const json &document, const Place &root) {
   check_accessors(document, root);
   check_textures(document, root);
   check_views(document, root);
+  check_extensions(document, root);
 }
 
 } // namespace pmdsim

@@ -1,7 +1,7 @@
 #pragma once
 // The channels of a frame as files name them (README.md, "Outputs").
 
-#include "engine/model/measurement.h"
+#include "engine/model/channels.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -23,6 +23,7 @@ struct Channel {
   std::string unit;     // "" for ids and ratios
   std::variant<std::span<const float>, std::span<const std::uint32_t>> values;
   std::optional<std::size_t> frequency = std::nullopt; // index of the one that it belongs to, of several
+  std::optional<Preview> preview = std::nullopt;       // floats only; nothing: no picture is made of it
 
   std::string name() const { return channel_name(quantity, frequency); }
 };
@@ -36,8 +37,8 @@ struct ChannelSet {
 // Channel::frequency of what belongs to the frequency `index` of `count`.
 std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count);
 
-// amplitude, phase_rad, distance_m of every frequency; tap0, tap1, ... of every frequency where they are
-// filled; range_m, z_m, coverage, lit where it is filled, triangle_id, object_id. Views into `measurement`.
+// The rows of engine/model/channels.h, of every frequency and tap, but for those that are empty. Views into
+// `measurement`.
 ChannelSet channels_of(const Measurement &measurement);
 
 } // namespace pmdsim

@@ -2,6 +2,7 @@
 // A channel as a picture: colours, axes in pixels, a colour bar with its unit, and grey where there is no
 // value.
 
+#include "engine/model/channels.h"
 #include "host/output/pictures/axis.h"
 #include "host/output/pictures/canvas.h"
 #include "host/output/pictures/colour_map.h"
@@ -13,12 +14,7 @@
 namespace pmdsim {
 
 struct PreviewStyle {
-  enum class Scale {
-    sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
-    zero_centred, // the same, made symmetric about zero
-    turn,         // always [0, 2 pi)
-    share,        // always [0, 1]
-  };
+  using Scale = ColourScale;
   std::string quantity; // "distance", as the colour bar names it
   std::string unit;
   ColourMap colours;

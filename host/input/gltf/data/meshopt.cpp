@@ -1,14 +1,22 @@
 #include "host/input/gltf/data/meshopt.h"
 
+#include "host/input/gltf/extensions.h"
+
 #include <cstdint>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
+#include <string>
 
 namespace pmdsim {
 
 using nlohmann::json;
 
 namespace {
+
+const std::string meshopt_extension = "EXT_meshopt_compression";
+
+// The extension's part of a bufferView or buffer.
+const json *meshopt_part(const json &object) { return extension_part(object, meshopt_extension); }
 
 // A stream's zeros take the least room in a vertex buffer: 2 bits for 16 equal bytes. A shorter one need not
 // cost the memory of what it claims to hold.
@@ -142,14 +150,6 @@ std::vector<CompressedView> checked_views(const json &document, const std::vecto
 }
 
 } // namespace
-
-const json *meshopt_part(const json &object) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end())
-    return nullptr;
-  const auto part = extensions->find(meshopt_extension);
-  return part == extensions->end() ? nullptr : &*part;
-}
 
 std::vector<bool> meshopt_fallbacks(const json &document, const std::vector<bool> &is_absent) {
   std::vector<bool> has_compressed(is_absent.size(), false), has_plain(is_absent.size(), false);

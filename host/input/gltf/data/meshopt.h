@@ -5,15 +5,9 @@
 #include "host/input/gltf/document.h"
 
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 namespace pmdsim {
-
-inline const std::string meshopt_extension = "EXT_meshopt_compression";
-
-// The extension's part of a bufferView or buffer that has passed the glTF schema; null where there is none.
-const nlohmann::json *meshopt_part(const nlohmann::json &object);
 
 // For each buffer whether nobody needs its bytes: it is marked as a fallback for those who cannot decode, or
 // has no bytes of its own (`is_absent`) and only compressed views refer to it.

@@ -1,5 +1,7 @@
 #include "host/input/gltf/material/texture_info.h"
 
+#include "host/input/gltf/extensions.h"
+
 #include <cmath>
 
 namespace pmdsim {
@@ -29,12 +31,10 @@ glm::dmat3 matrix_of(const json &transform) {
 
 GltfTextureInfo texture_info_of(const json &info) {
   GltfTextureInfo result{info.at("index").get<std::size_t>(), info.value("texCoord", 0u)};
-  const json extensions = info.value("extensions", json::object());
-  if (!extensions.contains("KHR_texture_transform"))
-    return result;
-  const json &transform = extensions.at("KHR_texture_transform");
-  result.texture_coordinates = transform.value("texCoord", result.texture_coordinates);
-  result.texture_from_coordinates = matrix_of(transform);
+  if (const json *transform = extension_part(info, "KHR_texture_transform")) {
+    result.texture_coordinates = transform->value("texCoord", result.texture_coordinates);
+    result.texture_from_coordinates = matrix_of(*transform);
+  }
   return result;
 }
 

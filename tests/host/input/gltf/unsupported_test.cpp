@@ -1,6 +1,10 @@
 // What comes later is refused by name, never ignored.
 
+#include "host/input/gltf/extensions.h"
+#include "host/input/schema/schemas.h"
 #include "tests/host/input/setup/setup_fixture.h"
+
+#include <map>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -33,6 +37,40 @@ TEST_CASE("Required extensions are those that are there, or change nothing that 
     CHECK_THAT(scene_error("/extensionsRequired", {"KHR_materials_unlit", name}),
                EndsWith("/extensionsRequired/1: extension \"" + std::string(name) + "\" is not supported"));
   CHECK_THAT(scene_error("/extensionsRequired", {1}), Contains("/extensionsRequired/0: expected a string"));
+}
+
+namespace {
+
+// Calls visit(name, form) for each extension's part that the schema describes.
+template <class Visit>
+void for_each_part(const nlohmann::json &schema, const Visit &visit) {
+  if (schema.is_object() && schema.contains("/properties/extensions/properties"_json_pointer))
+    for (const auto &[name, form] : schema.at("/properties/extensions/properties"_json_pointer).items())
+      visit(name, form);
+  if (schema.is_structured())
+    for (const auto &inner : schema)
+      for_each_part(inner, visit);
+}
+
+} // namespace
+
+TEST_CASE(
+    "the schema describes the parts of extensions that are read, and whatever refers to other objects") {
+  const auto schema = nlohmann::json::parse(gltf_schema_text);
+  std::map<std::string, nlohmann::json> parts;
+  for_each_part(schema,
+                [&](const std::string &name, const nlohmann::json &form) { parts[name].merge_patch(form); });
+  for (const auto &[name, form] : parts) {
+    INFO(name);
+    CHECK(extension_part(nlohmann::json::object(), name) == nullptr); // throws where it is not read
+  }
+  for (const GltfExtension &extension : gltf_extensions())
+    for (const ExtensionReference &reference : extension.references) {
+      INFO(extension.name << ' ' << reference.member);
+      const std::string key(reference.member.substr(0, reference.member.find('/')));
+      CHECK(parts[std::string(extension.name)]["properties"].contains(key));
+    }
+  CHECK(parts.size() == 2);
 }
 
 TEST_CASE("glTF features of later are refused by name") {

@@ -1,8 +1,11 @@
-#include "engine/signal/frequency_records.h"
+// Where the device keeps channels, and what it is told of each frequency.
+
+#include "engine/signal/channel_layout.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 using namespace pmdsim;
 
@@ -23,7 +26,53 @@ void check_largest_below(float below, double limit) {
   CHECK(double{std::nextafter(below, std::numeric_limits<float>::infinity())} >= limit);
 }
 
+ChannelLayout layout_of(const SimulatorOptions &options, bool lit) {
+  Sensor sensor;
+  sensor.taps = 7;
+  sensor.modulation_hz = {20e6, 30e6};
+  Signal signal = signal_of(sensor, options);
+  signal.lit = lit;
+  return ChannelLayout(signal);
+}
+
 } // namespace
+
+TEST_CASE(
+    "channels are the ground truth, then each frequency's in pairs, with its taps where they are kept") {
+  const ChannelLayout without = layout_of({}, false);
+  CHECK(without.first_channel(0) == 4);
+  CHECK(without.first_channel(1) == 8);
+  CHECK(without.channels() == 12);
+  const ChannelLayout with = layout_of({.device = {}, .keep_taps = true}, true);
+  CHECK(with.first_channel(0) == 4);
+  CHECK(with.first_channel(1) == 16);
+  CHECK(with.lit_channel() == 28);
+  CHECK(with.channels() == 30);
+}
+
+TEST_CASE("channels that a layout holds have a number each, and the range is the first frequency's") {
+  const ChannelLayout without = layout_of({}, false);
+  CHECK_FALSE(without.holds(row_of(&Measurement::lit)));
+  CHECK_FALSE(without.holds(row_of(&Return::taps)));
+  const ChannelLayout with = layout_of({.device = {}, .keep_taps = true}, true);
+  Measurement frame;
+  frame.returns.resize(2);
+  for (Return &of_frequency : frame.returns)
+    of_frequency.taps.resize(7);
+  std::set<std::uint32_t> numbers;
+  std::size_t channels = 0;
+  for_each_channel(frame, [&](const ChannelIndex &of, auto &) {
+    CHECK(with.holds(of.row));
+    CHECK(with.number(of) < with.channels());
+    numbers.insert(with.number(of));
+    ++channels;
+  });
+  CHECK(channels == 6 + 2 * (3 + 7));
+  CHECK(numbers.size() == channels);
+  CHECK(with.number({row_of(&Measurement::range_m)}) == 7);
+  CHECK(with.number({row_of(&Return::distance_m), 1}) == 18);
+  CHECK(with.number({row_of(&Return::taps), 1, 6}) == 26);
+}
 
 TEST_CASE("a frequency's turns and its ambiguity, to double precision") {
   const auto records = frequency_records(signal_with_taps(), 2.5, {});
@@ -42,7 +91,7 @@ TEST_CASE("a frequency knows its channels and its unit") {
   const Signal signal = signal_with_taps();
   const auto records = frequency_records(signal, 2.5, {});
   for (std::uint32_t i = 0; i < records.size(); ++i) {
-    CHECK(records[i].first_channel == signal.first_channel(i));
+    CHECK(records[i].first_channel == ChannelLayout(signal).first_channel(i));
     CHECK(records[i].amplitude_scale == 2.5f);
   }
 }

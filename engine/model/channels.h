@@ -1,0 +1,166 @@
+#pragma once
+// The output channels of a frame, a row each, in the order in which files, help and documents list them. A
+// new channel takes a row here, a member of Return or Measurement, and its value in
+// shaders/signal/resolve.glsl; memory, read-back, files, previews and help read the rows.
+
+#include "engine/model/measurement.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace pmdsim {
+
+// Where a channel lies: in the frame, in what each frequency returns, or there once for each tap.
+using ChannelMember =
+    std::variant<std::vector<float> Measurement::*, std::vector<std::uint32_t> Measurement::*,
+                 std::vector<float> Return::*, std::vector<std::vector<float>> Return::*>;
+
+// Where a channel lies on the device, which keeps them in areas one behind the other: `index` counts from the
+// beginning of the area. Channels 2 n and 2 n + 1 are stored as a pair, so what a shader stores together
+// should have such numbers; each area ends with a whole pair.
+struct DeviceSlot {
+  enum class Area {
+    truth, // stored with the first frequency; the host may read all of it off the samples' records instead
+    frequency, // one area for each; taps come last. A channel of the frame is read from the first
+    shadow,    // only where something may stand in the light
+  };
+  Area area;
+  std::uint32_t index; // of a tap: that of tap 0
+};
+
+// What the ends of a picture's colours stand for.
+enum class ColourScale {
+  sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
+  zero_centred, // the same, made symmetric about zero
+  turn,         // always [0, 2 pi)
+  share,        // always [0, 1]
+};
+
+struct Preview {
+  std::string_view quantity; // "distance", as titles and colour bars name it
+  ColourScale scale;
+};
+
+struct ChannelRow {
+  std::string_view name; // in files; taps add their number to it
+  std::string_view unit; // "" for ids and shares
+  std::string_view about;
+  ChannelMember at; // empty where the channel is absent
+  DeviceSlot slot;
+  std::optional<Preview> preview = std::nullopt; // nothing: no picture is made of it
+};
+
+inline constexpr std::string_view radiance_unit = "W/(m² sr)";
+
+inline constexpr std::array channel_rows = [] {
+  using Area = DeviceSlot::Area;
+  using Scale = ColourScale;
+  return std::to_array<ChannelRow>({
+      {"amplitude",
+       radiance_unit,
+       "mean modulated radiance, abs z",
+       &Return::amplitude,
+       {Area::frequency, 0},
+       Preview{"amplitude", Scale::sequential}},
+      {"phase_rad",
+       "rad",
+       "arg z, 0 to 2 pi; NaN where nothing returns",
+       &Return::phase_rad,
+       {Area::frequency, 1},
+       Preview{"phase", Scale::turn}},
+      {"distance_m",
+       "m",
+       "c phase / (4 pi f), wraps at c / (2 f)",
+       &Return::distance_m,
+       {Area::frequency, 2},
+       Preview{"distance", Scale::sequential}},
+      {"tap", radiance_unit, "the correlation samples", &Return::taps, {Area::frequency, 4}},
+      {"range_m",
+       "m",
+       "ground truth: mean distance to the lens",
+       &Measurement::range_m,
+       {Area::frequency, 3}},
+      {"z_m", "m", "ground truth: mean depth", &Measurement::z_m, {Area::truth, 1}},
+      {"coverage",
+       "",
+       "share of the pixel's samples that hit the scene",
+       &Measurement::coverage,
+       {Area::truth, 0}},
+      {"lit",
+       "",
+       "mean visibility: share of the diodes that reach the pixel, mean over its samples that hit; 0 where "
+       "none does; absent with \"shadows\": \"off\"",
+       &Measurement::lit,
+       {Area::shadow, 0},
+       Preview{"lit", Scale::share}},
+      {"triangle_id",
+       "",
+       "of the sample nearest the pixel's centre; 4294967295 where it hits nothing",
+       &Measurement::triangle_id,
+       {Area::truth, 2}},
+      {"object_id",
+       "",
+       "of the same sample; 4294967295 where it hits nothing",
+       &Measurement::object_id,
+       {Area::truth, 3}},
+  });
+}();
+
+constexpr bool is_of_taps(const ChannelRow &row) {
+  return std::holds_alternative<std::vector<std::vector<float>> Return::*>(row.at);
+}
+constexpr bool is_of_frequency(const ChannelRow &row) {
+  return std::holds_alternative<std::vector<float> Return::*>(row.at) || is_of_taps(row);
+}
+constexpr bool is_id(const ChannelRow &row) {
+  return std::holds_alternative<std::vector<std::uint32_t> Measurement::*>(row.at);
+}
+
+constexpr const ChannelRow &row_of(const ChannelMember &at) {
+  return *std::ranges::find(channel_rows, at, &ChannelRow::at);
+}
+
+// Which channel of a frame: `frequency` and `tap` are 0 where the row is not of them.
+struct ChannelIndex {
+  const ChannelRow &row;
+  std::size_t frequency = 0, tap = 0;
+};
+
+// Calls visit(row, member) for each row whose channels lie in `owner`, a frame or what a frequency returns.
+template <class Owner, class Visit>
+void for_each_row_of(Owner &owner, Visit visit) {
+  for (const ChannelRow &row : channel_rows)
+    std::visit(
+        [&](auto at) {
+          if constexpr (std::is_invocable_v<decltype(at), Owner &>)
+            visit(row, owner.*at);
+        },
+        row.at);
+}
+
+// Calls visit(ChannelIndex, values) for each channel that `frame` has room for, in the order of files: each
+// frequency's, each frequency's taps, then the frame's. Values of absent channels are empty.
+template <class Frame, class Visit>
+void for_each_channel(Frame &frame, Visit visit) {
+  for (const bool taps : {false, true})
+    for (std::size_t f = 0; f < frame.returns.size(); ++f)
+      for_each_row_of(frame.returns[f], [&](const ChannelRow &row, auto &member) {
+        if (is_of_taps(row) != taps)
+          return;
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member)>, std::vector<float>>)
+          visit(ChannelIndex{row, f}, member);
+        else
+          for (std::size_t k = 0; k < member.size(); ++k)
+            visit(ChannelIndex{row, f, k}, member[k]);
+      });
+  for_each_row_of(frame, [&](const ChannelRow &row, auto &member) { visit(ChannelIndex{row}, member); });
+}
+
+} // namespace pmdsim

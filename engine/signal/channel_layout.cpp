@@ -1,0 +1,101 @@
+#include "engine/signal/channel_layout.h"
+
+#include "engine/vulkan/float_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pmdsim {
+namespace {
+
+using Area = DeviceSlot::Area;
+
+constexpr std::uint32_t whole_pairs(std::uint32_t channels) { return (channels + 1) / 2 * 2; }
+
+// Of those of a fixed number.
+constexpr std::uint32_t channels_in(Area area) {
+  std::uint32_t end = 0;
+  for (const ChannelRow &row : channel_rows)
+    if (row.slot.area == area && !is_of_taps(row))
+      end = std::max(end, row.slot.index + 1);
+  return whole_pairs(end);
+}
+
+constexpr bool slots_differ() {
+  for (const ChannelRow &a : channel_rows)
+    for (const ChannelRow &b : channel_rows)
+      if (&a != &b && a.slot.area == b.slot.area && a.slot.index == b.slot.index)
+        return false;
+  return true;
+}
+
+static_assert(slots_differ());
+static_assert(row_of(&Return::taps).slot.index == channels_in(Area::frequency), "taps come last");
+
+float largest_float_below(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, 0.0f);
+}
+
+shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
+                            std::uint32_t first_channel) {
+  const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_hz);
+  const DoublePair turns_per_m(1.0 / ambiguity_m), ambiguity(ambiguity_m);
+  shader::Frequency record{};
+  record.turns_per_m = {turns_per_m.hi, turns_per_m.lo};
+  record.ambiguity_m = {ambiguity.hi, ambiguity.lo};
+  record.below = {largest_float_below(2.0 * std::numbers::pi), largest_float_below(ambiguity_m)};
+  record.amplitude_scale = static_cast<float>(largest_intensity_w_sr);
+  record.first_channel = first_channel;
+  return record;
+}
+
+} // namespace
+
+ChannelLayout::ChannelLayout(const Signal &signal)
+    : frequencies(signal.frequencies()), taps(signal.keep_taps ? signal.taps : 0), lit(signal.lit) {}
+
+std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
+  return channels_in(Area::truth) + frequency * whole_pairs(channels_in(Area::frequency) + taps);
+}
+
+std::uint32_t ChannelLayout::lit_channel() const { return first_channel(frequencies); }
+
+std::uint32_t ChannelLayout::channels() const {
+  return lit_channel() + (lit ? channels_in(Area::shadow) : 0);
+}
+
+bool ChannelLayout::holds(const ChannelRow &row) const {
+  return is_of_taps(row) ? taps > 0 : row.slot.area != Area::shadow || lit;
+}
+
+std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
+  const auto [area, index] = of.row.slot;
+  const std::uint32_t first = area == Area::frequency
+                                  ? first_channel(static_cast<std::uint32_t>(of.frequency))
+                              : area == Area::shadow ? lit_channel()
+                                                     : 0;
+  return first + index + static_cast<std::uint32_t>(of.tap);
+}
+
+std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
+                                                 const std::optional<Promise> &promise) {
+  const ChannelLayout layout(signal);
+  std::vector<shader::Frequency> records;
+  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
+    records.push_back(record_of(signal.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
+    if (!promise)
+      continue;
+    shader::Frequency &record = records.back();
+    record.limit_m = static_cast<float>(promise->limit_m);
+    record.fixed_m = static_cast<float>(promise->fixed_m);
+    record.per_condition_m = static_cast<float>(promise->per_condition_m);
+    record.amplitude_limit = static_cast<float>(promise->amplitude_limit);
+    record.amplitude_fixed = static_cast<float>(promise->amplitude_fixed);
+    record.amplitude_per_condition = static_cast<float>(promise->amplitude_per_condition);
+  }
+  return records;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,35 @@
+#pragma once
+// How the device lays out a strip's channels: the areas of DeviceSlot, which follow from the rows of
+// engine/model/channels.h, and what the resolve pass is told of each modulation frequency.
+
+#include "engine/light/tones.h"
+#include "engine/model/channels.h"
+#include "engine/model/error_bound.h"
+
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+struct ChannelLayout {
+  explicit ChannelLayout(const Signal &signal);
+
+  std::uint32_t frequencies;
+  std::uint32_t taps; // that are kept, of each frequency
+  bool lit;           // the area of shadows is there
+
+  // All of them, and where areas begin; even numbers.
+  std::uint32_t channels() const;
+  std::uint32_t first_channel(std::uint32_t frequency) const;
+  std::uint32_t lit_channel() const;
+
+  bool holds(const ChannelRow &row) const;
+  // Of a channel that it holds.
+  std::uint32_t number(const ChannelIndex &of) const;
+};
+
+// Amplitudes are per unit of the mean return, in which diodes count relative to the strongest.
+std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
+                                                 const std::optional<Promise> &promise);
+
+} // namespace pmdsim

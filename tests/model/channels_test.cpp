@@ -1,0 +1,95 @@
+// The rows of channels against what else lists them: the shader that stores them, and the documents.
+
+#include "engine/model/channels.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+
+using namespace pmdsim;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = fs::path(PMDSIM_SCENES).parent_path();
+
+std::vector<std::string> lines_of(const fs::path &file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+// "const uint channel_NAME = N;" of the shader.
+std::map<std::string, std::uint32_t> slots_of_shader() {
+  static const std::regex constant(R"(^const uint channel_(\w+) = (\d+);.*)");
+  std::map<std::string, std::uint32_t> slots;
+  std::smatch match;
+  for (const std::string &line : lines_of(root / "shaders/signal/resolve.glsl"))
+    if (std::regex_match(line, match, constant))
+      slots[match[1]] = static_cast<std::uint32_t>(std::stoul(match[2]));
+  return slots;
+}
+
+// The rows of the documents' one table of channels.
+std::vector<std::string> documented_rows() {
+  std::vector<fs::path> documents{root / "README.md"};
+  if (fs::exists(root / "docs"))
+    for (const auto &entry : fs::directory_iterator(root / "docs"))
+      documents.push_back(entry.path());
+  std::vector<std::string> rows;
+  for (const fs::path &document : documents) {
+    bool inside = false;
+    for (const std::string &line : lines_of(document)) {
+      inside = line.starts_with("| channel | unit |") || (inside && line.starts_with("|"));
+      if (inside && line.starts_with("| `"))
+        rows.push_back(line);
+    }
+  }
+  return rows;
+}
+
+std::string documented(const ChannelRow &row) {
+  const std::string name(row.name);
+  const std::string names = is_of_taps(row) ? "`" + name + "0`, `" + name + "1`, ..." : "`" + name + "`";
+  const std::string unit = row.unit.empty() ? is_id(row) ? "" : "1 " : std::string(row.unit) + ' ';
+  return "| " + names + " | " + unit + "| " + std::string(row.about) + " |";
+}
+
+} // namespace
+
+TEST_CASE("the shader stores each channel in its row's slot") {
+  const std::map<std::string, std::uint32_t> slots = slots_of_shader();
+  std::size_t found = 0;
+  for (const ChannelRow &row : channel_rows) {
+    if (row.slot.area == DeviceSlot::Area::shadow) // the shader is told its place
+      continue;
+    INFO("channel_" << row.name);
+    const auto slot = slots.find(std::string(row.name));
+    REQUIRE(slot != slots.end());
+    CHECK(slot->second == row.slot.index);
+    ++found;
+  }
+  CHECK(found == slots.size());
+}
+
+TEST_CASE("the documents list the channels as their rows say") {
+  std::vector<std::string> expected;
+  for (const ChannelRow &row : channel_rows)
+    expected.push_back(documented(row));
+  CHECK(documented_rows() == expected);
+}
+
+TEST_CASE("pictures are of floats, and names differ") {
+  for (const ChannelRow &row : channel_rows) {
+    INFO(row.name);
+    CHECK_FALSE((row.preview && (is_id(row) || is_of_taps(row))));
+    CHECK(std::ranges::count(channel_rows, row.name, &ChannelRow::name) == 1);
+    CHECK(&row_of(row.at) == &row);
+  }
+}
