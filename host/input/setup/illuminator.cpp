@@ -1,6 +1,5 @@
 #include "host/input/setup/illuminator.h"
 
-#include "host/input/diagram/diode_across.h"
 #include "host/input/diagram/diode_file.h"
 #include "host/input/schema/limits.h"
 #include "host/input/setup/pose.h"
