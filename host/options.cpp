@@ -203,25 +203,26 @@ Options checked(const Written &written, const std::string &command) {
     throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
   Options options;
   options.command = command_names.at(command);
-  options.setup = written.setup;
+  CaptureRequest &capture = options.capture;
+  capture.setup = written.setup;
   options.calibration = written.calibration;
   options.pixel_pitch_m = written.pixel_pitch_m;
   options.sensor_name = written.sensor_name;
-  options.device = written.device;
+  capture.device = written.device;
   options.json = written.json;
-  options.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
+  capture.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
   options.mode_written = written.accuracy.mode.has_value();
   if (written.samples)
-    options.samples = sample_choice_of(*written.samples);
+    capture.samples = sample_choice_of(*written.samples);
   if (written.frames)
-    options.frames = frame_range_of(*written.frames);
-  options.output_directory = output_directory(written, command);
+    capture.frames = frame_range_of(*written.frames);
+  capture.output_directory = output_directory(written, command);
   for (const std::string &format : written.formats)
-    options.formats.insert(format_names.at(format));
-  if (options.formats.empty() && options.command == Command::render)
-    options.formats = {Format::exr, Format::png};
-  if (options.formats.empty() && options.command == Command::deform)
-    options.formats = {Format::exr, Format::png, Format::csv};
+    capture.formats.insert(format_names.at(format));
+  if (capture.formats.empty() && options.command == Command::render)
+    capture.formats = {Format::exr, Format::png};
+  if (capture.formats.empty() && options.command == Command::deform)
+    capture.formats = {Format::exr, Format::png, Format::csv};
   return options;
 }
 
@@ -239,11 +240,6 @@ std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
 }
 
 } // namespace
-
-bool names_the_reference(const std::string &device) {
-  return std::ranges::equal(device, std::string_view("reference"), {},
-                            [](unsigned char c) { return std::tolower(c); });
-}
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
   CLI::App app(

@@ -3,7 +3,7 @@
 #include "engine/model/error.h"
 #include "host/capture/camera.h"
 #include "host/capture/progress_bar.h"
-#include "host/report/coarser_sensor.h"
+#include "host/report/field_of_view.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -86,12 +86,6 @@ double darkest_comparable(const reference::FrameReturn &truth) {
   return 1e-3 * brightest;
 }
 
-// Beyond it, and what is claimed, the device computes something else: float32 holds a distance to 6e-8 of the
-// ambiguity range.
-double largest_plausible_error_m(const AccuracyCheck &check) {
-  return std::max(10e-6, 1e-6 * check.ambiguity_m) + check.claimed_m;
-}
-
 // Rounding decides otherwise only where a ray all but touches an edge, in 1e-4 of the pairs at most. Ten
 // times as many are let pass, as other devices and coarser frames have other edges, and a line of pixels, as
 // a shadow's edge may run through the middle of each.
@@ -133,6 +127,10 @@ AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, c
   return check;
 }
 
+double largest_plausible_error_m(double ambiguity_m, double claimed_m) {
+  return std::max(10e-6, 1e-6 * ambiguity_m) + claimed_m;
+}
+
 void require_plausible(const AccuracyCheck &check, const std::string &device) {
   const auto fail = [&](const std::string &what) {
     throw Error(ExitCode::internal, fmt::format("{}: sensor {} at {}: {}", device, check.sensor,
@@ -149,7 +147,7 @@ void require_plausible(const AccuracyCheck &check, const std::string &device) {
   if (check.not_finite > 0)
     fail(fmt::format("distances are not finite in {} of {} pixels where the reference's are",
                      check.not_finite, check.pixels));
-  const double limit_m = largest_plausible_error_m(check);
+  const double limit_m = largest_plausible_error_m(check.ambiguity_m, check.claimed_m);
   if (check.distance_max_m > limit_m)
     fail(fmt::format("distances differ from the reference by up to {:.6g} mm; expected at most {:.6g} mm",
                      1e3 * check.distance_max_m, 1e3 * limit_m));

@@ -38,6 +38,10 @@ struct AccuracyCheck {
 AccuracyCheck compare(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
                       std::size_t frequency, std::size_t diodes);
 
+// Beyond it, and what is claimed, a device computes something else: float32 holds a distance to 6e-8 of the
+// ambiguity range.
+double largest_plausible_error_m(double ambiguity_m, double claimed_m);
+
 // Throws Error (internal) where a device that computes what the reference computes cannot have been the one
 // that was compared: a distance is not finite or too far off, hardly any pixel saw the same triangles, or
 // more samples than rounding explains have other diodes in sight.

@@ -1,4 +1,4 @@
-#include "host/bench/ratios.h"
+#include "host/bench/modes.h"
 #include "host/bench/results.h"
 #include "host/output/files/manifest.h"
 
@@ -71,7 +71,7 @@ ordered_json results_json(const BenchReport &report) {
   for (const ModeBench &mode : report.setup.modes)
     results.push_back(mode_json(report.setup, mode));
   for (const SweepRow &row : report.sweep)
-    results.push_back(swept_json(row, report.options.accuracy.mode));
+    results.push_back(swept_json(row, report.request.accuracy.mode));
   return results;
 }
 
@@ -117,8 +117,8 @@ ordered_json sequence_json(const SequenceRate &rate) {
 }
 
 ordered_json knobs_json(const BenchReport &report) {
-  const Accuracy &accuracy = report.options.accuracy;
-  return {{"mode", report.options.mode_written ? mode_name(accuracy.mode) : "all"},
+  const Accuracy &accuracy = report.request.accuracy;
+  return {{"mode", report.request.one_mode ? mode_name(accuracy.mode) : "all"},
           {"precision", accuracy.precision ? ordered_json(precision_name(*accuracy.precision)) : nullptr},
           {"max_error_m", accuracy.max_error_m},
           {"samples", report.samples},

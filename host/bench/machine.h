@@ -1,9 +1,11 @@
 #pragma once
-// What a time depends on beside what is timed.
+// What a time depends on beside what is timed, and the memory that the process takes.
 
 #include "host/capture/camera.h"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace pmdsim {
@@ -22,5 +24,11 @@ struct Machine {
 };
 
 Machine this_machine(const Camera &camera);
+
+// From here on, as far as the system can tell, counts the most memory that the process has had in use, a
+// device's own apart.
+void restart_peak_memory();
+// That, resident; nothing where the system does not tell.
+std::optional<std::int64_t> peak_memory_bytes();
 
 } // namespace pmdsim

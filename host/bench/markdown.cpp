@@ -1,35 +1,88 @@
-#include "host/bench/ratios.h"
 #include "host/bench/results.h"
 #include "host/output/files/accuracy_record.h"
 
 #include <algorithm>
 #include <cmath>
-
 #include <fmt/format.h>
+#include <functional>
+#include <limits>
 
 namespace pmdsim {
 namespace {
+
+using nlohmann::ordered_json;
+
+std::string plain(const ordered_json &text) { return text.get<std::string>(); }
+
+double number_or_nan(const ordered_json &value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+template <int digits>
+std::string number(const ordered_json &value) {
+  const double known = number_or_nan(value);
+  return std::isnan(known) ? "-" : fmt::format("{:.{}g}", known, digits);
+}
+
+std::string ms_text(const ordered_json &value) {
+  const double ms = number_or_nan(value);
+  return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 100 ? 2 : 0);
+}
+
+std::string part_text(const ordered_json &part) { return fmt::format("{:.3f}", number_or_nan(part)); }
+
+std::string mebibytes(const ordered_json &bytes) {
+  return bytes.is_null() ? "-" : fmt::format("{:.0f}", bytes.get<double>() / (1 << 20));
+}
+
+// A column of a table whose rows are what bench_json() has.
+struct Column {
+  std::string heading;
+  std::function<std::string(const ordered_json &row)> cell;
+};
+
+// What stands there in the row; null where nothing does.
+ordered_json value_at(const ordered_json &row, const std::string &pointer) {
+  const ordered_json::json_pointer there(pointer);
+  return row.contains(there) ? row.at(there) : ordered_json();
+}
+
+Column column(const std::string &heading, const std::string &pointer, const auto &text) {
+  return {heading, [=](const ordered_json &row) { return text(value_at(row, pointer)); }};
+}
+
+Column from_to(const std::string &heading, const std::string &least, const std::string &most,
+               const auto &text) {
+  return {heading, [=](const ordered_json &row) {
+            return fmt::format("{} to {}", text(value_at(row, least)), text(value_at(row, most)));
+          }};
+}
 
 std::string row_text(const std::vector<std::string> &cells) {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
-std::string head_text(const std::vector<std::string> &cells) {
-  return row_text(cells) + row_text(std::vector<std::string>(cells.size(), "---"));
+std::string table_text(const std::vector<Column> &columns, const ordered_json &rows) {
+  std::vector<std::string> headings;
+  for (const Column &column : columns)
+    headings.push_back(column.heading);
+  std::string text = row_text(headings) + row_text(std::vector<std::string>(columns.size(), "---"));
+  for (const ordered_json &row : rows) {
+    std::vector<std::string> cells;
+    for (const Column &column : columns)
+      cells.push_back(column.cell(row));
+    text += row_text(cells);
+  }
+  return text;
 }
 
-std::string number(double value, int digits = 4) {
-  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
-}
-
-std::string ms_text(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 100 ? 2 : 0); }
-
-std::string from_to(const Spread &spread, const auto &text) {
-  return fmt::format("{} to {}", text(spread.min), text(spread.max));
-}
-
-std::string mebibytes(const std::optional<std::int64_t> &bytes) {
-  return bytes ? fmt::format("{:.0f}", static_cast<double>(*bytes) / (1 << 20)) : "-";
+// Of modes, or of a sweep's points.
+ordered_json results_of(const ordered_json &json, bool swept) {
+  ordered_json rows = ordered_json::array();
+  for (const ordered_json &row : json["results"])
+    if (row.contains("sweep") == swept)
+      rows.push_back(row);
+  return rows;
 }
 
 std::string machine_text(const BenchReport &report) {
@@ -61,154 +114,141 @@ std::string error_text(const AccuracyCheck &check, Mode mode) {
                             check.resolution.y);
 }
 
-std::string modes_text(const SetupBench &bench) {
-  std::string text =
-      head_text({bench.name, "frame, ms", "least to most", "frames/s", "interactions/s in accumulate",
-                 "passes / frame", "first frame, ms", "prepare, ms", "sum"});
-  for (const ModeBench &mode : bench.modes) {
-    const Timing timing = timing_of(mode.frames);
-    text += row_text(
-        {mode_name(mode.mode), ms_text(timing.frame_ms.median), from_to(timing.frame_ms, ms_text),
-         number(1e3 / timing.frame_ms.median), number(spread_of(interactions_per_s(bench, mode)).median),
-         fmt::format("{:.3f}", timing.passes_explain), ms_text(mode.first_frame_ms),
-         mode.prepare_ms ? ms_text(*mode.prepare_ms) : "-", sum_text(mode.mode, timing.accuracy)});
-  }
-  return text;
+std::string modes_text(const SetupBench &bench, ordered_json rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i]["sum"] = sum_text(bench.modes[i].mode, timing_of(bench.modes[i].frames).accuracy);
+  return table_text({column(bench.name, "/mode", plain), column("frame, ms", "/frame_ms", ms_text),
+                     from_to("least to most", "/frame_ms_min", "/frame_ms_max", ms_text),
+                     column("frames/s", "/frames_per_s", number<4>),
+                     column("interactions/s in accumulate", "/interactions_per_s", number<4>),
+                     column("passes / frame", "/passes_explain", part_text),
+                     column("first frame, ms", "/first_frame_ms", ms_text),
+                     column("prepare, ms", "/prepare_ms", ms_text), column("sum", "/sum", plain)},
+                    rows);
 }
 
 // A column each mode, a row each pass that any of them has.
-std::string passes_text(const SetupBench &bench) {
-  std::vector<std::string> head{"pass, ms"}, names;
-  std::vector<Timing> timings;
-  for (const ModeBench &mode : bench.modes) {
-    head.push_back(mode_name(mode.mode));
-    timings.push_back(timing_of(mode.frames));
-    for (const PassTime &pass : timings.back().passes)
-      if (std::ranges::find(names, pass.name) == names.end())
-        names.push_back(pass.name);
-  }
-  if (names.empty())
-    return "";
-  std::string text = "\n" + head_text(head);
-  for (const std::string &name : names) {
-    std::vector<std::string> cells{name};
-    for (const Timing &timing : timings) {
-      const auto pass = std::ranges::find(timing.passes, name, &PassTime::name);
-      cells.push_back(pass == timing.passes.end() ? "-" : fmt::format("{:.3f}", pass->ms));
+std::string passes_text(const ordered_json &modes) {
+  ordered_json rows = ordered_json::object();
+  std::vector<Column> columns{column("pass, ms", "/pass", plain)};
+  for (const ordered_json &mode : modes) {
+    const auto name = mode["mode"].get<std::string>();
+    columns.push_back(
+        {name, [name](const ordered_json &row) { return row.contains(name) ? part_text(row[name]) : "-"; }});
+    for (const auto &[pass, ms] : mode["passes_ms"].items()) {
+      rows[pass]["pass"] = pass;
+      rows[pass][name] = ms;
     }
-    text += row_text(cells);
   }
-  return text;
+  return rows.empty() ? "" : "\n" + table_text(columns, rows);
 }
 
-std::string native_text(const NativeBench &native) {
-  const CheckedKernel &checked = native.checked();
-  const NativeKernel &kernel = checked.kernel;
-  const auto rate = [](double value) { return fmt::format("{:.3g}", value); };
-  const auto row = [&](const std::string &name, const std::vector<double> &rates, double error_m) {
-    const Spread spread = spread_of(rates);
-    return row_text({name, rate(spread.median), from_to(spread, rate), micrometres_text(error_m)});
-  };
-  std::string text =
-      fmt::format("\nNative kernel: {}, {} threads, {} points x {} diodes, {}.\n\n", kernel.instructions(),
-                  kernel.threads(), kernel.points(), kernel.diodes(), checked.points) +
-      head_text({"native kernel", "interactions/s", "least to most", "off double by"}) +
-      row("moments", native.moments_per_s(), checked.moments_error_m);
-  if (checked.series_error_m)
-    text += row(fmt::format("series, {} powers", kernel.series_powers()), native.series_per_s(),
-                *checked.series_error_m);
-  return text;
+std::string native_text(const ordered_json &native) {
+  ordered_json rows = ordered_json::array({native});
+  rows[0]["form"] = "moments";
+  if (const ordered_json &series = native["series"]; !series.is_null()) {
+    rows.push_back(series);
+    rows[1]["form"] = fmt::format("series, {} powers", series["powers"].get<std::uint32_t>());
+  }
+  const std::string rates = "/interactions_per_s";
+  return fmt::format("\nNative kernel: {}, {} threads, {} points x {} diodes, {}.\n\n",
+                     plain(native["instructions"]), native["threads"].dump(), native["points"].dump(),
+                     native["diodes"].dump(), plain(native["what"])) +
+         table_text({column("native kernel", "/form", plain),
+                     column("interactions/s", rates + "/median", number<3>),
+                     from_to("least to most", rates + "/min", rates + "/max", number<3>),
+                     column("off double by", "/error_max_m", micrometres_text)},
+                    rows);
 }
 
-std::string ratios_text(const SetupBench &bench) {
-  const std::vector<Ratio> ratios = ratios_of(bench);
-  if (ratios.empty())
+std::string ratios_text(const ordered_json &json) {
+  ordered_json rows = ordered_json::array();
+  for (const auto &[name, value] : json["ratios"].items())
+    rows.push_back({{"name", name}, {"value", value}, {"rounds", json["ratios_of_rounds"][name]}});
+  if (rows.empty())
     return "";
-  const auto digits = [](double value) { return fmt::format("{:.3g}", value); };
-  std::string text = "\n" + head_text({"ratio", "of medians", "within a round"});
-  for (const Ratio &ratio : ratios)
-    text += row_text({ratio.name, digits(ratio.value), from_to(ratio.of_rounds, digits)});
-  return text;
+  return "\n" + table_text({column("ratio", "/name", plain), column("of medians", "/value", number<3>),
+                            from_to("within a round", "/rounds/min", "/rounds/max", number<3>)},
+                           rows);
 }
 
-std::string setup_text(const SetupBench &bench) {
+std::string setup_text(const SetupBench &bench, const ordered_json &json) {
+  const ordered_json modes = results_of(json, false);
   const std::string sensors = bench.sensors > 1 ? fmt::format(" of each of {} sensors", bench.sensors) : "";
   std::string text =
       fmt::format("\nMedians of {} warm frames{}, modes and native kernel in turn. Peak memory {} MiB.\n\n",
-                  bench_rounds, sensors, mebibytes(bench.peak_memory_bytes)) +
-      modes_text(bench) + "\n";
+                  bench_rounds, sensors, mebibytes(json["peak_memory_bytes"])) +
+      modes_text(bench, modes) + "\n";
   for (const ModeBench &mode : bench.modes) {
     for (const AccuracyCheck &check : mode.checks)
       text += error_text(check, mode.mode);
     if (const std::string errors = errors_text(timing_of(mode.frames).accuracy); !errors.empty())
       text += fmt::format("- mode {}: {}\n", mode_name(mode.mode), errors);
   }
-  text += passes_text(bench);
+  text += passes_text(modes);
   if (bench.native)
-    text += native_text(*bench.native);
-  return text + ratios_text(bench);
+    text += native_text(json["native"]);
+  return text + ratios_text(json);
 }
 
-std::string sequence_text(const SequenceRate &rate, Mode mode) {
-  return fmt::format("\nA sequence of {} frames in mode {}, frames/s by the clock.\n\n", rate.frames,
-                     mode_name(mode)) +
-         head_text({"not written", "as NPY", "as EXR"}) +
-         row_text({number(rate.measured_per_s), number(rate.npy_per_s), number(rate.exr_per_s)});
+std::string sequence_text(const ordered_json &sequence, Mode mode) {
+  return fmt::format("\nA sequence of {} frames in mode {}, frames/s by the clock.\n\n",
+                     sequence["frames"].dump(), mode_name(mode)) +
+         table_text({column("not written", "/measured_per_s", number<4>),
+                     column("as NPY", "/npy_per_s", number<4>), column("as EXR", "/exr_per_s", number<4>)},
+                    ordered_json::array({sequence}));
 }
 
-std::string pass_cell(const Timing &timing, const std::string &name) {
-  const auto pass = std::ranges::find(timing.passes, name, &PassTime::name);
-  return pass == timing.passes.end() ? "-" : ms_text(pass->ms);
+std::string sweep_text(const ordered_json &rows, Mode mode) {
+  std::vector<Column> columns{column("sweep", "/name", plain), column("frame, ms", "/frame_ms", ms_text),
+                              from_to("least to most", "/frame_ms_min", "/frame_ms_max", ms_text),
+                              column("interactions/s", "/interactions_per_s", number<3>)};
+  for (const std::string pass : {"visibility", "points", "accumulate", "resolve", "read_back"})
+    columns.push_back(column(pass, "/passes_ms/" + pass, ms_text));
+  const auto micrometres = [](const ordered_json &error_m) {
+    return number<3>(1e6 * number_or_nan(error_m));
+  };
+  columns.insert(columns.end(), {column("passes / frame", "/passes_explain", part_text),
+                                 column("error, µm", "/error_found_m", micrometres),
+                                 column("first frame, ms", "/first_frame_ms", ms_text),
+                                 column("prepare, ms", "/prepare_ms", ms_text),
+                                 column("peak, MiB", "/peak_memory_bytes", mebibytes)});
+  return fmt::format("\nOne quantity at a time, mode {}; passes in ms.\n\n", mode_name(mode)) +
+         table_text(columns, rows);
 }
 
-std::string sweep_text(const std::vector<SweepRow> &rows, Mode mode) {
-  const std::vector<std::string> passes{"visibility", "points", "accumulate", "resolve", "read_back"};
-  std::vector<std::string> head{"sweep", "frame, ms", "least to most", "interactions/s"};
-  head.insert(head.end(), passes.begin(), passes.end());
-  head.insert(head.end(), {"passes / frame", "error, µm", "first frame, ms", "prepare, ms", "peak, MiB"});
-  std::string text =
-      fmt::format("\nOne quantity at a time, mode {}; passes in ms.\n\n", mode_name(mode)) + head_text(head);
-  for (const SweepRow &row : rows) {
-    const Timing timing = timing_of(row.frames);
-    std::vector<std::string> cells{row.point.name(), ms_text(timing.frame_ms.median),
-                                   from_to(timing.frame_ms, ms_text),
-                                   number(interactions_per_s(row, mode), 3)};
-    for (const std::string &pass : passes)
-      cells.push_back(pass_cell(timing, pass));
-    cells.insert(cells.end(),
-                 {fmt::format("{:.3f}", timing.passes_explain), number(1e6 * row.error_m, 3),
-                  ms_text(row.first_frame_ms), ms_text(row.prepare_ms), mebibytes(row.peak_memory_bytes)});
-    text += row_text(cells);
-  }
-  return text;
-}
-
-std::string growth_text(const Growth &growth) {
-  const std::string unit = unit_name(growth.quantity);
-  std::string text =
-      fmt::format("\nMedian frame time over {}: {} ms + {} ms each.\n\n", unit, number(growth.line.fixed_ms),
-                  number(growth.line.slope_ms)) +
-      head_text({unit, "frame, ms", "over the line", "each more since the row before, ms", "over the slope"});
-  for (std::size_t i = 0; i < growth.points.size(); ++i) {
-    const auto &[size, ms] = growth.points[i];
-    const double marginal_ms = growth.marginal_ms[i];
-    text += row_text({fmt::format("{:.0f}", size), ms_text(ms),
-                      fmt::format("{:+.1f} %", 100.0 * (ms / growth.line.at_ms(size) - 1.0)),
-                      number(marginal_ms), number(marginal_ms / growth.line.slope_ms, 3)});
-  }
-  return text;
+std::string growth_text(const ordered_json &growth) {
+  const std::string unit = plain(growth["unit"]);
+  const double slope_ms = growth["slope_ms"];
+  const auto percent = [](const ordered_json &over) {
+    return fmt::format("{:+.1f} %", 100.0 * (number_or_nan(over) - 1.0));
+  };
+  const auto over_slope = [=](const ordered_json &ms) { return number<3>(number_or_nan(ms) / slope_ms); };
+  return fmt::format("\nMedian frame time over {}: {} ms + {} ms each.\n\n", unit,
+                     number<4>(growth["fixed_ms"]), number<4>(growth["slope_ms"])) +
+         table_text(
+             {{unit,
+               [](const ordered_json &point) { return fmt::format("{:.0f}", number_or_nan(point["size"])); }},
+              column("frame, ms", "/frame_ms", ms_text),
+              column("over the line", "/over_line", percent),
+              column("each more since the row before, ms", "/marginal_ms", number<4>),
+              column("over the slope", "/marginal_ms", over_slope)},
+             growth["points"]);
 }
 
 } // namespace
 
 std::string bench_markdown(const BenchReport &report) {
-  std::string text = machine_text(report) + setup_text(report.setup);
+  const ordered_json json = bench_json(report);
+  const Mode mode = report.request.accuracy.mode;
+  std::string text = machine_text(report) + setup_text(report.setup, json);
   if (report.sequence)
-    text += sequence_text(*report.sequence, report.options.accuracy.mode);
-  if (!report.sweep.empty())
-    text += sweep_text(report.sweep, report.options.accuracy.mode);
-  for (const Growth &growth : growths_of(report.sweep))
-    text += growth_text(growth);
+    text += sequence_text(json["sequence"], mode);
+  if (!report.sweep.empty()) {
+    text += sweep_text(results_of(json, true), mode);
+    for (const ordered_json &growth : json["linearity"])
+      text += growth_text(growth);
+  }
   return text;
 }
 

@@ -1,7 +1,7 @@
 #include "host/bench/modes.h"
 
 #include "engine/model/error.h"
-#include "host/bench/peak_memory.h"
+#include "host/bench/machine.h"
 #include "host/capture/exposure.h"
 #include "host/capture/progress_bar.h"
 #include "host/output/files/accuracy_record.h"
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
 #include <fmt/format.h>
+#include <span>
 
 namespace pmdsim {
 namespace {
@@ -20,20 +20,20 @@ constexpr int prepared_times = 3;
 // Measures one setup in several modes.
 class ModesInTurn {
 public:
-  ModesInTurn(const Setup &setup, const Options &options)
-      : setup_(setup), options_(options),
+  ModesInTurn(const Setup &setup, const BenchRequest &request)
+      : setup_(setup), request_(request),
         bar_((1 + (several_sensors() ? 2 : 1) * bench_rounds) * 3.0 * samples_of_frame(setup)) {}
 
   // With its first frame taken and its results checked.
   void open(Mode mode, const std::vector<ReferenceFrame> &truth) {
     const Accuracy accuracy = accuracy_of(mode);
     ModeBench bench{.mode = mode, .prepare_ms = {}, .checks = {}, .frames = {}};
-    auto exposures = std::make_unique<Exposures>(setup_, options_.device, false, accuracy);
+    auto exposures = std::make_unique<Exposures>(setup_, request_.device, false, accuracy);
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor)
       exposures->reuse(take(*exposures, sensor, mode, "first frame"));
     bench.first_frame_ms = ms_since(start);
-    bench.checks = check_accuracy(setup_, truth, options_.device, accuracy);
+    bench.checks = check_accuracy(setup_, truth, request_.device, accuracy);
     for (const AccuracyCheck &check : bench.checks)
       require_plausible(check, fmt::format("{}, mode {}", exposures->camera().device(), mode_name(mode)));
     if (!exposures->camera().is_reference())
@@ -52,7 +52,7 @@ public:
   }
 
   // From now on beside the first mode, which is exact.
-  void add_native() { native_.emplace(setup_, options_.device); }
+  void add_native() { native_.emplace(setup_, request_.device); }
 
   std::vector<ModeBench> modes() { return std::move(modes_); }
   std::optional<NativeBench> native() { return std::move(native_); }
@@ -61,7 +61,7 @@ private:
   bool several_sensors() const { return setup_.start.sensors.size() > 1; }
 
   Accuracy accuracy_of(Mode mode) const {
-    Accuracy accuracy = options_.accuracy;
+    Accuracy accuracy = request_.accuracy;
     accuracy.mode = mode;
     return accuracy;
   }
@@ -89,7 +89,7 @@ private:
 
   double prepare_ms(const Accuracy &accuracy) const {
     const auto &[scene, sensors, illuminators] = setup_.start;
-    Camera camera(options_.device);
+    Camera camera(request_.device);
     double sum_ms = 0.0;
     for (const Sensor &sensor : sensors) {
       std::vector<double> times_ms;
@@ -105,7 +105,7 @@ private:
   }
 
   const Setup &setup_;
-  const Options &options_;
+  const BenchRequest &request_;
   ProgressBar bar_;
   std::vector<ModeBench> modes_;
   std::vector<std::unique_ptr<Exposures>> exposures_; // beside the modes
@@ -113,10 +113,10 @@ private:
 };
 
 // The one that is asked for, else all that there are.
-std::vector<Mode> modes_of(const Options &options, const Setup &setup) {
-  if (options.mode_written)
-    return {options.accuracy.mode};
-  const bool only_exact = names_the_reference(options.device) || exposes_any_tap_by_tap(setup);
+std::vector<Mode> modes_of(const BenchRequest &request, const Setup &setup) {
+  if (request.one_mode)
+    return {request.accuracy.mode};
+  const bool only_exact = names_the_reference(request.device) || exposes_any_tap_by_tap(setup);
   return only_exact ? std::vector{Mode::exact} : std::vector{Mode::exact, Mode::reduced, Mode::automatic};
 }
 
@@ -124,32 +124,47 @@ bool has_adaptive_samples(const Setup &setup) {
   return std::ranges::any_of(setup.start.sensors, &Sensor::adaptive_samples);
 }
 
-void open_modes(ModesInTurn &modes, const Setup &setup, const Options &options) {
+void open_modes(ModesInTurn &modes, const Setup &setup, const BenchRequest &request) {
   const std::vector<ReferenceFrame> truth =
-      names_the_reference(options.device) ? std::vector<ReferenceFrame>() : reference_frames(setup);
-  for (const Mode mode : modes_of(options, setup)) {
+      names_the_reference(request.device) ? std::vector<ReferenceFrame>() : reference_frames(setup);
+  for (const Mode mode : modes_of(request, setup)) {
     try {
       modes.open(mode, truth);
     } catch (const Error &error) {
-      if (options.mode_written || error.code() != ExitCode::accuracy)
+      if (request.one_mode || error.code() != ExitCode::accuracy)
         throw;
       fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
     }
   }
 }
 
+// `over` / `under`, both of the same rounds.
+Ratio ratio(std::string name, std::span<const double> over, std::span<const double> under) {
+  std::vector<double> of_rounds;
+  for (std::size_t i = 0; i < over.size(); ++i)
+    of_rounds.push_back(over[i] / under[i]);
+  return {std::move(name), spread_of(over).median / spread_of(under).median, spread_of(of_rounds)};
+}
+
+std::vector<double> frames_ms(const ModeBench &mode) {
+  std::vector<double> times_ms;
+  for (const TimedFrame &frame : mode.frames)
+    times_ms.push_back(frame.frame_ms);
+  return times_ms;
+}
+
 } // namespace
 
-SetupBench bench_setup(const Setup &setup, const Options &options, const std::string &name) {
+SetupBench bench_setup(const Setup &setup, const BenchRequest &request, const std::string &name) {
   SetupBench bench;
   bench.name = name;
   bench.interactions = samples_of_frame(setup) * static_cast<double>(diode_count(setup.start.illuminators));
   bench.adaptive = has_adaptive_samples(setup);
   bench.sensors = static_cast<std::uint32_t>(setup.start.sensors.size());
-  ModesInTurn modes(setup, options);
-  open_modes(modes, setup, options);
-  if (modes_of(options, setup).front() == Mode::exact && !bench.adaptive &&
-      !names_the_reference(options.device))
+  ModesInTurn modes(setup, request);
+  open_modes(modes, setup, request);
+  if (modes_of(request, setup).front() == Mode::exact && !bench.adaptive &&
+      !names_the_reference(request.device))
     modes.add_native();
   for (int round = 1; round <= bench_rounds; ++round)
     modes.time_round(round);
@@ -166,6 +181,24 @@ std::vector<double> interactions_per_s(const SetupBench &bench, const ModeBench 
       if (const double accumulate_ms = pass_ms(frame, "accumulate"); !std::isnan(accumulate_ms))
         rates.push_back(bench.interactions / (1e-3 * accumulate_ms));
   return rates;
+}
+
+std::vector<Ratio> ratios_of(const SetupBench &bench) {
+  std::vector<Ratio> ratios;
+  if (bench.modes.empty() || bench.modes.front().mode != Mode::exact)
+    return ratios;
+  const ModeBench &exact = bench.modes.front();
+  const std::vector<double> accumulate = interactions_per_s(bench, exact);
+  if (bench.native && !accumulate.empty()) {
+    ratios.push_back(ratio("accumulate_over_native", accumulate, bench.native->moments_per_s()));
+    if (!bench.native->series_per_s().empty())
+      ratios.push_back(ratio("accumulate_over_native_series", accumulate, bench.native->series_per_s()));
+  }
+  for (const ModeBench &mode : bench.modes)
+    if (mode.mode != Mode::exact)
+      ratios.push_back(ratio(fmt::format("exact_frame_over_{}_frame", mode_name(mode.mode)), frames_ms(exact),
+                             frames_ms(mode)));
+  return ratios;
 }
 
 } // namespace pmdsim

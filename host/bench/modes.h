@@ -4,7 +4,6 @@
 #include "host/bench/accuracy_check.h"
 #include "host/bench/native/race.h"
 #include "host/bench/timing.h"
-#include "host/options.h"
 
 #include <cstdint>
 #include <memory>
@@ -38,10 +37,20 @@ struct SetupBench {
 
 // A mode that cannot keep its error is an error only where it was asked for; else it is left out with a
 // warning on stderr. Throws Error.
-SetupBench bench_setup(const Setup &setup, const Options &options, const std::string &name);
+SetupBench bench_setup(const Setup &setup, const BenchRequest &request, const std::string &name);
 
 // Samples x diodes over the time of the accumulate pass, of each frame; nothing where not every sample meets
 // every diode there.
 std::vector<double> interactions_per_s(const SetupBench &bench, const ModeBench &mode);
+
+struct Ratio {
+  std::string name;
+  double value;     // median speed over median speed
+  Spread of_rounds; // of the ratios within each round
+};
+
+// accumulate_over_native, accumulate_over_native_series and exact_frame_over_MODE_frame, as far as both are
+// there.
+std::vector<Ratio> ratios_of(const SetupBench &bench);
 
 } // namespace pmdsim

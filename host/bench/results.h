@@ -16,7 +16,7 @@ namespace pmdsim {
 
 struct BenchReport {
   std::string command; // that was run
-  Options options;
+  BenchRequest request;
   Machine machine;
   std::vector<std::string> samples; // of each sensor: S, or "auto"
   SetupBench setup;

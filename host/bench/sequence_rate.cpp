@@ -1,12 +1,12 @@
 #include "host/bench/sequence_rate.h"
 
 #include "engine/model/error.h"
+#include "host/capture/capture.h"
 #include "host/capture/exposure.h"
 #include "host/capture/frame_sequence.h"
 #include "host/capture/frame_writer.h"
 #include "host/capture/interruption.h"
 #include "host/capture/progress_bar.h"
-#include "host/capture/rendered_frame.h"
 
 #include <cerrno>
 #include <chrono>
@@ -52,12 +52,12 @@ private:
 // One setup on one device.
 class TimedSequences {
 public:
-  TimedSequences(const Setup &setup, const Options &options)
-      : setup_(setup), exposures_(setup, options.device, true, options.accuracy),
+  TimedSequences(const Setup &setup, const BenchRequest &request)
+      : setup_(setup), exposures_(setup, request.device, true, request.accuracy),
         bar_((3.0 * setup.frames.count + 1.0) * samples_of_frame(setup)), run_{"render",
                                                                                exposures_.camera().device(),
                                                                                exposures_.camera().driver(),
-                                                                               options.accuracy,
+                                                                               request.accuracy,
                                                                                setup.as_used,
                                                                                {}} {}
 
@@ -95,11 +95,11 @@ private:
 
 } // namespace
 
-SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, std::uint32_t frames) {
+SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &request, std::uint32_t frames) {
   require_names_for_files(setup.start.sensors);
   Setup several = setup;
   several.frames.count = frames;
-  TimedSequences sequences(several, options);
+  TimedSequences sequences(several, request);
   sequences.warm_up();
   const TemporaryDirectory directory;
   const double measured_per_s = sequences.rate("not written", {}, directory);

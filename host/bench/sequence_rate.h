@@ -1,8 +1,8 @@
 #pragma once
 // How many frames a second a sequence comes to, with writing and without.
 
+#include "host/bench/timing.h"
 #include "host/input/setup/setup.h"
-#include "host/options.h"
 
 #include <cstdint>
 
@@ -17,9 +17,9 @@ struct SequenceRate {
 };
 
 // Runs that many frames of the setup, at its rate and from its start whatever its own count is, as `render`
-// does, on the options' device and in their mode. One frame goes before, which compiles what is not compiled
-// yet. The files are new, in a temporary directory that is removed, however this ends. Throws Error,
+// does, on the device and in the mode that are asked for. One frame goes before, which compiles what is not
+// compiled yet. The files are new, in a temporary directory that is removed, however this ends. Throws Error,
 // interrupted among others.
-SequenceRate measure_sequence_rate(const Setup &setup, const Options &options, std::uint32_t frames);
+SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &request, std::uint32_t frames);
 
 } // namespace pmdsim

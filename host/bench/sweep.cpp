@@ -3,7 +3,7 @@
 #include "engine/model/error.h"
 #include "engine/reference/reference.h"
 #include "host/bench/distance_errors.h"
-#include "host/bench/peak_memory.h"
+#include "host/bench/machine.h"
 #include "host/capture/camera.h"
 #include "host/capture/exposure.h"
 #include "host/capture/interruption.h"
@@ -17,6 +17,20 @@
 
 namespace pmdsim {
 namespace {
+
+// The normal equations of fixed / ms + slope * size / ms = 1.
+struct Sums {
+  double aa = 0.0, ab = 0.0, bb = 0.0, a = 0.0, b = 0.0; // a = 1 / ms, b = size / ms
+};
+
+Sums sums_of(std::span<const SizeAndTime> points) {
+  Sums sums;
+  for (const auto &[size, ms] : points) {
+    const double a = 1.0 / ms, b = size / ms;
+    sums.aa += a * a, sums.ab += a * b, sums.bb += b * b, sums.a += a, sums.b += b;
+  }
+  return sums;
+}
 
 constexpr double checked_interactions = 1e7; // a second of the reference
 constexpr std::size_t fewest_checked = 32, most_checked = 1024;
@@ -37,15 +51,10 @@ double expected_s(const SweepPoint &point) {
   return frame_s * (1.0 + sweep_rounds * (1.0 + warm));
 }
 
-// As in accuracy_check.cpp: float32 holds a distance to 6e-8 of the ambiguity range.
-double largest_plausible_error_m(const Sensor &sensor, std::size_t frequency, const Measurement &found) {
-  return std::max(10e-6, 1e-6 * sensor.ambiguity_m(frequency)) + found.accuracy.claimed_m.value_or(0.0);
-}
-
 // The points of one quantity, a visit each in every round, as a machine's clock drifts.
 class PointsInTurn {
 public:
-  PointsInTurn(const std::vector<SweepPoint> &points, const Options &options) : options_(options) {
+  PointsInTurn(const std::vector<SweepPoint> &points, const BenchRequest &request) : request_(request) {
     for (const SweepPoint &point : points) {
       setups_.push_back(swept_setup(point));
       rows_.push_back({.point = point, .peak_memory_bytes = {}, .frames = {}});
@@ -69,7 +78,7 @@ private:
     const auto start = std::chrono::steady_clock::now();
     const auto &[scene, sensors, illuminators] = setups_[i].start;
     camera_->prepare(scene, sensors.front(), illuminators, setups_[i].backscatter, setups_[i].shadows,
-                     options_.accuracy);
+                     request_.accuracy);
     return ms_since(start);
   }
 
@@ -85,7 +94,7 @@ private:
         samples_of_frame(setups_[i]) * static_cast<double>(diode_count(setups_[i].start.illuminators));
     camera_.reset(); // with all that the point before left on the device
     restart_peak_memory();
-    camera_.emplace(options_.device);
+    camera_.emplace(request_.device);
     const auto start = std::chrono::steady_clock::now();
     prepare(i);
     const Measurement first = frame(i, "first frame", bar);
@@ -113,7 +122,7 @@ private:
     }
   }
 
-  const Options &options_;
+  const BenchRequest &request_;
   std::optional<Camera> camera_;
   std::vector<Setup> setups_;
   std::vector<SweepRow> rows_;
@@ -121,6 +130,27 @@ private:
 };
 
 } // namespace
+
+StraightLine straight_line(std::span<const SizeAndTime> points) {
+  const auto [aa, ab, bb, a, b] = sums_of(points);
+  const double determinant = aa * bb - ab * ab;
+  if (determinant <= 1e-12 * aa * bb) // all of one size
+    return {0.0, b / bb};
+  const StraightLine line{(a * bb - b * ab) / determinant, (aa * b - ab * a) / determinant};
+  if (line.fixed_ms < 0.0)
+    return {0.0, b / bb};
+  if (line.slope_ms < 0.0)
+    return {a / aa, 0.0};
+  return line;
+}
+
+std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points) {
+  std::vector<double> costs_ms;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    costs_ms.push_back(i == 0 ? std::numeric_limits<double>::quiet_NaN()
+                              : (points[i].ms - points[i - 1].ms) / (points[i].size - points[i - 1].size));
+  return costs_ms;
+}
 
 RandomCheck check_at_random(const Setup &setup, const Measurement &found, const std::string &device) {
   const auto &[scene, sensors, illuminators] = setup.start;
@@ -135,7 +165,8 @@ RandomCheck check_at_random(const Setup &setup, const Measurement &found, const 
                                                      [](double) { throw_if_interrupted(); });
   RandomCheck check{0.0, pixels.size()};
   for (std::size_t frequency = 0; frequency < sensor.modulation_hz.size(); ++frequency) {
-    const double limit_m = largest_plausible_error_m(sensor, frequency, found);
+    const double limit_m =
+        largest_plausible_error_m(sensor.ambiguity_m(frequency), found.accuracy.claimed_m.value_or(0.0));
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const double error_m =
           std::abs(std::remainder(static_cast<double>(found.returns[frequency].distance_m[pixels[i]]) -
@@ -152,7 +183,8 @@ RandomCheck check_at_random(const Setup &setup, const Measurement &found, const 
   return check;
 }
 
-std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps, const Options &options) {
+std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps,
+                                const BenchRequest &request) {
   double work_s = 0.0;
   for (const std::vector<SweepPoint> &points : sweeps)
     for (const SweepPoint &point : points)
@@ -160,7 +192,7 @@ std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &swee
   ProgressBar bar(work_s);
   std::vector<SweepRow> rows;
   for (const std::vector<SweepPoint> &points : sweeps)
-    for (SweepRow &row : PointsInTurn(points, options).measure(bar))
+    for (SweepRow &row : PointsInTurn(points, request).measure(bar))
       rows.push_back(std::move(row));
   return rows;
 }

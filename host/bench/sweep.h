@@ -2,16 +2,32 @@
 // The benchmark's sweep: how the time of a frame grows with each quantity.
 
 #include "host/bench/accuracy_check.h"
-#include "host/bench/linearity.h"
 #include "host/bench/sweep_setups.h"
 #include "host/bench/timing.h"
-#include "host/options.h"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pmdsim {
+
+struct SizeAndTime {
+  double size, ms;
+};
+
+// ms = fixed_ms + slope_ms * size, with the least squares of relative errors and no part below 0.
+struct StraightLine {
+  double fixed_ms = 0.0, slope_ms = 0.0;
+
+  double at_ms(double size) const { return fixed_ms + slope_ms * size; }
+};
+
+// Of at least one point of positive size and time; one alone has no fixed part.
+StraightLine straight_line(std::span<const SizeAndTime> points);
+
+// What each point took more than the one before it, a unit of size; NaN of the first.
+std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points);
 
 struct SweepRow {
   SweepPoint point;
@@ -34,7 +50,8 @@ RandomCheck check_at_random(const Setup &setup, const Measurement &found, const 
 
 // Every point in one mode, exact unless another one is asked for; the points of each sweep in turn. Throws
 // Error.
-std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps, const Options &options);
+std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps,
+                                const BenchRequest &request);
 
 // Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
 double interactions_per_s(const SweepRow &row, Mode mode);

@@ -1,5 +1,7 @@
 #include "host/bench/timing.h"
 
+#include "host/capture/exposure.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -36,13 +38,7 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 
 void add(TimedFrame &sum, const Measurement &measurement) {
   sum.frame_ms += measurement.frame_ms;
-  for (const PassTime &pass : measurement.passes) {
-    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
-    if (known == sum.passes.end())
-      sum.passes.push_back(pass);
-    else
-      known->ms += pass.ms;
-  }
+  add_passes(sum.passes, measurement.passes);
   if (sum.accuracy)
     add(*sum.accuracy, measurement.accuracy);
   else

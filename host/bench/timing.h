@@ -1,6 +1,7 @@
 #pragma once
 // How long frames take, warm.
 
+#include "engine/model/accuracy.h"
 #include "engine/model/measurement.h"
 #include "host/report/report.h"
 
@@ -15,6 +16,13 @@ namespace pmdsim {
 
 // By the clock.
 double ms_since(std::chrono::steady_clock::time_point start);
+
+// What shall be timed, and how.
+struct BenchRequest {
+  std::string device; // as Camera's
+  Accuracy accuracy;
+  bool one_mode = false; // that of `accuracy`; else all where a setup is timed
+};
 
 // What one frame took; of several sensors all their frames together.
 struct TimedFrame {

@@ -2,7 +2,6 @@
 
 #include "engine/reference/reference.h"
 #include "host/capture/interruption.h"
-#include "host/options.h"
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +19,11 @@ bool validation_is_asked_for() {
 }
 
 } // namespace
+
+bool names_the_reference(const std::string &device) {
+  return std::ranges::equal(device, std::string_view("reference"), {},
+                            [](unsigned char c) { return std::tolower(c); });
+}
 
 Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
   if (names_the_reference(device)) {

@@ -20,6 +20,9 @@ struct Extras {
   bool taps = false;             // Return::taps
 };
 
+// Whether a device's name, in any case, is the one of the reference.
+bool names_the_reference(const std::string &device);
+
 class Camera {
 public:
   // `device` as SimulatorOptions::device, or "reference" in any case. Throws Error (no_device).

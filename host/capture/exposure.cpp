@@ -22,18 +22,38 @@ std::vector<double> exposure_times_s(const Sensor &sensor, double frame_s) {
   return times_s;
 }
 
-void add_times(Measurement &sum, const Measurement &exposure) {
-  sum.frame_ms += exposure.frame_ms;
-  for (const PassTime &pass : exposure.passes) {
-    const auto known = std::ranges::find(sum.passes, pass.name, &PassTime::name);
-    if (known == sum.passes.end())
-      sum.passes.push_back(pass);
+} // namespace
+
+const Instant &Instants::at(double time_s) {
+  if (!setup_.motion)
+    return setup_.start;
+  if (holds(time_s))
+    return now_->instant;
+  now_.reset(); // its memory first
+  std::optional<Coming> coming = std::exchange(coming_, std::nullopt);
+  if (coming && coming->time_s == time_s)
+    now_ = {time_s, coming->instant.get()};
+  else
+    now_ = {time_s, setup_.at(time_s)};
+  return now_->instant;
+}
+
+void Instants::expect(double time_s) {
+  if (holds(time_s) || (coming_ && coming_->time_s == time_s))
+    return;
+  coming_.reset(); // waits for a thread that computes in vain
+  coming_ = {time_s, std::async(std::launch::async, [this, time_s] { return setup_.at(time_s); })};
+}
+
+void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes) {
+  for (const PassTime &pass : passes) {
+    const auto known = std::ranges::find(sum, pass.name, &PassTime::name);
+    if (known == sum.end())
+      sum.push_back(pass);
     else
       known->ms += pass.ms;
   }
 }
-
-} // namespace
 
 bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor) {
   return setup.motion && sensor.tap_interval_s > 0.0;
@@ -72,10 +92,12 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
     for (std::size_t k = 0; k < sensor.taps; ++k) {
       Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
       taps.push_back(std::move(exposure.returns.front().taps[k]));
-      if (frame)
-        add_times(*frame, exposure);
-      else
+      if (frame) {
+        frame->frame_ms += exposure.frame_ms;
+        add_passes(frame->passes, exposure.passes);
+      } else {
         frame = std::move(exposure);
+      }
     }
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
   }

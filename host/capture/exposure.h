@@ -3,16 +3,47 @@
 // and something moves meanwhile, in one for each frequency and tap.
 
 #include "host/capture/camera.h"
-#include "host/capture/instants.h"
 #include "host/input/setup/setup.h"
 
 #include <cstddef>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace pmdsim {
+
+// What there is at the times that frames of a setup, which must outlive it, are taken, each computed while
+// the one before is measured. Where something moves it holds two scenes: that of the last time and
+// that of the next.
+class Instants {
+public:
+  explicit Instants(const Setup &setup) : setup_(setup) {}
+
+  // Valid until the next call with another time; of any time alike where nothing moves. Throws Error (input).
+  const Instant &at(double time_s);
+  // Whether at(time_s) gives what the last call gave.
+  bool holds(double time_s) const { return !setup_.motion || (now_ && now_->time_s == time_s); }
+
+  // Begins to compute the instant on another thread: at() will be asked for it next.
+  void expect(double time_s);
+
+private:
+  struct Moved {
+    double time_s;
+    Instant instant;
+  };
+  struct Coming {
+    double time_s;
+    std::future<Instant> instant;
+  };
+
+  const Setup &setup_;
+  std::optional<Moved> now_;
+  std::optional<Coming> coming_;
+};
 
 // The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts none
 // that the lens sees.
@@ -29,6 +60,9 @@ double samples_of_frame(const Setup &setup);
 
 // Bytes of all channels of one frame, with or without its taps; shadows included, whether or not there are.
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps);
+
+// Times of the same pass add up; a pass that is new comes last.
+void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes);
 
 // Measures one frequency alone at a time, its taps kept.
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;

@@ -27,15 +27,6 @@ std::string whole_text(const std::vector<FrameRecord> &frames) {
 
 } // namespace
 
-FrameRange frames_of(const Options &options, const Setup &setup) {
-  const FrameRange frames = options.frames.value_or(FrameRange{0, setup.frames.count});
-  if (frames.end > setup.frames.count)
-    throw Error(ExitCode::usage,
-                fmt::format("--frames {}:{}: expected B at most {}, the frames of {}", frames.first,
-                            frames.end, setup.frames.count, setup.file.string()));
-  return frames;
-}
-
 std::size_t parts_waiting(std::size_t part_bytes) {
   const auto busy = static_cast<std::size_t>(tbb::info::default_concurrency());
   return std::min(busy, waiting_bytes / std::max(part_bytes, std::size_t{1}));

@@ -3,10 +3,8 @@
 // a manifest of those that are there. While frames are written the next are measured.
 
 #include "host/input/setup/setup.h"
-#include "host/options.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
-#include "host/output/files/written_files.h"
 
 #include <cstdint>
 #include <functional>
@@ -19,9 +17,12 @@ namespace pmdsim {
 
 inline constexpr const char *manifest_name = "manifest.json";
 
-// Those that the command line asks for, else all of the setup's. Throws Error (usage) where the setup has
-// not so many.
-FrameRange frames_of(const Options &options, const Setup &setup);
+// Frames `first` to `end` - 1.
+struct FrameRange {
+  std::uint32_t first = 0, end = 1;
+
+  std::uint32_t count() const { return end - first; }
+};
 
 // One sensor's part of a frame.
 struct SensorFrame {

@@ -3,9 +3,8 @@
 // SENSOR_FRAME.profile.csv, as far as the command line asks for them.
 
 #include "engine/model/sensor.h"
-#include "host/options.h"
 #include "host/output/files/channel.h"
-#include "host/output/files/written_files.h"
+#include "host/output/files/output_set.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace pmdsim {
+
+enum class Format { exr, npy, png, csv };
 
 // Throws Error (input) where a sensor's name cannot be part of a file's name; to be asked before measuring.
 void require_names_for_files(const std::vector<Sensor> &sensors);

@@ -1,5 +1,5 @@
 #include "host/bench/results.h"
-#include "host/capture/loaded_setup.h"
+#include "host/capture/capture.h"
 #include "host/commands/commands.h"
 #include "host/report/report.h"
 
@@ -28,16 +28,17 @@ std::vector<std::vector<SweepPoint>> all_sweeps() {
 } // namespace
 
 void run_bench(const Options &options) {
-  const bool swept = options.setup.empty();
-  const Setup setup = swept ? paper_ring() : load_for_command(options);
-  BenchReport report{.command = swept ? "pmdsim bench" : "pmdsim bench " + options.setup.string(),
-                     .options = options,
-                     .machine = this_machine(Camera(options.device)),
+  const bool swept = options.capture.setup.empty();
+  const Setup setup = swept ? paper_ring() : requested_setup(options.capture);
+  const BenchRequest request{options.capture.device, options.capture.accuracy, options.mode_written};
+  BenchReport report{.command = swept ? "pmdsim bench" : "pmdsim bench " + options.capture.setup.string(),
+                     .request = request,
+                     .machine = this_machine(Camera(request.device)),
                      .samples = samples_of(setup),
-                     .setup = bench_setup(setup, options, swept ? "paper_ring" : "setup")};
+                     .setup = bench_setup(setup, request, swept ? "paper_ring" : "setup")};
   if (swept) {
-    report.sequence = measure_sequence_rate(setup, options, sequence_frames);
-    report.sweep = run_sweep(all_sweeps(), options);
+    report.sequence = measure_sequence_rate(setup, request, sequence_frames);
+    report.sweep = run_sweep(all_sweeps(), request);
   }
   if (options.json)
     print(bench_json(report));

@@ -1,4 +1,4 @@
-#include "host/capture/loaded_setup.h"
+#include "host/capture/capture.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/report/findings.h"
@@ -180,7 +180,7 @@ std::string report_text(const Setup &setup, const Findings &findings) {
 } // namespace
 
 void run_check(const Options &options) {
-  const Setup setup = load_for_command(options);
+  const Setup setup = requested_setup(options.capture);
   const Findings findings = findings_of(setup);
   for (const std::string &warning : warnings_of(findings))
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);

@@ -1,9 +1,5 @@
-#include "host/capture/exposure.h"
-#include "host/capture/frame_sequence.h"
-#include "host/capture/frame_writer.h"
+#include "host/capture/capture.h"
 #include "host/capture/interruption.h"
-#include "host/capture/loaded_setup.h"
-#include "host/capture/progress_bar.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/output/pictures/profile_plot.h"
@@ -43,8 +39,8 @@ struct Monostatic {
   AccuracyReport accuracy;
 };
 
-Monostatic take_monostatic(Exposures &exposures, const SensorFrame &at, const Progress &progress) {
-  TakenFrame frame = exposures.take(at.sensor, at.time_s, Light::in_lens, progress, at.time_s);
+Monostatic take_monostatic(Capture &capture, const SensorFrame &at) {
+  TakenFrame frame = capture.take(at, Light::in_lens, at.time_s, ", monostatic");
   Monostatic monostatic{{}, frame.measurement.accuracy};
   for (Return &of_frequency : frame.measurement.returns)
     monostatic.distances_m.push_back(std::move(of_frequency.distance_m));
@@ -119,15 +115,10 @@ std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair
 }
 
 // The bistatic frame after the monostatic one, as the next frame's begins.
-std::shared_ptr<TakenPair> take_pair(Exposures &exposures, const SensorFrame &at, ProgressBar &bar,
-                                     double work, DeformedFrame &told) {
-  const auto progress = interruptible_progress(bar);
-  bar.begin(at.label + ", monostatic", work);
-  Monostatic monostatic = take_monostatic(exposures, at, progress);
-  bar.begin(at.label + ", bistatic", work);
-  auto pair = std::make_shared<TakenPair>(
-      TakenPair{exposures.take(at.sensor, at.time_s, Light::beside_lens, progress, at.next_s),
-                std::move(monostatic.distances_m)});
+std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, DeformedFrame &told) {
+  Monostatic monostatic = take_monostatic(capture, at);
+  auto pair = std::make_shared<TakenPair>(TakenPair{
+      capture.take(at, Light::beside_lens, at.next_s, ", bistatic"), std::move(monostatic.distances_m)});
   const auto &[sensor, measurement, mode] = pair->bistatic;
   told = {at.frame,
           at.time_s,
@@ -150,26 +141,19 @@ std::size_t bytes_of_pair(const Setup &setup) {
 }
 
 // Deformations and their statistics are computed where the frame is written, while the next is measured.
-std::deque<DeformedFrame> deform(const Setup &setup, const FrameRange &frames,
-                                 const std::set<Format> &formats, Exposures &exposures,
-                                 FrameSequence &sequence) {
-  ProgressBar bar(2.0 * frames.count() * samples_of_frame(setup));
+std::deque<DeformedFrame> deform(Capture &capture) {
   std::deque<DeformedFrame> deformed; // its elements stay where they are, as writers fill them in
   const auto measure = [&](const SensorFrame &at) -> MeasuredPart {
-    const double work = samples_of_frame(setup, setup.start.sensors[at.sensor]);
     DeformedFrame &told = deformed.emplace_back();
-    const std::shared_ptr<TakenPair> pair = take_pair(exposures, at, bar, work, told);
-    const auto &[sensor, measurement, mode] = pair->bistatic;
-    return {
-        {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy},
-        [pair, &told, &formats] {
-          pair->deformations_mm = deformations_mm(pair->bistatic, pair->monostatic_m);
-          for (const std::vector<float> &deformation : pair->deformations_mm)
-            told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
-          return deformation_files(pair, told.frame, formats);
-        }};
+    const std::shared_ptr<TakenPair> pair = take_pair(capture, at, told);
+    return {record_of(pair->bistatic, at), [pair, &told, &formats = capture.formats()] {
+              pair->deformations_mm = deformations_mm(pair->bistatic, pair->monostatic_m);
+              for (const std::vector<float> &deformation : pair->deformations_mm)
+                told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
+              return deformation_files(pair, told.frame, formats);
+            }};
   };
-  sequence.write(measure, bytes_of_pair(setup));
+  capture.write(measure, bytes_of_pair(capture.setup()));
   return deformed;
 }
 
@@ -232,29 +216,23 @@ std::string accuracies_text(const std::deque<DeformedFrame> &frames) {
   return text;
 }
 
-std::string report_text(const std::deque<DeformedFrame> &frames, const FrameSequence &sequence) {
-  std::string text = fmt::format("device    {} ({})\n\n", sequence.run().device, sequence.run().driver);
-  text += "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
+std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &capture) {
+  std::string text =
+      capture.device_text() + "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
   if (frames.back().frame != frames.front().frame)
     text += fmt::format("of frame {}; --json tells of all\n", frames.front().frame);
-  return text + accuracies_text(frames) + "\n" + sequence.written_text();
+  return text + accuracies_text(frames) + "\n" + capture.sequence().written_text();
 }
 
 } // namespace
 
 void run_deform(const Options &options) {
-  const Setup setup = load_for_command(options);
-  const FrameRange frames = frames_of(options, setup);
-  require_names_for_files(setup.start.sensors);
-  Exposures exposures(setup, options.device, false, options.accuracy);
-  const Camera &camera = exposures.camera();
-  FrameSequence sequence(setup, frames, options.output_directory,
-                         {"deform", camera.device(), camera.driver(), options.accuracy, setup.as_used, {}});
-  const std::deque<DeformedFrame> deformed = deform(setup, frames, options.formats, exposures, sequence);
+  Capture capture(options.capture, "deform", false, 2.0);
+  const std::deque<DeformedFrame> deformed = deform(capture);
   if (options.json)
-    print(report_json(deformed, sequence));
+    print(report_json(deformed, capture.sequence()));
   else
-    print(report_text(deformed, sequence));
+    print(report_text(deformed, capture));
 }
 
 } // namespace pmdsim

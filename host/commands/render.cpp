@@ -1,15 +1,9 @@
-#include "host/capture/exposure.h"
-#include "host/capture/frame_sequence.h"
-#include "host/capture/frame_writer.h"
-#include "host/capture/loaded_setup.h"
-#include "host/capture/progress_bar.h"
-#include "host/capture/rendered_frame.h"
+#include "host/capture/capture.h"
 #include "host/commands/commands.h"
 #include "host/report/report.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <memory>
 #include <numeric>
 
 namespace pmdsim {
@@ -73,38 +67,27 @@ ordered_json report_json(const FrameSequence &sequence) {
 }
 
 // Writes all frames and returns what is to be said of the first.
-std::string render(const Setup &setup, const FrameRange &frames, const std::set<Format> &formats,
-                   Exposures &exposures, FrameSequence &sequence) {
-  ProgressBar bar(frames.count() * samples_of_frame(setup));
+std::string render(Capture &capture) {
   std::string text;
   const auto measure = [&](const SensorFrame &at) {
-    bar.begin(at.label, samples_of_frame(setup, setup.start.sensors[at.sensor]));
-    const auto taken = exposures.share(
-        exposures.take(at.sensor, at.time_s, Light::beside_lens, interruptible_progress(bar), at.next_s));
-    if (at.frame == frames.first)
+    const auto taken = capture.share(capture.take(at, Light::beside_lens, at.next_s));
+    if (at.frame == capture.first_frame())
       text += frame_text(*taken, at.frame);
-    return rendered_frame(taken, at, formats);
+    return rendered_frame(taken, at, capture.formats());
   };
-  sequence.write(measure, bytes_of_rendered_frame(setup));
+  capture.write(measure, bytes_of_rendered_frame(capture.setup()));
   return text;
 }
 
 } // namespace
 
 void run_render(const Options &options) {
-  const Setup setup = load_for_command(options);
-  const FrameRange frames = frames_of(options, setup);
-  require_names_for_files(setup.start.sensors);
-  Exposures exposures(setup, options.device, true, options.accuracy);
-  const Camera &camera = exposures.camera();
-  FrameSequence sequence(setup, frames, options.output_directory,
-                         {"render", camera.device(), camera.driver(), options.accuracy, setup.as_used, {}});
-  const std::string text = render(setup, frames, options.formats, exposures, sequence);
+  Capture capture(options.capture, "render", true);
+  const std::string text = render(capture);
   if (options.json)
-    print(report_json(sequence));
+    print(report_json(capture.sequence()));
   else
-    print(fmt::format("device    {} ({})\n\n{}{}", camera.device(), camera.driver(), text,
-                      sequence.written_text()));
+    print(capture.device_text() + text + capture.sequence().written_text());
 }
 
 } // namespace pmdsim

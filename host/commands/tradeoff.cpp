@@ -3,10 +3,8 @@
 
 #include "engine/model/error.h"
 #include "host/bench/distance_errors.h"
-#include "host/capture/camera.h"
+#include "host/capture/capture.h"
 #include "host/capture/interruption.h"
-#include "host/capture/loaded_setup.h"
-#include "host/capture/progress_bar.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
@@ -208,11 +206,11 @@ std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff)
 } // namespace
 
 void run_tradeoff(const Options &options) {
-  const Setup setup = load_for_command(options);
-  OutputSet files(options.output_directory); // first, so that nothing is measured in vain
+  const Setup setup = requested_setup(options.capture);
+  OutputSet files(options.capture.output_directory); // first, so that nothing is measured in vain
   Sensor sensor = setup.start.sensors.front();
   sensor.modulation_hz.resize(1);
-  const Tradeoff tradeoff = TradeoffSweep(setup, sensor, options.device).measure();
+  const Tradeoff tradeoff = TradeoffSweep(setup, sensor, options.capture.device).measure();
   const std::vector<std::string> paths = write_files(files, tradeoff);
   if (options.json) {
     nlohmann::ordered_json json = tradeoff_json(tradeoff);

@@ -1,5 +1,5 @@
 #pragma once
-// What a sensor's lens shows it, by the rays of its image.
+// What a sensor's lens shows it, by the rays of its image, and the same view with fewer pixels.
 
 #include "engine/model/sensor.h"
 
@@ -16,5 +16,10 @@ struct FieldOfView {
 };
 
 FieldOfView field_of_view(const Sensor &sensor);
+
+// Columns and rows divided by `factor`, pixels larger in return; a factor up to 1 changes nothing. At least 8
+// of each stay, or all where there are fewer: behind a wide lens the device takes no pixel that sees too
+// much.
+Sensor coarser(Sensor sensor, double factor);
 
 } // namespace pmdsim

@@ -2,7 +2,7 @@
 
 #include "engine/model/tap_sequence.h"
 #include "engine/reference/reference.h"
-#include "host/report/coarser_sensor.h"
+#include "host/report/field_of_view.h"
 #include "host/report/report.h"
 
 #include <algorithm>

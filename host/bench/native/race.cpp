@@ -2,7 +2,7 @@
 
 #include "host/capture/camera.h"
 #include "host/input/setup/sample_choice.h"
-#include "host/report/coarser_sensor.h"
+#include "host/report/field_of_view.h"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@ namespace pmdsim {
 
 class NativeBench {
 public:
-  // On the setup's own diodes and points where the kernel models them. `device` as Options::device, no
+  // On the setup's own diodes and points where the kernel models them. `device` as Camera's, no
   // reference. Throws Error.
   NativeBench(const Setup &setup, const std::string &device);
 

@@ -1,7 +1,6 @@
 #include "host/input/diagram/diode_file.h"
 
 #include "host/input/diagram/csv_table.h"
-#include "host/input/diagram/diode_across.h"
 #include "host/input/diagram/radiation_law.h"
 #include "host/input/schema/limits.h"
 
@@ -9,8 +8,17 @@
 #include <cmath>
 
 namespace pmdsim {
-
 namespace {
+
+glm::dvec3 without_roll(const glm::dvec3 &axis) {
+  const double off_z = axis.x * axis.x + axis.y * axis.y;
+  if (off_z == 0.0)
+    return {1.0, 0.0, 0.0};
+  // 1 / (1 + z), without cancellation near -z.
+  const double factor = axis.z >= 0.0 ? 1.0 / (1.0 + axis.z) : (1.0 - axis.z) / off_z;
+  const glm::dvec3 across(1.0 - axis.x * axis.x * factor, -axis.x * axis.y * factor, -axis.x);
+  return glm::normalize(across - glm::dot(across, axis) * axis);
+}
 
 constexpr std::array<const char *, 9> columns = {
     "x_m", "y_m", "z_m", "axis_x", "axis_y", "axis_z", "intensity_w_sr", "pattern", "roll_deg"};
@@ -41,6 +49,11 @@ Diode diode_of(const Table &row, DiagramFiles &diagrams) {
 }
 
 } // namespace
+
+glm::dvec3 diode_across(const glm::dvec3 &axis, double roll_rad) {
+  const glm::dvec3 across = without_roll(axis);
+  return std::cos(roll_rad) * across + std::sin(roll_rad) * glm::cross(axis, across);
+}
 
 std::vector<Diode> read_diode_file(const std::filesystem::path &file, const Place &named_at,
                                    DiagramFiles &diagrams) {

@@ -5,7 +5,6 @@
 #include "host/input/gltf/extensions.h"
 #include "host/input/gltf/references.h"
 #include "host/input/schema/schema_check.h"
-#include "host/input/schema/schemas.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -9,7 +9,6 @@
 #include <tiny_gltf.h>
 
 namespace pmdsim {
-
 namespace {
 
 using Places = std::vector<std::optional<std::size_t>>;
@@ -189,6 +188,18 @@ std::vector<AffineTransform> world_from_mesh_by_joint(const std::vector<Joint> &
   for (const Joint &joint : joints)
     result.push_back(compose(world_from_nodes[joint.node], joint.joint_from_mesh));
   return result;
+}
+
+AffineTransform Placement::world_from_mesh(std::size_t vertex) const {
+  if (!weights_)
+    return world_from_node_;
+  AffineTransform blended{glm::dmat3(0.0), glm::dvec3(0.0)};
+  for (std::size_t i = vertex == 0 ? 0 : weights_->ends[vertex - 1]; i < weights_->ends[vertex]; ++i) {
+    const auto [joint, weight] = weights_->weights[i];
+    blended.linear += weight * (*by_joint_)[joint].linear;
+    blended.translation_m += weight * (*by_joint_)[joint].translation_m;
+  }
+  return blended;
 }
 
 } // namespace pmdsim

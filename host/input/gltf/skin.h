@@ -1,5 +1,6 @@
 #pragma once
-// glTF skins: meshes that bend with the nodes, the joints, to which their vertices are bound.
+// glTF skins: meshes that bend with the nodes, the joints, to which their vertices are bound; and where
+// vertices stand in the world, bent or not.
 
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/nodes.h"
@@ -45,5 +46,23 @@ Skins read_skins(const tinygltf::Model &model, const std::vector<SceneNode> &nod
 // World from the mesh as each of the joints carries it.
 std::vector<AffineTransform> world_from_mesh_by_joint(const std::vector<Joint> &joints,
                                                       const std::vector<AffineTransform> &world_from_nodes);
+
+// Where the vertices of a primitive stand in the world: all where their node takes them, or each where the
+// joints of a skin take it.
+class Placement {
+public:
+  explicit Placement(const AffineTransform &world_from_node) : world_from_node_(world_from_node) {}
+  // By joint as `weights` counts them; both are referred to.
+  Placement(const SkinWeights &weights, const std::vector<AffineTransform> &world_from_mesh_by_joint)
+      : weights_(&weights), by_joint_(&world_from_mesh_by_joint) {}
+
+  // World from the mesh, at a vertex of the primitive.
+  AffineTransform world_from_mesh(std::size_t vertex) const;
+
+private:
+  AffineTransform world_from_node_;
+  const SkinWeights *weights_ = nullptr;
+  const std::vector<AffineTransform> *by_joint_ = nullptr;
+};
 
 } // namespace pmdsim

@@ -1,6 +1,7 @@
 #pragma once
-// PNG and JPEG images, untrusted, as the numbers that they store.
+// PNG and JPEG images, untrusted, as the numbers that they store and as the light that these mean.
 
+#include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
 
 #include <cstdint>
@@ -25,7 +26,10 @@ struct ImagePixels {
 // max_image_side a side or `max_pixels`.
 ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place);
 
-// Throws Error (input) at `place`.
-void check_image_size(const glm::uvec2 &size, std::size_t max_pixels, const Place &place);
+// The sRGB transfer function (IEC 61966-2-1), from 0 ... 1 as stored to linear 0 ... 1.
+double linear_from_srgb(double stored);
+
+// Red, green and blue go through the transfer function in double; alpha is linear as stored.
+Texture linear_texture(const ImagePixels &pixels);
 
 } // namespace pmdsim

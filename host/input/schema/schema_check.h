@@ -1,13 +1,22 @@
 #pragma once
-// Checks a document against a JSON Schema and says in one line what is wrong, where, and what was expected.
+// Documents beside JSON Schemas: checks that say in one line what is wrong, where, and what was expected, and
+// defaults.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace pmdsim {
+
+// The JSON Schemas (draft-07) that ship with the program; generated from *.schema.json at configure time.
+extern const std::string_view setup_schema_text; // a setup file
+extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that are read
 
 // A wrong key or value is thrown as Error (input) with its JSON pointer in `file`.
 void check_schema(const nlohmann::json &document, const nlohmann::json &schema,
                   const std::filesystem::path &file);
+
+// A valid document with every absent key that has a `default` filled in, keys in the schema's order.
+nlohmann::ordered_json with_defaults(const nlohmann::json &document, const nlohmann::ordered_json &schema);
 
 } // namespace pmdsim

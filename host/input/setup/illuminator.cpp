@@ -1,6 +1,5 @@
 #include "host/input/setup/illuminator.h"
 
-#include "host/input/diagram/diode_across.h"
 #include "host/input/diagram/diode_file.h"
 #include "host/input/diagram/radiation_law.h"
 #include "host/input/schema/limits.h"

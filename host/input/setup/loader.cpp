@@ -4,8 +4,6 @@
 #include "host/input/file/regular_file.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
-#include "host/input/schema/schema_defaults.h"
-#include "host/input/schema/schemas.h"
 #include "host/input/setup/illuminator.h"
 #include "host/input/setup/motion.h"
 #include "host/input/setup/sensor.h"

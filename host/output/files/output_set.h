@@ -1,14 +1,31 @@
 #pragma once
 // Files that get their names in a directory together: all of them, or none.
 
-#include "host/output/files/written_files.h"
+#include "host/output/files/output_file.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace pmdsim {
+
+// What becomes a file.
+struct FileToWrite {
+  std::string name; // a plain file name
+  std::function<void(OutputFile &)> write;
+};
+
+// Closed.
+using WrittenFiles = std::vector<std::unique_ptr<OutputFile>>;
+
+// Throws Error (output).
+std::unique_ptr<OutputFile> write_file(const std::filesystem::path &directory, const FileToWrite &file);
+
+// Several at once, on TBB's threads and the calling one; in the order of `files`. Where one fails, its
+// exception comes out, and no file is left.
+WrittenFiles write_files(const std::filesystem::path &directory, const std::vector<FileToWrite> &files);
 
 class OutputSet {
 public:

@@ -22,7 +22,7 @@ public:
 struct Wall {
   test::Workspace work;
   Setup setup;
-  Options options;
+  BenchRequest request;
 
   Wall() {
     work.write("wall.gltf", test::wall_gltf());
@@ -36,7 +36,7 @@ struct Wall {
 TEST_CASE("a sequence's rate is known without writing, as NPY and as EXR, and no file of it is left") {
   const Wall wall;
   const TemporaryFilesIn there(wall.work / "temporary");
-  const SequenceRate rate = measure_sequence_rate(wall.setup, wall.options, 5);
+  const SequenceRate rate = measure_sequence_rate(wall.setup, wall.request, 5);
   CHECK(rate.frames == 5);
   CHECK(rate.measured_per_s > 0.0);
   CHECK(rate.npy_per_s > 0.0);
@@ -48,7 +48,7 @@ TEST_CASE("a sequence that fails in the middle leaves no file either") {
   Wall wall;
   wall.setup.start.sensors[0].name = std::string(300, 'x'); // too long for a file's name
   const TemporaryFilesIn there(wall.work / "temporary");
-  CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.options, 5),
+  CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.request, 5),
                     Catch::Contains("File name too long"));
   CHECK(names_in(wall.work / "temporary").empty());
 }
@@ -56,6 +56,6 @@ TEST_CASE("a sequence that fails in the middle leaves no file either") {
 TEST_CASE("a directory for temporary files that is none is told") {
   const Wall wall;
   const TemporaryFilesIn nowhere(wall.work / "nowhere");
-  CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.options, 2),
+  CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.request, 2),
                     "TMPDIR: expected a directory for temporary files: No such file or directory");
 }

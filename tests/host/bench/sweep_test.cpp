@@ -105,7 +105,7 @@ TEST_CASE("sweeps go up, and their units are what time may grow with") {
 
 TEST_CASE("a swept point has checked and timed frames") {
   const auto rows =
-      run_sweep({{{SweptQuantity::resolution, 16}, {SweptQuantity::resolution, 32}}}, Options());
+      run_sweep({{{SweptQuantity::resolution, 16}, {SweptQuantity::resolution, 32}}}, BenchRequest());
   REQUIRE(rows.size() == 2);
   for (const SweepRow &row : rows) {
     INFO(row.point.name());

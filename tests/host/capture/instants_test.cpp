@@ -1,7 +1,7 @@
 // Instants that are computed ahead are those that are asked for, in whatever order.
 
 #include "engine/model/error.h"
-#include "host/capture/instants.h"
+#include "host/capture/exposure.h"
 #include "tests/program/program.h"
 
 #include <catch2/catch.hpp>

@@ -53,32 +53,32 @@ TEST_CASE("lengths have a unit") {
 
 TEST_CASE("without a word about accuracy the mode is exact") {
   const Options options = rendered({});
-  CHECK(options.accuracy.mode == Mode::exact);
-  CHECK_FALSE(options.accuracy.precision);
+  CHECK(options.capture.accuracy.mode == Mode::exact);
+  CHECK_FALSE(options.capture.accuracy.precision);
   CHECK_FALSE(options.mode_written);
-  CHECK_FALSE(options.samples);
+  CHECK_FALSE(options.capture.samples);
 }
 
 TEST_CASE("an error that is bounded means the cheapest way, unless a mode is written") {
-  const Accuracy by_length = rendered({"--max-error", "0.1mm"}).accuracy;
+  const Accuracy by_length = rendered({"--max-error", "0.1mm"}).capture.accuracy;
   CHECK(by_length.mode == Mode::automatic);
   CHECK(by_length.max_error_m == 1e-4);
   CHECK(std::isinf(by_length.max_amplitude_error));
-  const Accuracy by_amplitude = rendered({"--max-amplitude-error", "1e-3"}).accuracy;
+  const Accuracy by_amplitude = rendered({"--max-amplitude-error", "1e-3"}).capture.accuracy;
   CHECK(by_amplitude.mode == Mode::automatic);
   CHECK(by_amplitude.max_amplitude_error == 1e-3);
   CHECK(by_amplitude.max_error_m == default_max_error_m);
   const Options reduced = rendered({"--max-error", "5um", "--mode", "reduced", "--precision", "fp64"});
-  CHECK(reduced.accuracy.mode == Mode::reduced);
-  CHECK(reduced.accuracy.precision == Precision::fp64);
+  CHECK(reduced.capture.accuracy.mode == Mode::reduced);
+  CHECK(reduced.capture.accuracy.precision == Precision::fp64);
   CHECK(reduced.mode_written);
 }
 
 TEST_CASE("samples are a number or auto") {
-  CHECK(rendered({"--samples", "16"}).samples->samples == 16);
-  CHECK_FALSE(rendered({"--samples", "16"}).samples->adaptive);
-  CHECK(rendered({"--samples", "auto"}).samples->samples == 4);
-  CHECK(rendered({"--samples", "auto"}).samples->adaptive);
+  CHECK(rendered({"--samples", "16"}).capture.samples->samples == 16);
+  CHECK_FALSE(rendered({"--samples", "16"}).capture.samples->adaptive);
+  CHECK(rendered({"--samples", "auto"}).capture.samples->samples == 4);
+  CHECK(rendered({"--samples", "auto"}).capture.samples->adaptive);
   for (const char *text : {"0", "17", "all", "4x", "-1"})
     CHECK(refusal({"--samples", text}) ==
           std::string("--samples: expected a whole number from 1 to 16, or auto, found \"") + text + "\"");
@@ -97,7 +97,7 @@ TEST_CASE("what cannot be promised is refused in one line") {
 }
 
 TEST_CASE("the reference is exact, in double") {
-  CHECK(rendered({"--device", "reference", "--mode", "exact", "--precision", "fp64"}).accuracy.mode ==
+  CHECK(rendered({"--device", "reference", "--mode", "exact", "--precision", "fp64"}).capture.accuracy.mode ==
         Mode::exact);
   const std::string exact = "--device reference: expected mode exact";
   CHECK(refusal({"--device", "reference", "--mode", "auto"}).starts_with(exact));
@@ -112,7 +112,7 @@ TEST_CASE("the reference is exact, in double") {
 TEST_CASE("tradeoff takes a setup, samples, a device and a place for its files") {
   const Options options = parsed({"tradeoff", "scenes/a.json", "--samples", "2", "--device", "1"});
   CHECK(options.command == Command::tradeoff);
-  CHECK(options.samples->samples == 2);
-  CHECK(options.output_directory == "out/a/tradeoff");
+  CHECK(options.capture.samples->samples == 2);
+  CHECK(options.capture.output_directory == "out/a/tradeoff");
   CHECK_THROWS_AS(parsed({"tradeoff", "a.json", "--mode", "exact"}), Error);
 }

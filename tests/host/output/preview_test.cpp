@@ -1,5 +1,6 @@
 #include "host/output/pictures/preview.h"
 #include "tests/host/output/directory_content.h"
+#include "tests/host/output/pixel_of.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -8,27 +9,15 @@
 #include <numeric>
 
 using namespace pmdsim;
+using pmdsim::test::count_pixels;
 
 namespace {
 
 using Scale = PreviewStyle::Scale;
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
-// As 0xRRGGBB.
-std::uint32_t pixel_of(Canvas &canvas, int x, int y) {
-  cairo_surface_t *surface = cairo_get_target(canvas.context());
-  cairo_surface_flush(surface);
-  const unsigned char *row =
-      cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
-  return reinterpret_cast<const std::uint32_t *>(row)[x] & 0xffffffu;
-}
-
 int area_of(Canvas &canvas, std::uint32_t colour) {
-  int count = 0;
-  for (int y = 0; y < canvas.height(); ++y)
-    for (int x = 0; x < canvas.width(); ++x)
-      count += pixel_of(canvas, x, y) == colour;
-  return count;
+  return count_pixels(canvas, [=](std::uint32_t pixel) { return pixel == colour; });
 }
 
 constexpr std::uint32_t grey = 0x8c8c8c; // no_value_colour

@@ -1,6 +1,7 @@
 #include "host/output/pictures/profile_plot.h"
 #include "host/output/tables/profile.h"
 #include "tests/host/output/directory_content.h"
+#include "tests/host/output/pixel_of.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -27,18 +28,8 @@ std::vector<std::string> profile_lines(const ChannelSet &channels, const Sensor 
 
 // Pixels of the drawing in the line's colour.
 int line_pixels(Canvas &canvas) {
-  cairo_surface_t *surface = cairo_get_target(canvas.context());
-  cairo_surface_flush(surface);
-  int count = 0;
-  for (int y = 0; y < canvas.height(); ++y) {
-    const unsigned char *row =
-        cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
-    for (int x = 0; x < canvas.width(); ++x) {
-      const std::uint32_t colour = reinterpret_cast<const std::uint32_t *>(row)[x];
-      count += (colour & 0xffu) > ((colour >> 16) & 0xffu) + 50u;
-    }
-  }
-  return count;
+  return pmdsim::test::count_pixels(
+      canvas, [](std::uint32_t colour) { return (colour & 0xffu) > ((colour >> 16) & 0xffu) + 50u; });
 }
 
 } // namespace

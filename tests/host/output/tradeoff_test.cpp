@@ -2,6 +2,7 @@
 
 #include "host/output/pictures/tradeoff_plot.h"
 #include "host/output/tables/tradeoff.h"
+#include "tests/host/output/pixel_of.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -60,17 +61,10 @@ std::ptrdiff_t lines(const std::string &text) { return std::ranges::count(text, 
 
 // Of the picture, those that are neither white nor grey.
 int coloured_pixels(Canvas canvas) {
-  cairo_surface_t *surface = cairo_get_target(canvas.context());
-  cairo_surface_flush(surface);
-  int count = 0;
-  for (int y = 0; y < canvas.height(); ++y) {
-    const unsigned char *row =
-        cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
-    for (int x = 0; x < canvas.width(); ++x)
-      count += std::max({row[4 * x], row[4 * x + 1], row[4 * x + 2]}) >
-               std::min({row[4 * x], row[4 * x + 1], row[4 * x + 2]}) + 60;
-  }
-  return count;
+  return pmdsim::test::count_pixels(canvas, [](std::uint32_t colour) {
+    const auto [least, most] = std::minmax({colour & 0xffu, (colour >> 8) & 0xffu, colour >> 16});
+    return most > least + 60;
+  });
 }
 
 } // namespace

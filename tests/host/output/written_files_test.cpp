@@ -1,6 +1,5 @@
 #include "engine/model/error.h"
 #include "host/output/files/output_set.h"
-#include "host/output/files/written_files.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/support/temporary_folder.h"
 

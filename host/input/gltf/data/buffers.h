@@ -1,13 +1,25 @@
 #pragma once
 // The bytes of a glTF document's buffers: from the .glb itself, from data URIs, or from files in the scene's
-// folder.
+// folder; and what a URI leads to.
 
+#include "host/input/file/input_error.h"
 #include "host/input/gltf/document.h"
-#include "host/input/gltf/uri.h"
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pmdsim {
+
+using Bytes = std::vector<unsigned char>;
+
+// The folder of a scene's file.
+std::filesystem::path folder_of(const std::filesystem::path &file);
+
+// The file in `folder` that a relative reference names. Throws Error (input) at `place`: also for a URI that
+// leads out of the folder, by "..", an absolute path or a link, and for one with a scheme.
+std::filesystem::path file_in_folder(const std::string &uri, const std::filesystem::path &folder,
+                                     const Place &place);
 
 // In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes. Those
 // that only stand in for compressed bufferViews (meshopt_fallbacks()) are not read and stay empty. Throws

@@ -3,7 +3,6 @@
 #include "host/input/file/regular_file.h"
 #include "host/input/gltf/document.h"
 #include "host/input/image/image_pixels.h"
-#include "host/input/image/srgb_texture.h"
 
 #include <algorithm>
 #include <fmt/format.h>

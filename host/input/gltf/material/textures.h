@@ -2,7 +2,7 @@
 // The textures of a glTF file, each image decoded when it is first asked for, and only once.
 
 #include "engine/model/scene.h"
-#include "host/input/gltf/uri.h"
+#include "host/input/gltf/data/buffers.h"
 
 #include <map>
 #include <memory>

@@ -4,11 +4,12 @@
 #include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/material/material.h"
-#include "host/input/gltf/placement.h"
+#include "host/input/gltf/skin.h"
 
 namespace tinygltf {
+class Model;
 struct Primitive;
-}
+} // namespace tinygltf
 
 namespace pmdsim {
 

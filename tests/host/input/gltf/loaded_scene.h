@@ -10,11 +10,13 @@
 
 namespace pmdsim::test {
 
-inline Scene scene_of(const nlohmann::json &gltf) {
+inline GltfFile file_of(const nlohmann::json &gltf) {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.gltf", gltf.dump());
-  return load_gltf(file, Place{file}).at(0).scene;
+  return load_gltf(file, Place{file});
 }
+
+inline Scene scene_of(const nlohmann::json &gltf) { return file_of(gltf).at(0).scene; }
 
 inline std::string scene_error_of(const nlohmann::json &gltf) {
   return input_error_of([&] { scene_of(gltf); });

@@ -71,6 +71,10 @@ struct Bench {
   std::string error(bool has_colours = false) const {
     return input_error_of([&] { made(has_colours); });
   }
+  std::string error_of_image(const json &image) {
+    gltf["images"][0] = image;
+    return error();
+  }
 };
 
 void check_rgb(const glm::dvec3 &found, const glm::dvec3 &expected) {
@@ -359,10 +363,7 @@ TEST_CASE("Textures without an image that can be read") {
 TEST_CASE("Images that cannot be had") {
   Bench bench;
   bench.texture_info();
-  const auto error_of = [&](const json &image) {
-    bench.gltf["images"][0] = image;
-    return bench.error();
-  };
+  const auto error_of = [&](const json &image) { return bench.error_of_image(image); };
   CHECK_THAT(error_of(json::object()), EndsWith("/images/0: expected either \"uri\" or \"bufferView\""));
   CHECK_THAT(error_of({{"uri", "opaque.png"}, {"bufferView", 0}}), Contains("/images/0: expected either"));
   CHECK_THAT(
@@ -378,10 +379,7 @@ TEST_CASE("Images that cannot be had") {
 TEST_CASE("Images that are in data URIs and buffers and are none") {
   Bench bench;
   bench.texture_info();
-  const auto error_of = [&](const json &image) {
-    bench.gltf["images"][0] = image;
-    return bench.error();
-  };
+  const auto error_of = [&](const json &image) { return bench.error_of_image(image); };
   const std::string data = "/images/0/uri: expected a base64 data URI of image/png or image/jpeg";
   const std::string neither = "/images/0: expected a PNG or JPEG image, found neither";
   CHECK_THAT(error_of({{"uri", "data:image/webp;base64,AAAA"}}), EndsWith(data));

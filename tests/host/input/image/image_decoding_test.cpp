@@ -1,7 +1,6 @@
 // PNG and JPEG images become linear texels; broken ones are refused in one line.
 
 #include "host/input/image/image_pixels.h"
-#include "host/input/image/srgb_texture.h"
 #include "tests/host/input/file/input_error_of.h"
 #include "tests/host/input/image/image_bytes.h"
 

@@ -1,6 +1,6 @@
 // Illuminators as a setup gives them: diagrams from files, their roll, several of them and their phases.
 
-#include "host/input/diagram/diode_across.h"
+#include "host/input/diagram/diode_file.h"
 #include "tests/host/input/setup/setup_fixture.h"
 #include "tests/support/units.h"
 

@@ -1,6 +1,6 @@
 // The schema of setups is what an editor completes and explains keys by.
 
-#include "host/input/schema/schemas.h"
+#include "host/input/schema/schema_check.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

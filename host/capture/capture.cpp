@@ -1,0 +1,92 @@
+#include "host/capture/capture.h"
+
+#include "engine/model/error.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+// Throws Error: (usage) where the setup has not so many, (input) where a sensor's frames cannot become files.
+FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
+  const FrameRange frames = request.frames.value_or(FrameRange{0, setup.frames.count});
+  if (frames.end > setup.frames.count)
+    throw Error(ExitCode::usage,
+                fmt::format("--frames {}:{}: expected B at most {}, the frames of {}", frames.first,
+                            frames.end, setup.frames.count, setup.file.string()));
+  require_names_for_files(setup.start.sensors);
+  return frames;
+}
+
+} // namespace
+
+Setup requested_setup(const CaptureRequest &request) {
+  Setup setup = load_setup(request.setup);
+  for (const std::string &warning : setup.warnings)
+    fmt::print(stderr, "pmdsim: warning: {}\n", warning);
+  if (request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
+    fmt::print(stderr, "pmdsim: warning: frames whose taps are taken one after the other are taken in mode "
+                       "exact, and nothing is claimed of their errors\n");
+  if (request.samples) {
+    for (Sensor &sensor : setup.start.sensors)
+      set_samples(sensor, *request.samples);
+    for (auto &sensor : setup.as_used["sensors"])
+      sensor["samples"] = sample_choice_json(*request.samples);
+  }
+  return setup;
+}
+
+Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps,
+                 double exposures_of_sample)
+    : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
+      exposures_(setup_, request.device, keep_taps, request.accuracy),
+      sequence_(setup_, frames_, request.output_directory,
+                {command,
+                 exposures_.camera().device(),
+                 exposures_.camera().driver(),
+                 request.accuracy,
+                 setup_.as_used,
+                 {}}),
+      exposures_of_sample_(exposures_of_sample) {}
+
+std::string Capture::device_text() const {
+  return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());
+}
+
+TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<double> next_s,
+                         const std::string &label) {
+  bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
+  return exposures_.take(at.sensor, at.time_s, light, interruptible_progress(*bar_), next_s);
+}
+
+void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes) {
+  bar_.emplace(exposures_of_sample_ * frames_.count() * samples_of_frame(setup_));
+  sequence_.write(measure, part_bytes);
+  bar_.reset(); // before anything is printed
+}
+
+FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
+  const auto &[sensor, measurement, mode] = taken;
+  return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
+}
+
+MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
+                            const std::set<Format> &formats) {
+  auto frame =
+      std::make_shared<const FrameToWrite>(FrameToWrite{taken->sensor,
+                                                        at.frame,
+                                                        channels_of(taken->measurement),
+                                                        taken});
+  return {record_of(*taken, at), [frame = std::move(frame), formats] { return files_of(frame, formats); }};
+}
+
+std::size_t bytes_of_rendered_frame(const Setup &setup) {
+  std::size_t most = 0;
+  for (const Sensor &sensor : setup.start.sensors)
+    most = std::max(most, bytes_of_frame(sensor, true));
+  return most;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,75 @@
+#pragma once
+// What commands that measure share: what is asked of them, the setup with that, and how its frames come into
+// a directory.
+
+#include "host/capture/exposure.h"
+#include "host/capture/frame_sequence.h"
+#include "host/capture/frame_writer.h"
+#include "host/capture/progress_bar.h"
+#include "host/input/setup/sample_choice.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace pmdsim {
+
+struct CaptureRequest {
+  std::filesystem::path setup;
+  std::optional<SampleChoice> samples; // instead of the setup's
+  std::string device;                  // as Camera's
+  Accuracy accuracy;
+  std::optional<FrameRange> frames; // instead of all of the setup's
+  std::filesystem::path output_directory;
+  std::set<Format> formats;
+};
+
+// With what is asked for instead of its own values. Its warnings go to stderr. Throws Error (input).
+Setup requested_setup(const CaptureRequest &request);
+
+// The frames of a setup that one command leaves in a directory, with a bar of its progress.
+class Capture {
+public:
+  // `command` is what the manifest calls it; of each sample it measures `exposures_of_sample`. Without
+  // `keep_taps` as Exposures. Throws Error: nothing is measured in vain where a file cannot be written.
+  Capture(const CaptureRequest &request, const std::string &command, bool keep_taps,
+          double exposures_of_sample = 1.0);
+
+  const Setup &setup() const { return setup_; }
+  std::uint32_t first_frame() const { return frames_.first; }
+  const std::set<Format> &formats() const { return formats_; }
+  const FrameSequence &sequence() const { return sequence_; } // with what it has written
+  // "device    NAME (DRIVER)" and an empty line.
+  std::string device_text() const;
+
+  // A part of a frame; `next_s` as Exposures::take(). `label` follows that of the part.
+  TakenFrame take(const SensorFrame &at, Light light, std::optional<double> next_s,
+                  const std::string &label = "");
+  // As Exposures::share().
+  std::shared_ptr<const TakenFrame> share(TakenFrame &&frame) { return exposures_.share(std::move(frame)); }
+  // As FrameSequence::write().
+  void write(const FrameSequence::Measure &measure, std::size_t part_bytes);
+
+private:
+  Setup setup_;
+  FrameRange frames_;
+  std::set<Format> formats_;
+  Exposures exposures_;
+  FrameSequence sequence_;
+  double exposures_of_sample_;
+  std::optional<ProgressBar> bar_; // while it writes
+};
+
+// What a manifest says of a part of a frame.
+FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
+
+// A frame as `render` leaves it: every channel of what was measured. Its files hold on to `taken`.
+MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
+                            const std::set<Format> &formats);
+
+// Of the setup's largest frame.
+std::size_t bytes_of_rendered_frame(const Setup &setup);
+
+} // namespace pmdsim
