@@ -108,7 +108,6 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
 
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
-  vulkan::compute_barrier(commands);
   const shader::LitTilesConstants constants{strip, words(buffers.position.address()),
                                             words(buffers.tags.address()), words(scene_.record.address()),
                                             words(parts_.address())};

@@ -1,7 +1,6 @@
 #include "engine/signal/resolve_pass.h"
 
 #include "engine/signal/frequency_records.h"
-#include "engine/vulkan/commands.h"
 #include "engine/vulkan/sample_precision.h"
 #include "spirv/resolve_double_float.h"
 #include "spirv/resolve_fp64.h"
@@ -81,7 +80,6 @@ ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, con
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                          const StripBuffers &buffers, const SceneBuffers &scene,
                          const vulkan::Buffer *list) const {
-  vulkan::compute_barrier(commands);
   if (plain_) {
     for (std::uint32_t f = 0; f < signal_.frequencies(); f += frequencies_at_once(signal_))
       record_plain(commands, strip, buffers, scene, f);
