@@ -111,6 +111,12 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   state_->prepare();
 }
 
+std::vector<std::pair<std::string, std::string>> Simulator::path() const {
+  if (!state_->frame)
+    throw std::logic_error("path() before prepare()");
+  return description(state_->frame->path());
+}
+
 void Simulator::reuse(Measurement &&frame) {
   constexpr std::size_t frames = 2; // no more are measured and written side by side, as a rule
   const std::scoped_lock lock(state_->spare_mutex);

@@ -18,6 +18,8 @@ public:
   Frame(const Frame &) = delete; // its list refers to it
   Frame &operator=(const Frame &) = delete;
 
+  const FramePath &path() const { return on_.path; }
+
   // Compiles what the driver leaves to a first dispatch.
   void warm_up(vulkan::PassRecorder &recorder) const;
   // Into `memory`, whatever that holds; the same bits at every call. `progress` hears how much is done, 0 to
