@@ -158,6 +158,12 @@ std::string law_name(std::uint32_t pattern) {
                                               : "any";
 }
 
+std::string record_text(const FramePath &path) {
+  return path.record == SampleRecord::point ? "point"
+         : path.one_backscatter             ? "depth, one backscatter"
+                                            : "depth";
+}
+
 std::string surface_name(std::uint32_t backscatter) {
   return backscatter == shader::backscatter_flat     ? "constant, all facing"
          : backscatter == shader::backscatter_facing ? "constant, tested"
@@ -205,7 +211,7 @@ std::vector<std::pair<std::string, std::string>> description(const FramePath &pa
   std::vector<std::string> classes;
   std::ranges::transform(path.classes, std::back_inserter(classes), text_of);
   return {{"grid", grid_name(path.grid)},
-          {"record", path.record == SampleRecord::depth ? "depth" : "point"},
+          {"record", record_text(path)},
           {"visibility_windows", fmt::format("{}", path.windows)},
           {"surface", surface_name(path.backscatter)},
           {"radiation_law", law_name(path.pattern)},

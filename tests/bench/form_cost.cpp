@@ -3,6 +3,7 @@
 
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
+#include "tests/bench/times.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -88,11 +89,6 @@ double frame_ms(Simulator &simulator) {
   return ms;
 }
 
-double median(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-  return values[values.size() / 2];
-}
-
 void compare(const Case &of, const Setup &setup, Simulator &with, const Form &form) {
   PathForms allowed;
   allowed.*form.allowed = false;
@@ -106,9 +102,10 @@ void compare(const Case &of, const Setup &setup, Simulator &with, const Form &fo
     without_ms.push_back(frame_ms(without));
     ratios.push_back(without_ms.back() / with_ms.back());
   }
-  const auto [least, most] = std::ranges::minmax(ratios);
+  const bench::Times ratio = bench::spread(ratios);
   fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.2f} | {:.2f} to {:.2f} |\n", form.name, of.name,
-             median(with_ms), median(without_ms), median(ratios), least, most);
+             bench::spread(with_ms).median_ms, bench::spread(without_ms).median_ms, ratio.median_ms,
+             ratio.min_ms, ratio.max_ms);
   std::fflush(stdout);
 }
 
