@@ -12,6 +12,9 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pmdsim {
 
@@ -33,6 +36,9 @@ public:
   // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart).
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {});
+  // How the frame that was prepared is summed: names and values, for people and for JSON. It may change where
+  // a frame has to be made again more exactly.
+  std::vector<std::pair<std::string, std::string>> path() const;
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
   // accuracy (the error asked for was not kept), input (more light returns than a float holds).
   Measurement measure(const Progress &progress = {});

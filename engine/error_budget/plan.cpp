@@ -87,7 +87,7 @@ DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> 
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
     if (precision == Precision::fp32 && view.signal.by_moments)
-      sum_by_powers(groups, view.model, wavenumber_rad_m);
+      sum_by_powers(groups, view.model, wavenumber_rad_m, view.allowed);
     return groups;
   };
   DiodeGroups groups = in_runs_of(usual_run_blocks);

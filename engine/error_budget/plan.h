@@ -7,6 +7,7 @@
 #include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
 #include "engine/model/error_bound.h"
+#include "engine/model/simulator_options.h"
 
 #include <optional>
 
@@ -14,7 +15,6 @@ namespace pmdsim {
 
 // A frame's light and what it falls on.
 struct LitView {
-  const CameraScene &camera;
   const std::vector<CameraIlluminator> &lights;
   const std::vector<VisibleBox> &visible;
   const Sensor &sensor;
@@ -22,6 +22,7 @@ struct LitView {
   SumModel model; // of all diodes
   Backscatter backscatter;
   bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
+  PathForms allowed = {};
 };
 
 struct FramePlan {

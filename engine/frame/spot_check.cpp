@@ -84,11 +84,6 @@ void ExactCheck::record_points(const vk::raii::CommandBuffer &commands, std::siz
     points_->record(commands, planned.strip, buffers, scene, &list_);
 }
 
-void ExactCheck::record_channels(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                 const StripBuffers &buffers, const SceneBuffers &scene) const {
-  resolve_.record(commands, planned.strip, buffers, scene, &list_);
-}
-
 void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
                          const Measurement &measured, AccuracyReport &report) const {
   const shader::Strip &of = planned.strip;

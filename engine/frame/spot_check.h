@@ -28,14 +28,13 @@ public:
   std::size_t pixels() const { return pixels_; }
   const DiodeGroups &groups() const { return groups_; }
   const AccumulatePass &sum() const { return sum_; }
+  const ResolvePass &resolve() const { return resolve_; }
   const vulkan::Buffer &list() const { return list_; }
 
   // Makes the list of the strip's pixels and their samples' points; after it comes the sum, then the
   // channels.
   void record_points(const vk::raii::CommandBuffer &commands, std::size_t strip, const PlannedStrip &planned,
                      const StripBuffers &buffers, const SceneBuffers &scene) const;
-  void record_channels(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                       const StripBuffers &buffers, const SceneBuffers &scene) const;
   // Largest difference of the measured strip from the channels that were read back.
   void compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
                const Measurement &measured, AccuracyReport &report) const;

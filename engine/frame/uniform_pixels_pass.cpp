@@ -3,7 +3,6 @@
 #include "engine/sampling/chip_place.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/resolve_pass.h"
-#include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
@@ -63,12 +62,6 @@ vulkan::Buffer upload_light(const vulkan::Device &device, shader::ShortWayLight 
 
 } // namespace
 
-bool ShortWay::can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
-  return signal.waveform == shader::waveform_sine && signal.by_moments && !sensor.has_distortion() &&
-         signal.frequencies() <= shader::short_way_tones &&
-         groups.runs.size() * groups.blocks_per_run <= usual_run_blocks; // as one straight line
-}
-
 ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
                    const LightExtent &extent, const SumModel &model, const Signal &signal,
                    const Promise &promise, const SimulatorOptions &options, const ShortWayOptions &ways,
@@ -97,7 +90,6 @@ ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const Dio
 void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                       const StripBuffers &buffers, const SceneBuffers &scene,
                       const vulkan::Buffer *few) const {
-  vulkan::compute_barrier(commands);
   const shader::ShortWayConstants constants{strip,
                                             slope_,
                                             chip_.words(),

@@ -22,9 +22,6 @@ struct ShortWayOptions {
 
 class ShortWay {
 public:
-  // Whether the pass can sum such groups itself.
-  static bool can_sum(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor);
-
   // `groups` stand in for all diodes. `lists` are those that it will be used with.
   ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
            const LightExtent &extent, const SumModel &model, const Signal &signal, const Promise &promise,

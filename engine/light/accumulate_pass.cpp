@@ -175,7 +175,8 @@ void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shade
                             std::uint32_t first, std::uint32_t last, const vulkan::Buffer *list) const {
   const std::uint32_t plane = sample_count(strip);
   for (std::uint32_t run = first; run < last; ++run) {
-    vulkan::compute_barrier(commands);
+    if (run > first)
+      vulkan::compute_barrier(commands);
     if (plain_) {
       record_plain(commands, strip, buffers, scene, run);
       continue;

@@ -42,18 +42,21 @@ double least_intensity(const DiodeGroups &groups) {
 
 } // namespace
 
-void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m) {
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
+                   const PathForms &allowed) {
   std::vector<Excess> reaches;
   for (const DiodeRun &run : groups.runs)
     reaches.push_back(run.reach);
-  if (const auto powers = inverse_powers(model))
+  if (const auto powers = inverse_powers(model); powers && allowed.polynomial_moments)
     groups.power_sums =
         power_sums(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
   if (groups.power_sums.powers == 0)
     return;
-  groups.power_sums.alike = are_alike(groups, model);
-  groups.power_sums.planar = std::ranges::all_of(
-      groups.diodes, [](const shader::GroupDiode &diode) { return diode.position.z == 0.0f; });
+  groups.power_sums.alike = allowed.equal_weights && are_alike(groups, model);
+  groups.power_sums.planar =
+      allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+        return diode.position.z == 0.0f;
+      });
 }
 
 Precision sum_precision(const Signal &signal, Precision wanted) {

@@ -6,6 +6,7 @@
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"
 #include "engine/model/scene.h"
+#include "engine/model/simulator_options.h"
 #include "shaders/shared/interface.h"
 
 #include <optional>
@@ -31,7 +32,8 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model);
 
 // Has the moments of `groups` summed by powers where the model allows and it is worth it
 // (moment_polynomials.h).
-void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m);
+void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
+                   const PathForms &allowed = {});
 
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);

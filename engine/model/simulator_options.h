@@ -12,9 +12,19 @@ enum class SamplePrecision { automatic, double_float };
 // The shape of the accumulate pass: a straight line for CPUs, a loop for GPUs.
 enum class DiodeLoop { automatic, straight_line, looped };
 
-// How the diodes are summed where there is a choice: by moments wherever the waveform allows, or always diode
-// by diode.
-enum class DiodeSum { automatic, direct };
+// Forms of a frame's path that are faster where a setup allows them. Each may be forbidden, so that tests and
+// benchmarks see a frame with it and without. None changes a result beyond the frame's stated error.
+struct PathForms {
+  bool moments = true;                // one dispatch for all tones; else diode by diode for each frequency
+  bool polynomial_moments = true;     // moments from powers of r_nm^2 - rho^2
+  bool equal_weights = true;          // sources of one weight, which are there as positions alone
+  bool coplanar = true;               // sources in a plane across the view
+  bool depth_records = true;          // a sample's ID and depth in place of its point
+  bool one_backscatter = true;        // of all that is seen, not looked up
+  bool uniform_pixels = true;         // from IDs to channels at once
+  bool uniform_single_samples = true; // the same where pixels have one sample
+  bool refined_uniform_pixels = true; // at four points of a pixel
+};
 
 struct SimulatorOptions {
   std::string device; // an index or a part of a name; empty: a discrete GPU, else whatever there is
@@ -25,7 +35,7 @@ struct SimulatorOptions {
   bool validate = false; // run under the Khronos validation layer; a message is a std::logic_error
   SamplePrecision precision = SamplePrecision::automatic;
   DiodeLoop loop = DiodeLoop::automatic;
-  DiodeSum sum = DiodeSum::automatic;
+  PathForms allowed;
 };
 
 } // namespace pmdsim

@@ -15,10 +15,6 @@ Sensor filled(Sensor sensor) {
 
 } // namespace
 
-bool ChipGrid::holds(const Sensor &sensor) {
-  return !sensor.has_distortion() && (sensor.samples == 1 || !is_tiled(sensor));
-}
-
 ChipGrid::ChipGrid(const vulkan::Device &device, const Sensor &sensor)
     : nominal_(sensor.chip.is_nominal()), slope_(half_sample_slope(sensor)),
       chip_(std::make_shared<const vulkan::Buffer>(upload_chip(device, filled(sensor)))) {}

@@ -11,9 +11,7 @@ namespace pmdsim {
 
 class ChipGrid {
 public:
-  // Whether a sensor's samples are one: no distortion, pixels filled or of one sample.
-  static bool holds(const Sensor &sensor);
-
+  // Of a sensor without distortion whose pixels are filled or have one sample.
   ChipGrid(const vulkan::Device &device, const Sensor &sensor);
 
   bool is_nominal() const { return nominal_; }

@@ -108,7 +108,6 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
 
 void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
-  vulkan::compute_barrier(commands);
   const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.tags.words(),
                                             scene_.record.words(), parts_.words()};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);

@@ -1,7 +1,6 @@
 #include "engine/signal/resolve_pass.h"
 
 #include "engine/signal/channel_layout.h"
-#include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
@@ -76,7 +75,6 @@ ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, con
 void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                          const StripBuffers &buffers, const SceneBuffers &scene,
                          const vulkan::Buffer *list) const {
-  vulkan::compute_barrier(commands);
   if (plain_) {
     for (std::uint32_t f = 0; f < signal_.frequencies(); f += frequencies_at_once(signal_))
       record_plain(commands, strip, buffers, scene, f);

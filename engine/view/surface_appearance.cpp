@@ -148,21 +148,28 @@ void TextureCache::drop_unused() {
   std::erase_if(buffers_, [](const auto &entry) { return entry.second.use_count() == 1; });
 }
 
-PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
-                          Backscatter backscatter, TextureCache &textures) {
-  PaintBuffers buffers;
-  for (const CameraTriangle &shape : camera.triangles) {
-    const auto &paint = scene.surfaces[scene.surface_of(shape.id)].paint;
-    const bool disc = is_disc(scene, shape.id);
-    buffers.painted = buffers.painted || disc || paint;
-    buffers.masked = buffers.masked || disc || (paint && paint->alpha_cutoff > 0.0);
-  }
-  // Holes that the lens does not see let light through all the same.
-  const bool holes_in_the_light = std::ranges::any_of(camera.hidden, [&](const CameraTriangle &shape) {
+PaintUse paint_use(const CameraScene &camera, const Scene &scene) {
+  const auto has_holes = [&](const CameraTriangle &shape) {
     const auto &paint = scene.surfaces[scene.surface_of(shape.id)].paint;
     return paint && paint->alpha_cutoff > 0.0;
-  });
-  if (!buffers.painted && !holes_in_the_light)
+  };
+  PaintUse use;
+  for (const CameraTriangle &shape : camera.triangles) {
+    const bool disc = is_disc(scene, shape.id);
+    use.painted = use.painted || disc || scene.surfaces[scene.surface_of(shape.id)].paint;
+    use.masked = use.masked || disc || has_holes(shape);
+  }
+  // Holes that the lens does not see let light through all the same.
+  use.holes_in_the_light = std::ranges::any_of(camera.hidden, has_holes);
+  return use;
+}
+
+PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, const CameraScene &camera,
+                          const Scene &scene, Backscatter backscatter, TextureCache &textures) {
+  PaintBuffers buffers;
+  buffers.painted = use.painted;
+  buffers.masked = use.masked;
+  if (!use.painted && !use.holes_in_the_light)
     return buffers;
   const std::vector<shader::ShapePaint> shapes = shape_paints(camera, scene);
   buffers.shapes = vulkan::upload(device, std::as_bytes(std::span(shapes)));

@@ -32,8 +32,18 @@ struct PaintBuffers {
   bool masked = false;  // whether any may have holes, or is a disc
 };
 
-PaintBuffers upload_paint(const vulkan::Device &device, const CameraScene &camera, const Scene &scene,
-                          Backscatter backscatter, TextureCache &textures);
+// What of paint a frame has to model.
+struct PaintUse {
+  bool painted = false;            // whether any shape that the lens can see is
+  bool masked = false;             // whether any of these may have holes, or is a disc
+  bool holes_in_the_light = false; // whether light may pass through shapes that the lens does not see
+};
+
+PaintUse paint_use(const CameraScene &camera, const Scene &scene);
+
+// Empty where nothing is painted.
+PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, const CameraScene &camera,
+                          const Scene &scene, Backscatter backscatter, TextureCache &textures);
 
 // ShapePaint::origin of each shape and the affine functions, by the shape's id.
 std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene);

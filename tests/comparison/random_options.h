@@ -12,7 +12,7 @@ inline SimulatorOptions random_options(Random &random) {
   options.keep_taps = random.flip();
   options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
-  options.sum = random.flip() ? DiodeSum::automatic : DiodeSum::direct;
+  options.allowed.moments = random.flip();
   return options;
 }
 

@@ -99,7 +99,7 @@ TEST_CASE("what a float cannot hold is not promised") {
 
 TEST_CASE("a sine that is summed diode by diode has no promise") {
   SimulatorOptions options;
-  options.sum = DiodeSum::direct;
+  options.allowed.moments = false;
   Simulator simulator = make_simulator(options);
   const Scene scene = wall_at(2.0);
   const std::vector<Illuminator> lights{light_at(ring(6, 0.1), 0.0)};

@@ -27,8 +27,9 @@ std::string bytes_of_frame(const Scene &scene, const Sensor &sensor) {
   return bytes_of(simulator.measure());
 }
 
-Measurement measured(const RepeatabilityFrame &frame, SamplePrecision precision, DiodeSum sum) {
-  Simulator simulator = make_simulator({.device = {}, .precision = precision, .sum = sum});
+Measurement measured(const RepeatabilityFrame &frame, SamplePrecision precision, bool depth_records) {
+  Simulator simulator =
+      make_simulator({.device = {}, .precision = precision, .allowed = {.depth_records = depth_records}});
   return measure(simulator, frame);
 }
 
@@ -49,8 +50,7 @@ TEST_CASE("one backscatter gives the same bits whether it is looked up or not") 
 TEST_CASE("ground truth is the same whether it is read off records or comes in channels") {
   const auto precision = GENERATE(SamplePrecision::automatic, SamplePrecision::double_float);
   const RepeatabilityFrame frame = repeatability_frame("records_without_gaps");
-  const Measurement records = measured(frame, precision, DiodeSum::automatic),
-                    channels = measured(frame, precision, DiodeSum::direct);
+  const Measurement records = measured(frame, precision, true), channels = measured(frame, precision, false);
   const auto same = [](const std::vector<float> &a, const std::vector<float> &b) {
     return std::ranges::equal(a, b, [](float x, float y) { return x == y || (x != x && y != y); });
   };

@@ -1,0 +1,60 @@
+#pragma once
+// How a frame is measured: its passes as a list, strip by strip.
+
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_passes.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace pmdsim {
+
+class Frame {
+public:
+  // As the `attempt`-th of frame_plans has it. Throws Error: out_of_memory, accuracy.
+  Frame(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request,
+        std::uint32_t attempt, TextureCache &textures, SpareMemory &&spare);
+  Frame(const Frame &) = delete; // its list refers to it
+  Frame &operator=(const Frame &) = delete;
+
+  const FramePath &path() const { return on_.path; }
+
+  // Compiles what the driver leaves to a first dispatch.
+  void warm_up(vulkan::PassRecorder &recorder) const;
+  // Into `memory`, whatever that holds; the same bits at every call. `progress` hears how much is done, 0 to
+  // 1, and may throw. Throws Error: out_of_memory, device_lost, input (more light returns than a float
+  // holds).
+  Measurement measure(vulkan::PassRecorder &recorder, Measurement &&memory,
+                      const std::function<void(double)> &progress) const;
+  // Why the last frame, `measured`, does not keep the error that was asked for, if so.
+  std::optional<std::string> violation(const Measurement &measured) const;
+
+  // After it the frame is of no use any more.
+  SpareMemory release_memory() { return {std::move(on_.buffers), on_.raster.release_images()}; }
+
+private:
+  void list_view();
+  void list_shadows(FrameGraph &graph);
+  void list_reached();
+  void list_sum(FrameGraph &graph, const AccumulatePass &pass, std::vector<LitWindow> windows,
+                const vulkan::Buffer *list);
+  void list_resolve(FrameGraph &graph, const ResolvePass &pass, const vulkan::Buffer *list);
+  void list_sorting();
+  void list_class(const ClassPasses &passes, const vulkan::Buffer &list, const LitWindow &window);
+  void list_read_back();
+  void list_check();
+
+  void forget_broken(vulkan::PassRecorder &recorder) const;
+  void finish_visibility(Measurement &measurement) const;
+  void check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measurement &measurement) const;
+
+  SimulatorOptions options_;
+  Shadows shadows_;
+  Accuracy accuracy_;
+  FramePasses on_;
+  FrameGraph graph_;
+  FrameGraph check_graph_; // over the same strip, once it is stored
+};
+
+} // namespace pmdsim

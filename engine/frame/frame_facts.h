@@ -1,0 +1,41 @@
+#pragma once
+// The frame as the host sees it before anything is planned or uploaded.
+
+#include "engine/light/camera_light.h"
+#include "engine/light/sum_model.h"
+#include "engine/light/tones.h"
+#include "engine/model/accuracy.h"
+#include "engine/model/shadows.h"
+#include "engine/model/simulator_options.h"
+#include "engine/shadow/occluders.h"
+#include "engine/view/projection.h"
+#include "engine/view/surface_appearance.h"
+
+#include <vector>
+
+namespace pmdsim {
+
+// What is measured, and how well. The references outlive the preparation only.
+struct FrameRequest {
+  const Scene &scene;
+  const Sensor &sensor;
+  const std::vector<Illuminator> &illuminators;
+  Backscatter backscatter;
+  Shadows shadows;
+  Accuracy accuracy;
+};
+
+struct FrameFacts {
+  CameraScene camera;
+  std::vector<CameraIlluminator> lights;
+  Occluders occluders; // empty with Shadows::off
+  Signal signal;
+  SumModel model;
+  Projection projection;
+  PaintUse paint;
+  std::uint32_t largest_strip; // samples
+};
+
+FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request);
+
+} // namespace pmdsim

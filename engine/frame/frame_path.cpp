@@ -1,0 +1,225 @@
+#include "engine/frame/frame_path.h"
+
+#include "engine/sampling/chip_place.h"
+#include "shaders/shared/interface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace pmdsim {
+namespace {
+
+SampleGrid grid_of(const Sensor &sensor) {
+  return sensor.has_distortion() ? SampleGrid::distorted
+         : is_tiled(sensor)      ? SampleGrid::tiled
+         : is_plain(sensor)      ? SampleGrid::nominal
+                                 : SampleGrid::posed;
+}
+
+Summation summation_of(const FrameFacts &facts, const DiodeGroups &groups) {
+  return !facts.signal.by_moments       ? Summation::per_diode
+         : groups.power_sums.powers > 0 ? Summation::polynomial_moments
+                                        : Summation::moments;
+}
+
+// Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
+bool is_smooth(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
+  return !facts.paint.painted && sensor.vignetting == Vignetting::none &&
+         std::isfinite(plan.extent.pattern_slope);
+}
+
+// Some pixels may not face or be lit by all sources.
+bool has_rest(const FrameFacts &facts) {
+  return facts.signal.lit || facts.model.backscatter != shader::backscatter_flat;
+}
+
+// The bits of several windows are never there together, so that nothing is known of a sample before it is
+// summed.
+bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.signal.lit || windows == 1; }
+
+// Whether the pass from IDs to channels can sum such groups itself, as one straight line.
+bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
+  return signal.waveform == shader::waveform_sine && signal.by_moments && !sensor.has_distortion() &&
+         signal.frequencies() <= shader::short_way_tones &&
+         groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;
+}
+
+// How many points of a pixel whose light is uniform do for its samples; nothing where none do.
+std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
+                                            const FrameRequest &request, const PathForms &allowed) {
+  const Sensor &sensor = request.sensor;
+  if (!plan.short_promise || !allowed.uniform_pixels || !can_fuse(plan.short_groups, facts.signal, sensor))
+    return std::nullopt;
+  const bool may_thin_out = sensor.adaptive_samples || request.accuracy.mode == Mode::automatic;
+  if (sensor.samples == 1)
+    return allowed.uniform_single_samples ? std::optional(1u) : std::nullopt;
+  return is_smooth(facts, plan, sensor) && may_thin_out ? std::optional(1u) : std::nullopt;
+}
+
+std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan &plan,
+                                       const FrameRequest &request, const PathForms &allowed) {
+  const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
+  const auto points = uniform_points(facts, plan, request, allowed);
+  std::vector<PixelClass> classes;
+  if (points)
+    classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.short_promise});
+  if (points && samples > 1 && plan.few_promise && allowed.refined_uniform_pixels)
+    classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.few_promise});
+  // Of one sample a pixel, the uniform ones are all that every source lights and that surely keep the bound.
+  if (!points || samples > 1 || !plan.surely_kept)
+    classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.promise});
+  if (has_rest(facts))
+    classes.push_back(
+        {PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.promise_of_all});
+  return classes;
+}
+
+std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &plan,
+                                   const FrameRequest &request, std::size_t windows,
+                                   const PathForms &allowed) {
+  const bool sorted = can_sort(facts, windows) && (uniform_points(facts, plan, request, allowed) ||
+                                                   (plan.is_reduced() && has_rest(facts)));
+  if (sorted)
+    return sorted_classes(facts, plan, request, allowed);
+  // Where all samples are alike, what stands in for the sources does so for all of them.
+  const bool reduced = plan.is_reduced() && !has_rest(facts);
+  return {{PixelsOf::all, reduced, request.sensor.samples * request.sensor.samples, plan.precision,
+           facts.signal.lit, reduced ? plan.promise : plan.promise_of_all}};
+}
+
+// Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
+// of the pixel is filled.
+bool is_even(SampleGrid grid, const Sensor &sensor) {
+  return grid != SampleGrid::distorted && (sensor.samples == 1 || grid != SampleGrid::tiled);
+}
+
+bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                      const Sensor &sensor, const PathForms &allowed) {
+  return allowed.depth_records && !path.is_sorted() && !plan.is_reduced() && path.windows == 0 &&
+         !facts.signal.promised && path.summation != Summation::per_diode &&
+         plan.precision == Precision::fp32 && is_even(path.grid, sensor);
+}
+
+// What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
+// plan's precision.
+Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
+  return facts.signal.lit || sensor.has_distortion() ? plan.precision
+                                                     : sum_precision(facts.signal, Precision::fp64);
+}
+
+std::string name_of(PixelsOf who) {
+  switch (who) {
+  case PixelsOf::all:
+    return "all";
+  case PixelsOf::uniform:
+    return "uniform";
+  case PixelsOf::uniform_refined:
+    return "uniform_refined";
+  case PixelsOf::unshadowed:
+    return "unshadowed";
+  case PixelsOf::rest:
+    return "rest";
+  }
+  return {};
+}
+
+std::string text_of(const PixelClass &pixels) {
+  return fmt::format("{}: {} sources, {} points a pixel, {}{}", name_of(pixels.who),
+                     pixels.reduced ? "reduced" : "all", pixels.points,
+                     pixels.precision == Precision::fp64 ? "fp64" : "fp32",
+                     pixels.shadowed ? ", visibility bits" : "");
+}
+
+std::string grid_name(SampleGrid grid) {
+  constexpr std::array names{"nominal", "posed", "tiled", "distorted"};
+  return names[static_cast<std::size_t>(grid)];
+}
+
+std::string summation_text(const FramePath &path) {
+  switch (path.summation) {
+  case Summation::polynomial_moments:
+    return fmt::format("{} moments from {} powers{}{}", path.moments, path.powers,
+                       path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "");
+  case Summation::moments:
+    return fmt::format("{} moments", path.moments);
+  case Summation::per_diode:
+    return "diode by diode";
+  }
+  return {};
+}
+
+std::string law_name(std::uint32_t pattern) {
+  return pattern == shader::pattern_isotropic ? "isotropic"
+         : pattern == shader::pattern_power   ? "whole power of the cosine"
+         : pattern == shader::pattern_general ? "power of the cosine"
+         : pattern == shader::pattern_axial   ? "diagram around the axis"
+                                              : "any";
+}
+
+std::string record_text(const FramePath &path) {
+  return path.record == SampleRecord::point ? "point"
+         : path.one_backscatter             ? "depth, one backscatter"
+                                            : "depth";
+}
+
+std::string surface_name(std::uint32_t backscatter) {
+  return backscatter == shader::backscatter_flat     ? "constant, all facing"
+         : backscatter == shader::backscatter_facing ? "constant, tested"
+                                                     : "lambert";
+}
+
+} // namespace
+
+const PixelClass *FramePath::of(PixelsOf who) const {
+  const auto found = std::ranges::find(classes, who, &PixelClass::who);
+  return found == classes.end() ? nullptr : &*found;
+}
+
+FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
+                      std::size_t windows, std::optional<float> one_backscatter, const PathForms &allowed) {
+  const Sensor &sensor = request.sensor;
+  FramePath path{};
+  path.grid = grid_of(sensor);
+  path.windows = facts.signal.lit ? static_cast<std::uint32_t>(windows) : 0;
+  path.backscatter = facts.model.backscatter;
+  path.pattern = facts.model.pattern;
+  path.summation = summation_of(facts, plan.all);
+  path.powers = plan.all.power_sums.powers;
+  path.moments = plan.all.moments;
+  path.equal_weights = plan.all.power_sums.alike;
+  path.coplanar = plan.all.power_sums.planar;
+  path.single_batch = plan.all.runs.size() == 1;
+  path.painted = facts.paint.painted;
+  path.vignetting = sensor.vignetting == Vignetting::cos4;
+  path.phased = plan.all.phased;
+  path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
+  path.classes = classes_of(facts, plan, request, windows, allowed);
+  path.record =
+      keeps_depth_only(path, facts, plan, sensor, allowed) ? SampleRecord::depth : SampleRecord::point;
+  path.points_first = path.record == SampleRecord::point &&
+                      (!path.is_sorted() || facts.signal.lit || sensor.has_distortion());
+  path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
+  if (request.accuracy.mode != Mode::exact)
+    path.check = check_precision(facts, plan, sensor);
+  path.check_makes_points = !sensor.has_distortion();
+  return path;
+}
+
+std::vector<std::pair<std::string, std::string>> description(const FramePath &path) {
+  std::vector<std::string> classes;
+  std::ranges::transform(path.classes, std::back_inserter(classes), text_of);
+  return {{"grid", grid_name(path.grid)},
+          {"record", record_text(path)},
+          {"visibility_windows", fmt::format("{}", path.windows)},
+          {"surface", surface_name(path.backscatter)},
+          {"radiation_law", law_name(path.pattern)},
+          {"sum", summation_text(path)},
+          {"pixels", fmt::format("{}", fmt::join(classes, "; "))},
+          {"spot_check", !path.check                      ? "none"
+                         : *path.check == Precision::fp64 ? "fp64"
+                                                          : "fp32"}};
+}
+
+} // namespace pmdsim
