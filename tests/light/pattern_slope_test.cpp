@@ -1,9 +1,12 @@
 #include "engine/light/pattern_slope.h"
 
+#include "tests/support/scenes.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace pmdsim;
+using test::cosine;
 
 namespace {
 
@@ -19,8 +22,6 @@ std::vector<CameraIlluminator> light_of(const std::vector<Pattern> &patterns) {
     illuminator.diodes.emplace_back().pattern = pattern;
   return {illuminator};
 }
-
-Pattern cosine(double order) { return {Pattern::Kind::cosine, order}; }
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "host/input/gltf/loader.h"
 #include "tests/host/input/gltf/builder.h"
+#include "tests/host/input/gltf/loaded_scene.h"
 #include "tests/host/input/gltf/moving_gltf.h"
 #include "tests/support/temporary_folder.h"
 
@@ -12,14 +13,6 @@ using namespace pmdsim::test;
 using nlohmann::json;
 
 namespace {
-
-constexpr double float_rounding = 1e-6; // the files hold floats
-
-GltfFile file_of(const json &gltf) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("scene.gltf", gltf.dump());
-  return load_gltf(file, Place{file});
-}
 
 // The triangle on node 0, one of whose properties is animated.
 GltfFile animated(const std::string &path, const std::string &interpolation,
