@@ -7,7 +7,8 @@
 
 namespace pmdsim {
 
-// Of the sum of the weights: (kappa * e)^K / K! of the moments left out (DESIGN section 4).
+// Of the sum of the weights: (kappa * e)^K / K! of the moments left out (docs/theory.md, "The sum by
+// moments").
 inline double largest_remainder(Precision precision) {
   return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The diodes cut into groups with a reference point each, so that the moments of DESIGN section 4 converge
-// fast and nothing cancels, and laid out as the accumulate pass reads them.
+// The diodes cut into groups with a reference point each, so that their moments (docs/theory.md, "The sum
+// by moments") converge fast and nothing cancels, and laid out as the accumulate pass reads them.
 
 #include "engine/light/camera_light.h"
 #include "engine/light/moment_polynomials.h"

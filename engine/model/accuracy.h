@@ -1,6 +1,6 @@
 #pragma once
-// How exact a frame shall be, and how exact it was found to be. The truth is the design's sum over the
-// sensor's S x S samples and all diodes in exact arithmetic.
+// How exact a frame shall be, and how exact it was found to be. The truth is eq. 5 to 7's sum over
+// the sensor's S x S samples and all diodes in exact arithmetic (docs/theory.md, "The measurement").
 
 #include <cstddef>
 #include <cstdint>

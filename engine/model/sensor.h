@@ -42,9 +42,9 @@ struct Chip {
 // cos4: a ray at the angle theta to the optical axis counts cos^4 theta.
 enum class Vignetting { none, cos4 };
 
-// The correlation function C of light and reference, of the phase x (DESIGN section 1): cos x; the triangle
-// wave (+1 at 0, -1 at pi) of square light on a square reference; or sum over h = 1, 2, ... of harmonics[h -
-// 1] * cos(h x).
+// The correlation function C of light and reference, of the phase x (docs/theory.md, "The measurement"): cos
+// x; the triangle wave (+1 at 0, -1 at pi) of square light on a square reference; or sum over h = 1, 2, ...
+// of harmonics[h - 1] * cos(h x).
 struct Waveform {
   enum class Kind { sine, square, harmonics };
   Kind kind = Kind::sine;

@@ -2,6 +2,7 @@
 // The read-back: from the device into the measurement, a strip's channels and what its samples' tags or
 // records tell.
 
+#include "engine/light/tones.h"
 #include "engine/model/measurement.h"
 #include "engine/sampling/strip_memory.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-// What a benchmark found, in Markdown for people and in JSON for scripts (DESIGN section 6).
+// What a benchmark found, in Markdown for people and in JSON for scripts (docs/commands.md, "JSON for
+// scripts").
 
 #include "host/bench/machine.h"
 #include "host/bench/modes.h"

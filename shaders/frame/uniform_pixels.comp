@@ -64,8 +64,8 @@ Seen see(uint pixel, ShortWayLight light) {
   return seen;
 }
 
-// What the places of a plane pixel that stand in for its samples may be off by, times the condition (ARCHITECTURE.md: "one place
-// for many samples"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
+// What the places of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
+// within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
 Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
   float depth = length(point) / length(ray);

@@ -1,4 +1,4 @@
-// A run's sum by moments (DESIGN: "Two ways to the sum"). With the group's reference point G, rho = |P - G| and e = r_nm -
+// A run's sum by moments (docs/theory.md, "The sum by moments"). With the group's reference point G, rho = |P - G| and e = r_nm -
 // rho, the return is
 //   exp(j 2 pi (rho + r_n) / lambda) * sum_k (j kappa)^k / k! * sum_m w_m e_m^k,    kappa = 2 pi f / c,
 // so the loop over the diodes holds no sine and no long path: float32 is enough for it at any range.

@@ -1,4 +1,4 @@
-// Where a sample lies on the chip (DESIGN section 2, eq. 1), and the ray that comes from it through the lens.
+// Where a sample lies on the chip (eq. 1; docs/theory.md, "Conventions"), and the ray that comes from it through the lens.
 #ifndef PMDSIM_CHIP_GLSL
 #define PMDSIM_CHIP_GLSL
 

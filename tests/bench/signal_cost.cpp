@@ -1,5 +1,6 @@
-// What frequencies and waveforms cost: the accumulate pass on scenes/paper_ring, in alternation, warm. Not a
-// test: times are reported, never asserted. Each variant is compared with the reference before it is timed.
+// What frequencies and waveforms cost: the accumulate pass on scenes/paper_ring.json, in alternation, warm.
+// Not a test: times are reported, never asserted. Each variant is compared with the reference before it is
+// timed.
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"

@@ -31,7 +31,7 @@ struct Comparison {
 Comparison compare(const Measurement &measured, const reference::Frame &expected, const Scene &scene,
                    const Sensor &sensor, const std::vector<bool> &left_out = {});
 
-// The figures that the README promises where both see the same; `pixels` of them at least.
+// The figures of docs/accuracy.md where both see the same; `pixels` of them at least.
 void check_values(const Comparison &comparison, std::size_t pixels);
 // And that they do nearly everywhere.
 void check_comparison(const Comparison &comparison, std::size_t pixels);

@@ -1,4 +1,5 @@
-// The samples' places on the chip as the shaders add them up, against DESIGN's section 2 and eq. 1.
+// The samples' places on the chip as the shaders add them up, against eq. 1 (docs/theory.md,
+// "Conventions").
 
 #include "engine/sampling/chip_place.h"
 

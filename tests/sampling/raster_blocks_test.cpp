@@ -26,7 +26,7 @@ glm::dvec2 on_raster(const RasterBlock &block, const glm::dvec3 &ray) {
   return glm::dvec2(h) / h.z;
 }
 
-// In the frame, in pixels: of sample `k` of `S` in a pixel (DESIGN section 2).
+// In the frame, in pixels: of sample `k` of `S` in a pixel (docs/theory.md, "Conventions").
 glm::dvec2 place_of(const Sensor &sensor, const glm::uvec2 &pixel, const glm::uvec2 &subsample) {
   return glm::dvec2(pixel) + 0.5 +
          ((glm::dvec2(subsample) + 0.5) / double(sensor.samples) - 0.5) * sensor.fill_factor;

@@ -1,4 +1,4 @@
-// The shipped scenes on the Vulkan device against the reference, with the figures that the README promises.
+// The shipped scenes on the Vulkan device against the reference, with the figures of docs/accuracy.md.
 
 #include "host/input/setup/setup.h"
 #include "tests/comparison/comparison.h"

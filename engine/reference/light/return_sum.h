@@ -13,7 +13,7 @@
 
 namespace pmdsim::reference {
 
-// The correlation function C of DESIGN section 1 at the phase 2 pi `turns`.
+// The correlation function C (docs/theory.md, "The measurement") at the phase 2 pi `turns`.
 double correlation(const Waveform &waveform, double turns);
 
 // Sums over light paths, before they are divided by the number of samples. A sine's paths are summed as

@@ -1,5 +1,5 @@
 #pragma once
-// A setup file (DESIGN: "The setup file"), loaded and checked once.
+// A setup file (docs/setup.md), loaded and checked once.
 
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"

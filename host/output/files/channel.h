@@ -1,5 +1,5 @@
 #pragma once
-// The channels of a frame as files name them (README: "What is written").
+// The channels of a frame as files name them (README.md, "Outputs").
 
 #include "engine/model/measurement.h"
 

@@ -34,7 +34,7 @@ bool is_possible(const Return &measured, double ambiguity_m, std::size_t pixel) 
          within(measured.distance_m[pixel], ambiguity_m);
 }
 
-// As DESIGN section 1 has it where |z| = 0.
+// As docs/theory.md, "The measurement", has it where |z| = 0.
 bool is_dark(const Return &measured, std::size_t pixel) {
   return measured.amplitude[pixel] == 0.0f && std::isnan(measured.phase_rad[pixel]) &&
          std::isnan(measured.distance_m[pixel]);

@@ -12,7 +12,7 @@ using namespace pmdsim;
 
 namespace {
 
-// The correlation function of a phase, in turns (DESIGN section 1).
+// The correlation function of a phase, in turns (docs/theory.md, "The measurement").
 double correlation(Waveform::Kind waveform, double turns) {
   if (waveform == Waveform::Kind::sine)
     return std::cos(2 * std::numbers::pi * turns);

@@ -1,4 +1,4 @@
-// Files that gltfpack 0.18 made of packed/plain.gltf are the plain file's scene to the precision of their
+// Files that gltfpack 0.18 made of plain.gltf are the plain file's scene to the precision of their
 // quantization. Made with "gltfpack -i plain.gltf -kn -ke" and
 //   quantized: nothing more; compressed_more: -cc; normalized: -vpn -c; floats: -noq -cc;
 //   with_fallback: -cf, whose fallback buffer's file is not there, as nothing needs it.

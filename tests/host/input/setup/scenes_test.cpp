@@ -59,13 +59,14 @@ TEST_CASE("Every setup that ships loads without a warning") {
   CHECK(found == expected.size());
 }
 
-TEST_CASE("The README shows the examples that ship") {
+TEST_CASE("The documents show the examples that ship") {
   const auto text_of = [](const std::filesystem::path &file) {
     std::ifstream stream(file);
     return std::string(std::istreambuf_iterator<char>(stream), {});
   };
   const std::filesystem::path folder = PMDSIM_SCENES;
-  const std::string readme = text_of(folder / ".." / "README.md");
+  const std::filesystem::path docs = folder / ".." / "docs";
+  const std::string documents = text_of(docs / "setup.md") + text_of(docs / "scenes.md");
   for (const char *name : {"sensor.json", "signal.json", "light.json", "motion.json"}) {
     const std::string text = text_of(folder / name);
     std::istringstream setup(text.substr(text.find("\n{") + 1));
@@ -73,7 +74,7 @@ TEST_CASE("The README shows the examples that ship") {
     for (std::string line; std::getline(setup, line);)
       shown += "    " + line + "\n";
     INFO(name);
-    CHECK(readme.find(shown) != std::string::npos);
+    CHECK(documents.find(shown) != std::string::npos);
   }
 }
 
