@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# All the set-up there is: ./do demo | run ARGS | test | bench [ARGS] | build | lint
+# All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | lint [--long]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build/release
 program=$build/bin/pmdsim
 
-# Debian's packages, by what needs them: the build, Vulkan at run time, the libraries, the tests, the linters.
+# Debian's packages, by what needs them: the build, Vulkan at run time, the libraries, the tests.
 packages=(
   g++ cmake ninja-build pkg-config
   libvulkan-dev libvulkan1 mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
@@ -14,7 +14,6 @@ packages=(
   libmeshoptimizer-dev libpng-dev libturbojpeg0-dev
   libopenexr-dev libcairo2-dev fonts-dejavu-core libtbb-dev
   catch2
-  clang-format clang-tidy
 )
 
 say() { printf '%s\n' "do: $*" >&2; }
@@ -24,12 +23,28 @@ usage() {
 usage: ./do COMMAND
   demo       install what is missing, build, compute the paper's figures 11 and 13
   run ARGS   run pmdsim with ARGS, e.g. ./do run deform scenes/paper_ring.json
-  test       build and run all tests; prints the accuracy tables
+  test       build and run what every change must pass, some minutes; prints the accuracy tables
+             --smoke  only a few cases of each kind, within a minute
+             --long   all tests there are, and lint --long
   bench      measure the throughput of the paper's ring and how time grows; ./do bench SETUP for a setup alone
   build      install what is missing and build
-  lint       check the formatting and run the static analysis
+  lint       check the formatting and look for mistakes with clang-tidy
+             --long   each source by itself, with clang's analyzer
 END
   exit 2
+}
+
+install() {
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+  say "installing with apt: $*"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >&2
+}
+
+update_package_lists() {
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+  "${as_root[@]}" apt-get update -qq >&2
 }
 
 # apt's own tools say what is missing; on another system the packages are the user's business.
@@ -41,23 +56,36 @@ install_missing() {
     grep -qE "^${package//+/\\+}(:[a-z0-9]+)? ii" <<<"$status" || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
-  say "installing with apt: ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq >&2
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+  update_package_lists
+  install "${missing[@]}"
 }
 
-# Builds $1 (a ninja target); silent where there is nothing to do.
+# Debian has clang-tidy-22 beside its clang-tidy, which is version 14 and takes more than twice the time.
+clang_tidy() { command -v clang-tidy-22 || command -v clang-tidy; }
+
+install_linters() {
+  if clang_tidy >/dev/null && command -v clang-format >/dev/null; then return; fi
+  command -v apt-get >/dev/null || return 0
+  update_package_lists
+  if apt-cache show clang-tidy-22 >/dev/null 2>&1; then
+    install clang-format clang-tidy-22
+  else
+    install clang-format clang-tidy
+  fi
+}
+
+# Builds $1 (a ninja target) of the preset $2, release without it; silent where there is nothing to do.
 build_target() {
-  if [ -f "$build/build.ninja" ] && ninja -C "$build" -n "$1" 2>/dev/null | grep -q 'no work to do'; then return; fi
+  local preset=${2:-release} folder
+  folder=$root/build/$preset
+  if [ -f "$folder/build.ninja" ] && ninja -C "$folder" -n "$1" 2>/dev/null | grep -q 'no work to do'; then return; fi
   install_missing
-  if [ ! -f "$build/build.ninja" ]; then
-    say "configuring in ${build#"$PWD"/}"
-    (cd "$root" && cmake --preset release) >&2
+  if [ ! -f "$folder/build.ninja" ]; then
+    say "configuring in ${folder#"$PWD"/}"
+    (cd "$root" && cmake --preset "$preset") >&2
   fi
   say "building (a few minutes the first time)"
-  cmake --build "$build" --target "$1" >&2
+  cmake --build "$folder" --target "$1" >&2
 }
 
 demo() {
@@ -75,20 +103,49 @@ demo() {
   printf '%s\n' "Figure 11 of the paper is paper_ring/, figure 13 paper_half_ring/, figure 6's pattern paper_moire/."
 }
 
-# The quick ones first; then those that print accuracy tables, which are shown in full.
+# ctest with arguments $@; then all that the tests print, accuracy tables above all; ctest's summary comes last.
 run_tests() {
-  ctest --test-dir "$build" --output-on-failure --label-exclude table --parallel 2
-  ctest --test-dir "$build" --output-on-failure --label-regex table --parallel 2
+  local summary=$build/ctest_summary.txt
+  ctest --test-dir "$build" --output-on-failure --parallel 2 "$@" | tee "$summary"
   cat "$build/Testing/Temporary/LastTest.log"
+  sed -n '/tests passed/,$p' "$summary"
 }
 
-lint() {
-  local folders=("$root/engine" "$root/host" "$root/tests") sources=()
+run_smoke_tests() { ctest --test-dir "$build" --output-on-failure --parallel 2 --label-regex smoke; }
+
+check_format() {
+  local folders=("$root/engine" "$root/host" "$root/tests")
   find "${folders[@]}" -name '*.cpp' -o -name '*.h' | xargs clang-format --dry-run -Werror
-  mapfile -t sources < <(find "$root/engine" "$root/host" -name '*.cpp' | sort)
-  say "clang-tidy over ${#sources[@]} files"
-  printf '%s\0' "${sources[@]}" | xargs -0 -n 2 -P "$(nproc)" clang-tidy -p "$build" --quiet \
+}
+
+# The program's sources as they are compiled in the preset $1: each room as one, or each by itself.
+sources_of() {
+  grep -oE '"file": "[^"]*"' "$root/build/$1/compile_commands.json" | cut -d'"' -f4 |
+    grep -E "^$root/(build/$1/)?(engine|host)/" | sort -u
+}
+
+# clang-tidy over the sources of the preset $1 with the checks $2 beside those of .clang-tidy, the longest first.
+tidy() {
+  local sources=()
+  mapfile -t sources < <(sources_of "$1" | xargs wc -c | sort -rn | awk '$2 != "total" { print $2 }')
+  say "$(clang_tidy) over ${#sources[@]} files"
+  printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" "$(clang_tidy)" -p "$root/build/$1" --quiet --checks="$2" \
     2> >(grep -v ' warnings generated' >&2)
+}
+
+# A room's sources together are parsed once, but the analyzer passes over what is included: it needs each by itself.
+lint() {
+  install_linters
+  build_target pmdsim_spirv
+  check_format
+  tidy release '-clang-analyzer-*,-bugprone-suspicious-include'
+}
+
+lint_long() {
+  install_linters
+  build_target pmdsim_spirv dev
+  check_format
+  tidy dev ''
 }
 
 command=${1:-}
@@ -104,7 +161,15 @@ run)
   ;;
 test)
   build_target all
-  run_tests
+  case ${1:-} in
+  --smoke) run_smoke_tests ;;
+  --long)
+    lint_long
+    run_tests --label-exclude smoke
+    ;;
+  '') run_tests --label-exclude 'long|smoke' ;;
+  *) usage ;;
+  esac
   ;;
 bench)
   build_target pmdsim
@@ -112,8 +177,11 @@ bench)
   ;;
 build) build_target all ;;
 lint)
-  build_target all
-  lint
+  case ${1:-} in
+  --long) lint_long ;;
+  '') lint ;;
+  *) usage ;;
+  esac
   ;;
 *) usage ;;
 esac

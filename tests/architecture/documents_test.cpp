@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = PMDSIM_SOURCE_DIR;
+const fs::path repository = PMDSIM_SOURCE_DIR;
 constexpr std::ptrdiff_t most_lines = 150, most_terms = 25;
 
 std::string text_of(const fs::path &file) {
@@ -26,7 +26,7 @@ std::string text_of(const fs::path &file) {
 
 std::vector<fs::path> documents() {
   std::vector<fs::path> found;
-  for (const fs::path &folder : {root, root / "docs"})
+  for (const fs::path &folder : {repository, repository / "docs"})
     for (const auto &entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".md")
         found.push_back(entry.path());
@@ -38,7 +38,7 @@ const std::vector<fs::path> &sources() {
     const std::set<std::string> extensions{".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"};
     std::vector<fs::path> files;
     for (const char *folder : {"engine", "host", "shaders", "tests"})
-      for (const auto &entry : fs::recursive_directory_iterator(root / folder))
+      for (const auto &entry : fs::recursive_directory_iterator(repository / folder))
         if (extensions.contains(entry.path().extension().string()))
           files.push_back(entry.path());
     return files;
@@ -80,9 +80,9 @@ bool is_base_name(const std::string &name) {
   return names.contains(name);
 }
 
-// From the root, from the folder of the file that says so, or a name alone, wherever it is.
+// From the repository, from the folder of the file that says so, or a name alone, wherever it is.
 bool exists(const std::string &name, const fs::path &folder) {
-  return fs::exists(root / name) || fs::exists(folder / name) ||
+  return fs::exists(repository / name) || fs::exists(folder / name) ||
          (name.find('/') == std::string::npos && is_base_name(name));
 }
 
@@ -126,7 +126,7 @@ std::vector<std::string> missing_sections(const std::string &text) {
   static const std::regex section("([\\w./-]+\\.md)[,:]? \"([^\"]+)\"");
   std::vector<std::string> missing;
   for (const std::smatch &match : matches(text, section))
-    if (!sections_of(root / match[1].str()).contains(match[2]))
+    if (!sections_of(repository / match[1].str()).contains(match[2]))
       missing.push_back(match[0]);
   return missing;
 }
@@ -158,13 +158,13 @@ std::vector<std::string> strangers(const std::string &text) {
   static const std::regex inside(R"(`(\w+)`\s+in\s+`([\w./-]+\.\w+)`)");
   std::vector<std::string> found;
   for (const std::smatch &match : matches(text, inside))
-    if (text_of(root / match[2].str()).find(match[1]) == std::string::npos)
+    if (text_of(repository / match[2].str()).find(match[1]) == std::string::npos)
       found.push_back(match[0]);
   return found;
 }
 
 std::ptrdiff_t lines_of(const char *page) {
-  const std::string text = text_of(root / page);
+  const std::string text = text_of(repository / page);
   return std::ranges::count(text, '\n');
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("comments name files and sections that exist") {
 TEST_CASE("the pages that are read first are short") {
   CHECK(lines_of("README.md") <= most_lines);
   CHECK(lines_of("ARCHITECTURE.md") <= most_lines);
-  const std::string glossary = text_of(root / "docs" / "glossary.md");
+  const std::string glossary = text_of(repository / "docs" / "glossary.md");
   const std::string terms = glossary.substr(0, glossary.find("\n## "));
   const auto rows =
       std::ssize(matches(terms, std::regex(R"(\n\| )"))) - 1; // without the heads of the columns
@@ -204,16 +204,16 @@ TEST_CASE("the pages that are read first are short") {
 }
 
 TEST_CASE("every page can be reached from the README") {
-  const std::string readme = text_of(root / "README.md");
+  const std::string readme = text_of(repository / "README.md");
   for (const fs::path &page : documents()) {
-    const std::string name = fs::relative(page, root);
+    const std::string name = fs::relative(page, repository);
     INFO(name);
     CHECK((name == "README.md" || readme.find("](" + name) != std::string::npos));
   }
 }
 
 TEST_CASE("a name that leads nowhere is noticed") {
-  const fs::path folder = root / "engine" / "light";
+  const fs::path folder = repository / "engine" / "light";
   CHECK(missing_names("`engine/light/tones.h`, tones.h, `tests/light` and tests/<room>", folder).empty());
   CHECK(missing_names("vulkan.hpp, *.cpp, build/release/tests/bench and engine/light.", folder).empty());
   CHECK(missing_names("see engine/light/no_such_room", folder).size() == 1);
@@ -224,9 +224,9 @@ TEST_CASE("a name that leads nowhere is noticed") {
   CHECK(missing_sections(R"(docs/theory.md, "No such section")").size() == 1);
   CHECK(missing_sections(R"(docs/no_such_page.md, "Conventions")").size() == 1);
   CHECK(anchor_of("Rounding: what keeps float32 honest") == "rounding-what-keeps-float32-honest");
-  CHECK(leads_somewhere("docs/theory.md#conventions", root / "README.md"));
-  CHECK_FALSE(leads_somewhere("docs/theory.md#no-such-section", root / "README.md"));
-  CHECK_FALSE(leads_somewhere("theory.md", root / "README.md"));
+  CHECK(leads_somewhere("docs/theory.md#conventions", repository / "README.md"));
+  CHECK_FALSE(leads_somewhere("docs/theory.md#no-such-section", repository / "README.md"));
+  CHECK_FALSE(leads_somewhere("theory.md", repository / "README.md"));
   CHECK(strangers("`see_path` in `shaders/light/sum.glsl`").empty());
   CHECK(strangers("`no_such_function` in `shaders/light/sum.glsl`").size() == 1);
 }

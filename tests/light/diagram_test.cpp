@@ -10,7 +10,7 @@ using namespace pmdsim::test;
 
 namespace {
 
-std::vector<double> every(double step_rad, std::size_t count) {
+std::vector<double> angles(double step_rad, std::size_t count) {
   std::vector<double> angles(count);
   for (std::size_t i = 0; i < count; ++i)
     angles[i] = static_cast<double>(i) * step_rad;
@@ -52,7 +52,7 @@ TEST_CASE("a table of cos^3 at 1 degree is order 3") {
   const auto places = ring(48, 0.166);
   const Pattern order{Pattern::Kind::cosine, 3.0};
   const WallCase by_order{.name = "order 3", .lights = {{light_at(places, 0, order), cosine3}}};
-  const Pattern by_degree = table(every(degree, 91), {0}, cosine3);
+  const Pattern by_degree = table(angles(degree, 91), {0}, cosine3);
   const WallCase by_table{
       .name = "cos^3 at 1 degree",
       .lights = {{light_at(places, 0, by_degree), bilinear(degree, full_turn_rad, cosine3)}}};
@@ -74,7 +74,7 @@ TEST_CASE("a table of cos^3 at 1 degree is order 3") {
 
 TEST_CASE("an elliptical diagram turns with what lies across the diode's axis") {
   const Gain gain = bilinear(degree, 5 * degree, ellipse);
-  const Pattern wide_across = table(every(degree, 181), every(5 * degree, 72), ellipse);
+  const Pattern wide_across = table(angles(degree, 181), angles(5 * degree, 72), ellipse);
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.2, -0.1, 1.0));
   const glm::dvec3 level = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), axis));
   for (const double roll_deg : {0.0, 30.0, 200.0}) {
@@ -90,7 +90,7 @@ TEST_CASE("an elliptical diagram turns with what lies across the diode's axis") 
 }
 
 TEST_CASE("an elliptical diagram is the ellipse, and wider across") {
-  const Pattern wide_across = table(every(degree, 181), every(5 * degree, 72), ellipse);
+  const Pattern wide_across = table(angles(degree, 181), angles(5 * degree, 72), ellipse);
   WallCase rolled{.name = "", .lights = {{light_at({{0, 0, 0}}, 0, wide_across), ellipse}}};
   rolled.lights[0].illuminator.diodes[0].across = {0, 1, 0}; // upright in the image
   const Errors errors = errors_of(rolled, {});
@@ -131,7 +131,7 @@ TEST_CASE("a diagram with a hole on its axis") {
 TEST_CASE("a beam of one degree") {
   const Gain narrow = [](const Angles &angles) { return std::exp(-std::pow(angles.theta_rad / 0.004, 2)); };
   WallCase beam{.name = "a beam of one degree",
-                .lights = {{light_at(ring(16, 0.01), 0, table(every(0.02 * degree, 101), {0}, narrow)),
+                .lights = {{light_at(ring(16, 0.01), 0, table(angles(0.02 * degree, 101), {0}, narrow)),
                             bilinear(0.02 * degree, full_turn_rad, narrow)}}};
   beam.sensor.pixel_pitch_m = glm::dvec2(2.5e-4); // 0.9 degrees
   check_wall(beam, 1e-4);
@@ -155,7 +155,7 @@ TEST_CASE("every kind of pattern in one light") {
       {{Pattern::Kind::cosine, 3.0}, cosine3},
       {{Pattern::Kind::cosine, 0.5}, [](const Angles &a) { return std::sqrt(std::cos(a.theta_rad)); }},
       {table({0, 2.0}, {0}, flat), flat},
-      {table(every(degree, 91), every(10 * degree, 36), ellipse), bilinear(degree, 10 * degree, ellipse)}};
+      {table(angles(degree, 91), angles(10 * degree, 36), ellipse), bilinear(degree, 10 * degree, ellipse)}};
   double x_m = -0.2;
   for (const auto &[pattern, gain] : kinds)
     mixed.lights.push_back(

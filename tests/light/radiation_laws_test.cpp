@@ -1,11 +1,14 @@
 #include "engine/light/radiation_laws.h"
 
+#include "tests/support/scenes.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 using namespace pmdsim;
+using test::cosine;
 
 namespace {
 
@@ -21,8 +24,6 @@ std::vector<CameraIlluminator> light_of(const std::vector<Pattern> &patterns) {
     illuminator.diodes.emplace_back().pattern = pattern;
   return {illuminator};
 }
-
-Pattern cosine(double order) { return {Pattern::Kind::cosine, order}; }
 
 } // namespace
 

@@ -80,11 +80,9 @@ std::vector<bool> in_grazing_light(const reference::Frame &frame, const Scene &s
   return grazing;
 }
 
-} // namespace
-
-TEST_CASE("random lights agree with the reference") {
+void check_random_lights(std::uint32_t first, std::uint32_t last) {
   fmt::print("{}", comparison_heading());
-  for (std::uint32_t seed = 500; seed < 518; ++seed) {
+  for (std::uint32_t seed = first; seed < last; ++seed) {
     Random random(seed);
     const Sensor sensor = sensor_for(random, seed);
     const Scene scene = random_triangles(random, 60, sensor.world_from_camera);
@@ -109,3 +107,9 @@ TEST_CASE("random lights agree with the reference") {
     CHECK(comparison.disagreements == 0);
   }
 }
+
+} // namespace
+
+TEST_CASE("some random lights agree with the reference", "[smoke]") { check_random_lights(500, 504); }
+
+TEST_CASE("random lights agree with the reference", "[long]") { check_random_lights(500, 518); }

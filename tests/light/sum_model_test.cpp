@@ -2,13 +2,14 @@
 
 #include "engine/light/accumulate_pass.h"
 
+#include "tests/support/scenes.h"
+
 #include <catch2/catch.hpp>
 
 using namespace pmdsim;
+using test::cosine;
 
 namespace {
-
-Pattern cosine(double order) { return {Pattern::Kind::cosine, order}; }
 
 Pattern table(const std::vector<double> &phi_rad) {
   const Diagram diagram{{0, 1}, phi_rad, std::vector<double>(2 * phi_rad.size(), 1.0)};

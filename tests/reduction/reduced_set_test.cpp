@@ -2,6 +2,7 @@
 // bound.
 
 #include "engine/reduction/reduced_set.h"
+#include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <random>
 
 using namespace pmdsim;
+using test::cosine;
 
 namespace {
 
@@ -67,8 +69,6 @@ std::vector<Diode> turned(std::vector<Diode> diodes, const glm::dmat3 &rotation)
   }
   return diodes;
 }
-
-Pattern cosine(double order) { return {Pattern::Kind::cosine, order}; }
 
 Boxes wall(double half_m, double z_m) { return {{{-half_m, -half_m, z_m}, {half_m, half_m, z_m}}}; }
 

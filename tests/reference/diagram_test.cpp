@@ -13,7 +13,7 @@ using namespace pmdsim::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double radians(double deg) { return deg * pi / 180; }
 

@@ -32,7 +32,7 @@ Scene disc_at(const glm::dvec3 &centre_m, double radius_m, const Surface &surfac
   return scene;
 }
 
-reference::Frame frame_of(const Scene &scene, const Sensor &sensor, const Diode &diode = {},
+reference::Frame disc_frame(const Scene &scene, const Sensor &sensor, const Diode &diode = {},
                           Backscatter backscatter = Backscatter::lambert) {
   return reference::simulate(scene, sensor, {diode_beside_lens(sensor, diode)}, backscatter);
 }
@@ -58,12 +58,12 @@ double mean(const std::vector<double> &values) {
 
 TEST_CASE("a disc covers its area") {
   const double radius_m = 0.3;
-  const auto frame = frame_of(disc_at({0.03, -0.05, 1}, radius_m), square_view());
+  const auto frame = disc_frame(disc_at({0.03, -0.05, 1}, radius_m), square_view());
   // The view is a plane across the axis, the disc leans by its centre's slope: of the second order.
   const double slope = std::hypot(0.03, 0.05);
   CHECK(mean(frame.coverage) ==
         Approx(std::numbers::pi * radius_m * radius_m).epsilon(1e-3 + 2 * slope * slope));
-  const auto on_axis = frame_of(disc_at({0, 0, 1}, radius_m), square_view());
+  const auto on_axis = disc_frame(disc_at({0, 0, 1}, radius_m), square_view());
   CHECK(mean(on_axis.coverage) == Approx(std::numbers::pi * radius_m * radius_m).epsilon(1e-3));
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a disc smaller than a pixel returns light by its share of the pixel")
   sensor.samples = 16;
   Diode diode;
   diode.intensity_w_sr = intensity_w_sr;
-  const auto frame = frame_of(disc_at({0, 0, z_m}, radius_m, {rho}), sensor, diode);
+  const auto frame = disc_frame(disc_at({0, 0, z_m}, radius_m, {rho}), sensor, diode);
   // Of the 16 x 16 samples those in a circle of 4 spacings about a corner of their grid: 52.
   CHECK(frame.coverage[0] == 52 / 256.0);
   CHECK(frame.coverage[0] == Approx(std::numbers::pi * std::pow(radius_m / pixel_m, 2)).epsilon(0.05));
@@ -107,18 +107,18 @@ TEST_CASE("a disc's rim belongs to it") {
 
 TEST_CASE("the light on a disc falls by the angle to the line to the lens") {
   const glm::dvec3 position_m(2, 0, 0);
-  const auto frame = frame_of(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at(position_m));
+  const auto frame = disc_frame(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at(position_m));
   CHECK(frame.returns[0].amplitude[0] == Approx(std::sqrt(0.5) / std::numbers::pi / 8).epsilon(1e-5));
   CHECK(frame.returns[0].distance_m[0] == Approx((2 + std::sqrt(8)) / 2).epsilon(1e-6));
   // One behind the disc does not reach the side that the lens sees.
-  CHECK(frame_of(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at({0, 0, 3})).returns[0].amplitude[0] == 0);
+  CHECK(disc_frame(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at({0, 0, 3})).returns[0].amplitude[0] == 0);
 }
 
 TEST_CASE("a disc hides what is behind it and is hidden by what is before it") {
   const double disc_m = GENERATE(1.0, 3.0);
   Scene scene = wall_at(2);
   add_disc(scene, {0, 0, disc_m}, 0.1);
-  const auto frame = frame_of(scene, axial_sensor());
+  const auto frame = disc_frame(scene, axial_sensor());
   const bool disc_seen = disc_m < 2;
   CHECK(frame.triangle_id[0] == (disc_seen ? 2 : frame.triangle_id[0]));
   CHECK((frame.triangle_id[0] >= 2) == disc_seen);
@@ -131,7 +131,7 @@ TEST_CASE("of discs the nearest is seen, of equal ones the lowest id, a triangle
   add_disc(scene, {0, 0, 1.5}, 0.5);
   add_disc(scene, {0, 0, 1.5}, 0.5);
   add_disc(scene, {0.4, 0, 1}, 0.1); // beside the axis
-  CHECK(frame_of(scene, axial_sensor()).triangle_id[0] == 1);
+  CHECK(disc_frame(scene, axial_sensor()).triangle_id[0] == 1);
 
   Sensor sensor = axial_sensor({1, 1});
   sensor.pixel_pitch_m = glm::dvec2(1e-30);
@@ -139,7 +139,7 @@ TEST_CASE("of discs the nearest is seen, of equal ones the lowest id, a triangle
   builder.add_triangle({-9, -9, 1.5}, {-9, 9, 1.5}, {9, 0, 1.5});
   Scene touching = builder.scene();
   add_disc(touching, {0, 0, 1.5}, 0.5);
-  CHECK(frame_of(touching, sensor).triangle_id[0] == 0);
+  CHECK(disc_frame(touching, sensor).triangle_id[0] == 0);
 }
 
 TEST_CASE("the nearest of many discs and triangles is the one that a search over all finds") {
@@ -172,9 +172,9 @@ TEST_CASE("the nearest of many discs and triangles is the one that a search over
 
 TEST_CASE("a disc about the lens itself is not there") {
   Scene scene = disc_at({0, 0, 0}, 0.5);
-  CHECK(frame_of(scene, axial_sensor()).coverage[0] == 0);
+  CHECK(disc_frame(scene, axial_sensor()).coverage[0] == 0);
   add_disc(scene, {0, 0, 1}, 0.5);
-  const auto frame = frame_of(scene, axial_sensor());
+  const auto frame = disc_frame(scene, axial_sensor());
   CHECK(frame.triangle_id[0] == 1);
   CHECK(std::isfinite(frame.returns[0].amplitude[0]));
 }
@@ -191,7 +191,7 @@ TEST_CASE("a disc has its vertex's colour") {
   scene.colours.resize(5, glm::vec4(1));
   scene.colours[4] = {0.5f, 0.25f, 1, 1};
   const auto amplitude = [&] {
-    return frame_of(scene, axial_sensor(), {}, Backscatter::constant).returns[0].amplitude[0];
+    return disc_frame(scene, axial_sensor(), {}, Backscatter::constant).returns[0].amplitude[0];
   };
   CHECK(amplitude() == Approx(0.125 + 0.5 * 0.25 + 0.25 * 0.25).epsilon(1e-10));
   // Its texel's alpha is 1/4.
@@ -211,5 +211,5 @@ TEST_CASE("discs stand where the camera's pose puts them") {
   scene.objects = {"point"};
   Sensor sensor = axial_sensor();
   sensor.world_from_camera = world_from_camera;
-  CHECK(frame_of(scene, sensor).range_m[0] == Approx(7).epsilon(1e-10));
+  CHECK(disc_frame(scene, sensor).range_m[0] == Approx(7).epsilon(1e-10));
 }

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-using namespace pmdsim::reference;
+using pmdsim::reference::for_each_row;
 
 TEST_CASE("every row is worked on once, by any number of threads") {
   const unsigned threads = GENERATE(0u, 1u, 2u, 5u);

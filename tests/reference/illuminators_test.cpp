@@ -13,7 +13,7 @@ using namespace pmdsim::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Illuminator monostatic_with_phase(const Sensor &sensor, double phase_rad) {
   Illuminator light = monostatic_illuminator(sensor.world_from_camera);

@@ -4,6 +4,7 @@
 #include "engine/reference/view/camera_frame.h"
 #include "engine/reference/view/lens_model.h"
 #include "tests/support/random_scenes.h"
+#include "tests/reference/monostatic_frame.h"
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
@@ -47,11 +48,6 @@ double largest_way_and_back_error(const Sensor &sensor) {
       largest = std::max(largest, glm::length(error_m / sensor.pixel_pitch_m));
     }
   return largest;
-}
-
-reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                             Backscatter::constant);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "engine/reference/reference.h"
 #include "tests/support/random_scenes.h"
+#include "tests/reference/monostatic_frame.h"
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
@@ -43,11 +44,6 @@ Paint paint_with(const glm::uvec2 &size, const std::vector<glm::vec4> &texels, T
 
 glm::vec4 grey(float value, float alpha = 1.0f) { return {value, value, value, alpha}; }
 
-reference::Frame frame_of(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                             Backscatter::constant);
-}
-
 // What the pixels' reflectivities must have been: the constant backscatter of the monostatic unit light.
 std::vector<double> reflectivities(const reference::Frame &frame) {
   std::vector<double> result = frame.returns[0].amplitude;
@@ -78,14 +74,14 @@ TEST_CASE("a checker's texels are the pixels that they fill") {
     }
   const auto filter = GENERATE(TextureFilter::nearest, TextureFilter::linear);
   // At the texels' centres; the weights 0.2, 0.5 and 0.3 of a grey add up to 1.
-  check_close(reflectivities(frame_of(painted_wall(paint_with({4, 4}, texels, filter)), square_view(4))),
+  check_close(reflectivities(monostatic_frame(painted_wall(paint_with({4, 4}, texels, filter)), square_view(4))),
               expected);
 }
 
 TEST_CASE("row 0 of a texture is at the top, its columns run to the right") {
   const auto paint =
       paint_with({2, 2}, {grey(0.1f), grey(0.2f), grey(0.3f), grey(0.4f)}, TextureFilter::nearest);
-  check_close(reflectivities(frame_of(painted_wall(paint), square_view(2))), {0.1f, 0.2f, 0.3f, 0.4f});
+  check_close(reflectivities(monostatic_frame(painted_wall(paint), square_view(2))), {0.1f, 0.2f, 0.3f, 0.4f});
 }
 
 TEST_CASE("a wall whose coordinates run beyond the texture wraps it") {
@@ -100,7 +96,7 @@ TEST_CASE("a wall whose coordinates run beyond the texture wraps it") {
   scene.texture_coordinates = {{-1, 0}, {-1, 1}, {2, 1}, {2, 0}};
   Sensor sensor = square_view(6);
   sensor.resolution = {6, 1};
-  check_close(reflectivities(frame_of(scene, sensor)), expected);
+  check_close(reflectivities(monostatic_frame(scene, sensor)), expected);
 }
 
 TEST_CASE("a colour's red, green and blue count by the paint's weights, beside what the surface has") {
@@ -108,15 +104,15 @@ TEST_CASE("a colour's red, green and blue count by the paint's weights, beside w
   paint.reflectivity_rgb = {0.25, 0.5, 0.125};
   Scene scene = painted_wall(paint, 0.0625);
   scene.colours.assign(4, {1.0f, 0.5f, 0.25f, 0.0f});
-  check_close(reflectivities(frame_of(scene, square_view(1))), {0.0625 + 0.25 + 0.25 + 0.03125});
+  check_close(reflectivities(monostatic_frame(scene, square_view(1))), {0.0625 + 0.25 + 0.25 + 0.03125});
   scene.colours.clear(); // white
-  check_close(reflectivities(frame_of(scene, square_view(1))), {0.0625 + 0.25 + 0.5 + 0.125});
+  check_close(reflectivities(monostatic_frame(scene, square_view(1))), {0.0625 + 0.25 + 0.5 + 0.125});
 }
 
 TEST_CASE("a paint that takes more than the surface has leaves black, not less") {
   Paint paint;
   paint.reflectivity_rgb = {-1, 0, 0};
-  const auto frame = frame_of(painted_wall(paint, 0.5), square_view(1));
+  const auto frame = monostatic_frame(painted_wall(paint, 0.5), square_view(1));
   CHECK(frame.returns[0].amplitude[0] == 0);
   CHECK(std::isnan(frame.returns[0].distance_m[0]));
   CHECK(frame.coverage[0] == 1);
@@ -139,7 +135,7 @@ TEST_CASE("vertex colours are linear on the triangle") {
     sensor.world_from_camera = compose(
         sensor.world_from_camera, {glm::dmat3(right, glm::cross(forward, right), forward), glm::dvec3(0)});
     const double range_m = glm::length(point_m);
-    const auto frame = frame_of(scene, sensor);
+    const auto frame = monostatic_frame(scene, sensor);
     CHECK(frame.range_m[0] == Approx(range_m).epsilon(1e-9));
     return frame.returns[0].amplitude[0] * range_m * range_m;
   };
@@ -157,7 +153,7 @@ TEST_CASE("a vertex colour multiplies the texel") {
   scene.colours.assign(4, {0.25f, 1, 0.5f, 1});
   Sensor sensor = square_view(2);
   sensor.resolution = {2, 1};
-  check_close(reflectivities(frame_of(scene, sensor)),
+  check_close(reflectivities(monostatic_frame(scene, sensor)),
               {0.2 * 0.125 + 0.5 * 0.25 + 0.3 * 0.5, 0.2 * 0.25 + 0.5 * 0.5});
 }
 
@@ -170,7 +166,7 @@ TEST_CASE("a gradient is the same across the edge that two triangles share") {
   // u = 1/4 ... 3/4 along x: the texture's linear part.
   for (glm::dvec2 &coordinates : scene.texture_coordinates)
     coordinates.x = 0.25 + coordinates.x / 2;
-  const auto found = reflectivities(frame_of(scene, square_view(9)));
+  const auto found = reflectivities(monostatic_frame(scene, square_view(9)));
   for (std::size_t pixel = 0; pixel < found.size(); ++pixel)
     CHECK(found[pixel] == Approx((static_cast<double>(pixel % 9) + 0.5) / 9).epsilon(1e-12));
 }
@@ -199,7 +195,7 @@ TEST_CASE("through a hole in a mask the wall behind is seen") {
   Sensor sensor = square_view(1);
   sensor.samples = 12; // 144, of which 16 go through
   sensor.modulation_hz = {1e6};
-  const auto frame = frame_of(scene, sensor);
+  const auto frame = monostatic_frame(scene, sensor);
   for (std::uint32_t row = 0; row < 12; ++row)
     for (std::uint32_t column = 0; column < 12; ++column) {
       const bool open = row / 4 == 1 && column / 4 == 1;
@@ -211,7 +207,7 @@ TEST_CASE("through a hole in a mask the wall behind is seen") {
 
   // Without the wall behind the hole sees nothing, and the pixel's centre is in it.
   scene.triangles.resize(2);
-  const auto open = frame_of(scene, sensor);
+  const auto open = monostatic_frame(scene, sensor);
   CHECK(open.coverage[0] == 128 / 144.0);
   CHECK(open.z_m[0] == Approx(1).epsilon(1e-14));
   CHECK(open.triangle_id[0] == no_id);
@@ -219,7 +215,7 @@ TEST_CASE("through a hole in a mask the wall behind is seen") {
   // And a view through the hole alone reads the wall's distance.
   Sensor through = axial_sensor();
   scene.triangles.insert(scene.triangles.end(), {{{4, 5, 6}, 1, 1}, {{4, 6, 7}, 1, 1}});
-  const auto far = frame_of(scene, through);
+  const auto far = monostatic_frame(scene, through);
   CHECK(far.returns[0].distance_m[0] == Approx(3).epsilon(1e-12));
   CHECK(far.returns[0].amplitude[0] == Approx(0.5 / 9).epsilon(1e-10));
 }
@@ -231,7 +227,7 @@ TEST_CASE("a mask is there where its alpha is its cutoff, and not where it is be
   Scene scene = painted_wall(paint, 1.0);
   const auto coverage = [&](float vertex_alpha) {
     scene.colours.assign(4, grey(1, vertex_alpha));
-    const auto frame = frame_of(scene, square_view(31));
+    const auto frame = monostatic_frame(scene, square_view(31));
     return std::accumulate(frame.coverage.begin(), frame.coverage.end(), 0.0) / (31 * 31);
   };
   CHECK(coverage(1.0f) == 1);
@@ -242,7 +238,7 @@ TEST_CASE("a mask is there where its alpha is its cutoff, and not where it is be
 TEST_CASE("without a cutoff the most transparent surface is there") {
   Paint paint;
   paint.alpha = 0;
-  CHECK(frame_of(painted_wall(paint, 1.0), square_view(1)).coverage[0] == 1);
+  CHECK(monostatic_frame(painted_wall(paint, 1.0), square_view(1)).coverage[0] == 1);
 }
 
 TEST_CASE("a mask's edge between vertices is where its alpha crosses the cutoff") {
@@ -252,7 +248,7 @@ TEST_CASE("a mask's edge between vertices is where its alpha crosses the cutoff"
   scene.colours = {grey(1, 0), grey(1, 0), grey(1, 1), grey(1, 1)}; // alpha = x + 1/2
   Sensor sensor = square_view(100);
   sensor.resolution = {100, 3};
-  const auto frame = frame_of(scene, sensor);
+  const auto frame = monostatic_frame(scene, sensor);
   for (std::size_t pixel = 0; pixel < frame.coverage.size(); ++pixel)
     CHECK(frame.coverage[pixel] == (pixel % 100 >= 30 ? 1 : 0));
 }
@@ -272,6 +268,6 @@ TEST_CASE("of stacked masks the nearest closed one is seen, whatever their order
       builder.add_wall({z_m, {1.0, random.flip(), is_open ? open : closed}});
       nearest_m = is_open ? nearest_m : std::min(nearest_m, z_m);
     }
-    CHECK(frame_of(builder.scene(), axial_sensor()).range_m[0] == Approx(nearest_m).epsilon(1e-10));
+    CHECK(monostatic_frame(builder.scene(), axial_sensor()).range_m[0] == Approx(nearest_m).epsilon(1e-10));
   }
 }

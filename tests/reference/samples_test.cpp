@@ -1,6 +1,7 @@
 // Where samples lie, how they count, and which of them gives a pixel its ids.
 
 #include "engine/reference/reference.h"
+#include "tests/reference/monostatic_frame.h"
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
@@ -18,11 +19,6 @@ Sensor one_wide_pixel(std::uint32_t samples) {
   sensor.pixel_pitch_m = glm::dvec2(0.1);
   sensor.samples = samples;
   return sensor;
-}
-
-reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                             Backscatter::constant);
 }
 
 // One small triangle around each of the points where the rays of an S x S grid of samples cross z = 1, in row

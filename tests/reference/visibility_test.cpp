@@ -2,6 +2,7 @@
 
 #include "engine/reference/reference.h"
 #include "engine/reference/view/ray_caster.h"
+#include "tests/reference/shadow_fixture.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 
@@ -15,14 +16,6 @@ using reference::Hit;
 using reference::RayCaster;
 
 namespace {
-
-Sensor wide_sensor(const glm::uvec2 &resolution, double view_per_depth) {
-  Sensor sensor;
-  sensor.resolution = resolution;
-  sensor.focal_length_m = 0.1;
-  sensor.pixel_pitch_m = view_per_depth * sensor.focal_length_m / glm::dvec2(resolution);
-  return sensor;
-}
 
 std::vector<CameraTriangle> triangles_of(const Scene &scene) {
   return reference::triangles_in_camera(scene, Sensor{});

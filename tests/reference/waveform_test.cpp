@@ -3,6 +3,7 @@
 #include "engine/reference/light/return_sum.h"
 #include "engine/reference/reference.h"
 #include "tests/support/random_scenes.h"
+#include "tests/reference/monostatic_frame.h"
 #include "tests/support/scenes.h"
 #include "tests/support/units.h"
 
@@ -32,11 +33,6 @@ Scene slanted_wall() {
   SceneBuilder builder;
   builder.add_mesh({{-9, -1, 1}, {-9, 3, 5}, {9, 3, 5}, {9, -1, 1}}, {{0, 1, 2}, {0, 2, 3}});
   return builder.scene();
-}
-
-reference::Frame monostatic_frame(const Scene &scene, const Sensor &sensor) {
-  return reference::simulate(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                             Backscatter::constant);
 }
 
 reference::Frame column_frame(const Waveform &waveform, std::uint32_t taps) {

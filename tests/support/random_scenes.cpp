@@ -12,6 +12,10 @@ double Random::uniform(double lower, double upper) {
   return lower + (upper - lower) * (static_cast<double>(engine_()) + 0.5) / count;
 }
 
+double Random::log_uniform(double lower, double upper) {
+  return lower * std::pow(upper / lower, uniform(0, 1));
+}
+
 glm::dvec3 Random::in_box(const glm::dvec3 &lower, const glm::dvec3 &upper) {
   const double x = uniform(lower.x, upper.x);
   const double y = uniform(lower.y, upper.y);

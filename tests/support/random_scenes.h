@@ -15,6 +15,8 @@ public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
 
   double uniform(double lower, double upper);
+  // As likely between 1 and 10 as between 10 and 100.
+  double log_uniform(double lower, double upper);
   bool flip() { return uniform(0, 1) < 0.5; }
   glm::dvec3 in_box(const glm::dvec3 &lower, const glm::dvec3 &upper);
   glm::dvec3 unit_vector();

@@ -60,11 +60,6 @@ Form random_form(std::uint32_t number) {
   return form;
 }
 
-// As likely between 1 and 10 as between 10 and 100.
-double log_uniform(Random &random, double lower, double upper) {
-  return lower * std::pow(upper / lower, random.uniform(0, 1));
-}
-
 // Places in the illuminator's frame, `reach_m` from its origin at most.
 std::vector<glm::dvec3> places_m(Random &random, const std::string &layout, std::uint32_t count,
                                  double reach_m) {
@@ -111,7 +106,7 @@ NextPattern patterns_of(Random &random, const std::string &kind, double whole_or
   if (kind == "broken order")
     return always(cosine(random.uniform(0.3, 20)));
   if (kind == "narrow beams")
-    return always(cosine(log_uniform(random, 30, 300)));
+    return always(cosine(random.log_uniform(30, 300)));
   const Pattern table{Pattern::Kind::diagram, 0.0, random_diagram(random, random.flip())};
   if (kind == "measured")
     return always(table);
@@ -125,8 +120,8 @@ NextPattern patterns_of(Random &random, const std::string &kind, double whole_or
 Illuminator random_light(Random &random, const Pose &world_from_camera, const Form &form,
                          const std::string &pattern, std::vector<std::string> &kinds) {
   const std::string layout = one_of<std::string, 5>(random, {"ring", "disc", "bar", "grid", "cluster"});
-  const double reach_m = log_uniform(random, 0.01, 0.5);
-  const auto count = static_cast<std::uint32_t>(log_uniform(random, 1, 2001));
+  const double reach_m = random.log_uniform(0.01, 0.5);
+  const auto count = static_cast<std::uint32_t>(random.log_uniform(1, 2001));
   const bool tilted = random.flip(), unequal = random.flip();
   const NextPattern next_pattern = patterns_of(random, pattern, form.order);
   const Pose place{glm::dmat3(1.0), random.in_box(glm::dvec3(-0.2), glm::dvec3(0.2, 0.2, 0.1))};
@@ -143,12 +138,12 @@ Illuminator random_light(Random &random, const Pose &world_from_camera, const Fo
   return light;
 }
 
-Surface random_surface(Random &random) { return {random.uniform(0.1, 1.0), true}; }
+Surface two_sided_surface(Random &random) { return {random.uniform(0.1, 1.0), true}; }
 
 void add_plane(Random &random, SceneBuilder &builder, const glm::dvec3 &centre_m, const glm::dvec3 &u_m,
                const glm::dvec3 &v_m) {
   builder.add_mesh({centre_m - u_m - v_m, centre_m - u_m + v_m, centre_m + u_m + v_m, centre_m + u_m - v_m},
-                   {{0, 1, 2}, {0, 2, 3}}, random_surface(random));
+                   {{0, 1, 2}, {0, 2, 3}}, two_sided_surface(random));
 }
 
 // The six sides of an upright box, seen from inside or outside.
@@ -170,7 +165,7 @@ Scene random_scene(Random &random, const Pose &world_from_camera, std::vector<st
   if (kind == "loose triangles")
     return random_triangles(random, 60, world_from_camera);
   SceneBuilder builder(world_from_camera);
-  const double distance_m = log_uniform(random, 0.6, 30.0);
+  const double distance_m = random.log_uniform(0.6, 30.0);
   if (kind == "wall") {
     const double slant = random.uniform(-0.8, 0.8);
     add_plane(random, builder, {0.0, 0.0, distance_m}, 3.0 * distance_m * glm::dvec3(1.0, 0.0, slant),
@@ -212,7 +207,7 @@ Sensor random_sensor(Random &random, const Form &form, std::vector<std::string> 
   sensor.waveform = form.waveform;
   sensor.modulation_hz.resize(form.frequencies);
   for (double &modulation_hz : sensor.modulation_hz)
-    modulation_hz = log_uniform(random, 1e6, 200e6);
+    modulation_hz = random.log_uniform(1e6, 200e6);
   kinds.push_back(sensor.samples == 1 ? "S = 1" : sensor.adaptive_samples ? "S > 1, adaptive" : "S > 1");
   return sensor;
 }
@@ -251,7 +246,7 @@ RandomSetup random_setup(std::uint32_t seed) {
   if (form.phased)
     setup.illuminators.back().modulation_phase_rad = random.uniform(-2.0, 2.0);
   refine(setup.sensor, diode_count(setup.illuminators));
-  setup.max_error_m = log_uniform(random, 1e-6, 1e-2);
+  setup.max_error_m = random.log_uniform(1e-6, 1e-2);
   add_kinds(form, setup.kinds);
   return setup;
 }

@@ -49,4 +49,6 @@ Illuminator diode_beside_lens(const Sensor &sensor, const Diode &diode);
 // An isotropic diode of 1 W/sr.
 Diode diode_at(const glm::dvec3 &position_m);
 
+inline Pattern cosine(double order) { return {Pattern::Kind::cosine, order}; }
+
 } // namespace pmdsim::test

@@ -11,14 +11,9 @@ namespace pmdsim::test {
 
 namespace {
 
-// As likely between 1 and 10 as between 10 and 100.
-double log_uniform(Random &random, double lower, double upper) {
-  return lower * std::pow(upper / lower, random.uniform(0, 1));
-}
-
 // Of a length between these, in any direction.
 glm::dvec3 random_step_m(Random &random, double shortest_m, double longest_m) {
-  const double length_m = log_uniform(random, shortest_m, longest_m);
+  const double length_m = random.log_uniform(shortest_m, longest_m);
   return length_m * random.unit_vector();
 }
 
@@ -27,21 +22,21 @@ glm::dvec3 place_in_view(Random &random) {
   return {z_m * random.uniform(-0.7, 0.7), z_m * random.uniform(-0.7, 0.7), z_m};
 }
 
-Surface random_surface(Random &random) { return {random.uniform(0.1, 1.0), random.flip()}; }
+Surface one_or_two_sided(Random &random) { return {random.uniform(0.1, 1.0), random.flip()}; }
 
 void add_loose(Random &random, SceneBuilder &builder) {
   const glm::dvec3 centre_m = place_in_view(random);
-  const double size_m = log_uniform(random, 0.003, 1.0);
+  const double size_m = random.log_uniform(0.003, 1.0);
   const glm::dvec3 a = centre_m + size_m * random.unit_vector(), b = centre_m + size_m * random.unit_vector(),
                    c = centre_m + size_m * random.unit_vector();
-  builder.add_triangle(a, b, c, random_surface(random));
+  builder.add_triangle(a, b, c, one_or_two_sided(random));
 }
 
 void add_sliver(Random &random, SceneBuilder &builder) {
   const glm::dvec3 from_m = place_in_view(random);
   const glm::dvec3 to_m = from_m + random_step_m(random, 0.05, 1.5);
   const glm::dvec3 beside_m = from_m + random_step_m(random, 2e-5, 5e-3);
-  builder.add_triangle(from_m, to_m, beside_m, random_surface(random));
+  builder.add_triangle(from_m, to_m, beside_m, one_or_two_sided(random));
 }
 
 // Fills most of the view, across it or slanting.
@@ -49,13 +44,13 @@ void add_background(Random &random, SceneBuilder &builder) {
   const double slant = random.flip() ? 0.0 : random.uniform(-0.4, 0.4);
   const glm::dvec3 centre_m(0, 0, 3.2), u_m(4, 0, 4 * slant), v_m(0, 4, -2 * slant);
   builder.add_mesh({centre_m - u_m - v_m, centre_m - u_m + v_m, centre_m + u_m + v_m, centre_m + u_m - v_m},
-                   {{0, 1, 2}, {0, 2, 3}}, random_surface(random));
+                   {{0, 1, 2}, {0, 2, 3}}, one_or_two_sided(random));
 }
 
 // Columns and rows of squares of two triangles each, in one plane or bumpy.
 void add_grid(Random &random, SceneBuilder &builder, std::uint32_t columns, std::uint32_t rows) {
   const glm::dvec3 corner_m = place_in_view(random);
-  const double size_m = log_uniform(random, 0.1, 1.5);
+  const double size_m = random.log_uniform(0.1, 1.5);
   const glm::dvec3 u_m = size_m * random.unit_vector(), v_m = size_m * random.unit_vector();
   const double highest_bump_m = random.flip() ? 0.0 : 0.05 * size_m;
   std::vector<glm::dvec3> corners_m;
@@ -70,18 +65,18 @@ void add_grid(Random &random, SceneBuilder &builder, std::uint32_t columns, std:
       if (i < rows && j < columns)
         faces.insert(faces.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
     }
-  builder.add_mesh(corners_m, faces, random_surface(random));
+  builder.add_mesh(corners_m, faces, one_or_two_sided(random));
 }
 
 // Each a little behind the one before.
 void add_stack(Random &random, SceneBuilder &builder, std::size_t count) {
   const glm::dvec3 a = place_in_view(random);
-  const double size_m = log_uniform(random, 0.05, 1.0);
+  const double size_m = random.log_uniform(0.05, 1.0);
   const glm::dvec3 b = a + size_m * random.unit_vector(), c = a + size_m * random.unit_vector();
   const glm::dvec3 gap_m = random_step_m(random, 5e-5, 2e-2);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 shift_m = static_cast<double>(i) * gap_m;
-    builder.add_triangle(a + shift_m, b + shift_m, c + shift_m, random_surface(random));
+    builder.add_triangle(a + shift_m, b + shift_m, c + shift_m, one_or_two_sided(random));
   }
 }
 
@@ -108,7 +103,7 @@ Scene random_scene(Random &random, std::size_t triangles, const Pose &world_from
 using Layout = std::vector<glm::dvec3>;
 
 Layout ring(Random &random, std::size_t count) {
-  const double radius_m = log_uniform(random, 0.01, 0.4);
+  const double radius_m = random.log_uniform(0.01, 0.4);
   Layout places_m;
   for (std::size_t k = 0; k < count; ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
@@ -118,7 +113,7 @@ Layout ring(Random &random, std::size_t count) {
 }
 
 Layout cloud(Random &random, std::size_t count, const glm::dvec3 &centre_m) {
-  const double half_m = log_uniform(random, 1e-3, 0.5);
+  const double half_m = random.log_uniform(1e-3, 0.5);
   Layout places_m;
   for (std::size_t k = 0; k < count; ++k)
     places_m.push_back(centre_m + random.in_box(glm::dvec3(-half_m), glm::dvec3(half_m)));
@@ -170,13 +165,13 @@ ShadowSetup random_shadow_setup(std::uint32_t seed) {
   setup.sensor.pixel_pitch_m = {6e-3, 6e-3};
   setup.sensor.focal_length_m = 0.1; // 72 degrees
   setup.sensor.world_from_camera = random.pose(10.0);
-  const auto triangles = static_cast<std::size_t>(log_uniform(random, 1, 2001));
+  const auto triangles = static_cast<std::size_t>(random.log_uniform(1, 2001));
   setup.scene = random_scene(random, triangles, setup.sensor.world_from_camera);
   if (seed % 3 == 1)
     paint(random, setup.scene);
   if (seed % 4 == 2)
     scatter_discs(random, 1 + seed % 50, setup.sensor.world_from_camera, setup.scene);
-  const auto diodes = static_cast<std::size_t>(log_uniform(random, 1, 301));
+  const auto diodes = static_cast<std::size_t>(random.log_uniform(1, 301));
   setup.illuminators = random_illuminators(random, diodes, setup.sensor);
   return setup;
 }

@@ -143,11 +143,9 @@ std::string described(const Sensor &sensor) {
                      waveforms[static_cast<std::size_t>(sensor.waveform.kind)], sensor.taps, sensor.samples);
 }
 
-} // namespace
-
-TEST_CASE("random scenes agree with the reference") {
+void check_random_scenes(std::uint32_t first, std::uint32_t last) {
   fmt::print("{}", comparison_heading());
-  for (std::uint32_t seed = 0; seed < 24; ++seed) {
+  for (std::uint32_t seed = first; seed < last; ++seed) {
     const auto [sensor, scene, illuminator, backscatter] = random_setup(seed);
     const auto expected = reference::simulate(scene, sensor, {illuminator}, backscatter);
     Simulator simulator = make_simulator(options_for(seed));
@@ -160,13 +158,21 @@ TEST_CASE("random scenes agree with the reference") {
   }
 }
 
+} // namespace
+
+TEST_CASE("some random scenes agree with the reference", "[smoke]") { check_random_scenes(0, 4); }
+
+TEST_CASE("random scenes agree with the reference", "[long]") { check_random_scenes(0, 24); }
+
 // With distortion a sliver narrower than a fragment, which is no part of a mesh, may be seen by none of the
 // fragments that a sample asks. Here are many, and few pixels, so that the share of such samples is counted
 // over all cameras.
-TEST_CASE("random cameras and signals agree with the reference") {
+namespace {
+
+void check_random_cameras(std::uint32_t first, std::uint32_t last) {
   Comparison distorted;
   fmt::print("{}", comparison_heading());
-  for (std::uint32_t seed = 100; seed < 124; ++seed) {
+  for (std::uint32_t seed = first; seed < last; ++seed) {
     Random random(seed);
     const Sensor sensor = random_sensor(random, seed);
     const Scene scene = triangles_in_view(random, 40 + 10 * (seed % 12), sensor);
@@ -190,3 +196,9 @@ TEST_CASE("random cameras and signals agree with the reference") {
              100 * distorted.differing_fraction());
   CHECK(distorted.differing_fraction() <= 1e-3);
 }
+
+} // namespace
+
+TEST_CASE("some random cameras and signals agree with the reference") { check_random_cameras(100, 105); }
+
+TEST_CASE("random cameras and signals agree with the reference", "[long]") { check_random_cameras(100, 124); }

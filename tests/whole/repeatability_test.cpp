@@ -46,10 +46,11 @@ void check_strips(const std::string &name, const RepeatabilityFrame &frame) {
   CHECK((bytes_in_strips(frame, 7 * samples_per_row + 333) == whole));
 }
 
-} // namespace
+// One of each way to a frame: records of depth, points with shadows and tones, fewer diodes.
+const std::vector<std::string> some_frames{"pinhole", "shadows_brown_tilted_filled_square", "automatic"};
 
-TEST_CASE("two measurements and two simulators give the same bits") {
-  for (const std::string &name : repeatability_frames()) {
+void check_two_simulators(const std::vector<std::string> &names) {
+  for (const std::string &name : names) {
     INFO(name);
     const RepeatabilityFrame frame = repeatability_frame(name);
     Simulator simulator = make_simulator(keep_everything());
@@ -61,15 +62,32 @@ TEST_CASE("two measurements and two simulators give the same bits") {
   }
 }
 
-TEST_CASE("a simulator that has measured other frames gives the same bits") {
+void check_used_simulator(const std::vector<std::string> &names) {
   Simulator used = make_simulator(keep_everything());
-  for (const std::string &name : repeatability_frames())
+  for (const std::string &name : names)
     for (const bool again : {false, true}) { // what was there before, another frame's or its own
       INFO(name << (again ? ", prepared again" : ""));
       const RepeatabilityFrame frame = repeatability_frame(name);
       CHECK((bytes_of(measure(used, frame)) == bytes_in_strips(frame)));
     }
 }
+
+void check_all_strips(const std::vector<std::string> &names) {
+  for (const std::string &name : names)
+    check_strips(name, repeatability_frame(name));
+}
+
+void check_threads(const std::vector<std::string> &names) {
+  for (const std::string &name : names) {
+    INFO(name);
+    const std::string whole = bytes_in_strips(repeatability_frame(name));
+    REQUIRE(whole.size() > 256 * 192 * 4);
+    CHECK((bytes_with_threads(name, 1) == whole));
+    CHECK((bytes_with_threads(name, 2) == whole));
+  }
+}
+
+} // namespace
 
 TEST_CASE("hidden triangles, so many that samples fetch their planes for themselves, change no bit") {
   const auto frame_of = [](int hidden) {
@@ -90,17 +108,30 @@ TEST_CASE("hidden triangles, so many that samples fetch their planes for themsel
   CHECK((frame_of(0) == frame_of(300)));
 }
 
-TEST_CASE("strips of any height give the same bits") {
-  for (const std::string &name : repeatability_frames())
-    check_strips(name, repeatability_frame(name));
+TEST_CASE("two measurements and two simulators give the same bits, some frames", "[smoke]") {
+  check_two_simulators(some_frames);
 }
 
-TEST_CASE("one thread and two give the same bits") {
-  for (const std::string &name : repeatability_frames()) {
-    INFO(name);
-    const std::string whole = bytes_in_strips(repeatability_frame(name));
-    REQUIRE(whole.size() > 256 * 192 * 4);
-    CHECK((bytes_with_threads(name, 1) == whole));
-    CHECK((bytes_with_threads(name, 2) == whole));
-  }
+TEST_CASE("two measurements and two simulators give the same bits, all frames", "[long]") {
+  check_two_simulators(repeatability_frames());
+}
+
+TEST_CASE("a simulator that has measured other frames gives the same bits, some frames") {
+  check_used_simulator(some_frames);
+}
+
+TEST_CASE("a simulator that has measured other frames gives the same bits, all frames", "[long]") {
+  check_used_simulator(repeatability_frames());
+}
+
+TEST_CASE("strips of any height give the same bits, some frames") { check_all_strips(some_frames); }
+
+TEST_CASE("strips of any height give the same bits, all frames", "[long]") {
+  check_all_strips(repeatability_frames());
+}
+
+TEST_CASE("one thread and two give the same bits, some frames") { check_threads(some_frames); }
+
+TEST_CASE("one thread and two give the same bits, all frames", "[long]") {
+  check_threads(repeatability_frames());
 }

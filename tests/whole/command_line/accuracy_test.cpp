@@ -116,7 +116,7 @@ TEST_CASE("samples auto: 4 x 4 at most, and the setup as used says auto") {
   CHECK(automatic == bytes(distances));
 }
 
-TEST_CASE("bench has a row a mode, and one where a mode is asked for") {
+TEST_CASE("bench has a row a mode, and one where a mode is asked for", "[long]") {
   const SmallWall wall;
   const json all = wall.report("bench", {"--max-error", "0.1mm"});
   std::vector<std::string> modes;

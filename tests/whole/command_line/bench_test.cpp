@@ -65,7 +65,7 @@ TEST_CASE("bench --json has every figure and what it depends on") {
   }
 }
 
-TEST_CASE("bench sets the accumulate pass beside native code in both forms") {
+TEST_CASE("bench sets the accumulate pass beside native code in both forms", "[long]") {
   const json report = bench(small_setup());
   const json &native = report["native"], &ratios = report["ratios"];
   CHECK(native["what"] == "the setup's diodes and points");
@@ -93,7 +93,7 @@ TEST_CASE("bench sums other points natively where its kernel is no model of the 
   CHECK(report["native"]["diodes"] == 240);
 }
 
-TEST_CASE("bench has no native rate beside what has no rate itself") {
+TEST_CASE("bench has no native rate beside what has no rate itself", "[long]") {
   CHECK(bench(small_setup(), {"--mode", "auto"})["native"].is_null());
   CHECK(bench(small_setup(), {"--samples", "auto"})["native"].is_null());
   const json reference = bench(small_setup(), {"--device", "reference"});

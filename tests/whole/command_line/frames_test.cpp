@@ -183,8 +183,9 @@ TEST_CASE("a directory in the way of a file of frame 3 leaves frames 0 to 2, of 
   CHECK(eight.check_consistent() == 3);
 }
 
-TEST_CASE("the frames of a sequence are those that are rendered one by one, bit by bit") {
-  const std::string command = GENERATE("render", "deform");
+namespace {
+
+void check_one_by_one(const std::string &command) {
   const Workspace work;
   const std::string setup = work.write("setup.json", moving_setup_of_two_sensors());
   const auto run = [&](const std::string &frames, const std::string &directory) {
@@ -209,6 +210,16 @@ TEST_CASE("the frames of a sequence are those that are rendered one by one, bit 
     const std::string range = std::string("together/") + sensor + "_000";
     CHECK((bytes_of(work / (range + "2.range_m.npy")) != bytes_of(work / (range + "3.range_m.npy"))));
   }
+}
+
+} // namespace
+
+TEST_CASE("the frames of a sequence are those that are rendered one by one, bit by bit") {
+  check_one_by_one("render");
+}
+
+TEST_CASE("the frames that deform takes of a sequence are those of one by one, bit by bit", "[long]") {
+  check_one_by_one("deform");
 }
 
 TEST_CASE("an earlier run's manifest goes before the first frame comes, even if the run is killed") {

@@ -42,7 +42,7 @@ std::string room_setup(const std::string &focal_length_m, const std::string &dis
 
 } // namespace
 
-TEST_CASE("4096 x 4096 pixels with 240 diodes stay below 2 GiB") {
+TEST_CASE("4096 x 4096 pixels with 240 diodes stay below 2 GiB", "[long]") {
   // The simulator itself refuses a storage buffer above the device's limit, 128 MiB on lavapipe.
   const Workspace work;
   const std::string ring = R"({"rings": [{"radius_m": 0.146, "count": 240}]})";
@@ -54,7 +54,7 @@ TEST_CASE("4096 x 4096 pixels with 240 diodes stay below 2 GiB") {
   render_large("4096 x 4096 x 240", work, setup);
 }
 
-TEST_CASE("4096 x 4096 pixels through a barrel and a fisheye stay below 2 GiB") {
+TEST_CASE("4096 x 4096 pixels through a barrel and a fisheye stay below 2 GiB", "[long]") {
   const Workspace work;
   const std::vector<std::string> quickly{"--format", "npy"};
   render_large("4096 x 4096 x 15, barrel", work,

@@ -15,7 +15,7 @@ using Catch::EndsWith;
 
 namespace {
 
-Diagram read(const std::string &text, const char *name = "led.ies") {
+Diagram read_ies(const std::string &text, const char *name = "led.ies") {
   const test::TemporaryFolder folder;
   const auto file = folder.write(name, text);
   DiagramFiles files;
@@ -24,8 +24,8 @@ Diagram read(const std::string &text, const char *name = "led.ies") {
   return diagram;
 }
 
-std::string error_of(const std::string &text) {
-  return test::input_error_of([&] { read(text); });
+std::string ies_error(const std::string &text) {
+  return test::input_error_of([&] { read_ies(text); });
 }
 
 // Vertical angles 0 and 90, 1 candela on the axis; `rim` lists the candela values at 90 degrees.
@@ -60,16 +60,16 @@ const std::string good = label + head + "0 45 90\n0\n8 4 0\n"; // the last three
 } // namespace
 
 TEST_CASE("An IES file's nadir is the axis, its candela values are the shape") {
-  const Diagram diagram = read(good);
+  const Diagram diagram = read_ies(good);
   CHECK(diagram.theta_rad == std::vector{0.0, std::numbers::pi / 4, std::numbers::pi / 2});
   CHECK(diagram.phi_rad == std::vector{0.0});
   CHECK(diagram.relative == std::vector{1.0, 0.5, 0.0});
 }
 
 TEST_CASE("An IES file may be of any edition, with its numbers on any lines") {
-  const Diagram expected = read(good);
+  const Diagram expected = read_ies(good);
   const auto check = [&](const std::string &text) {
-    const Diagram diagram = read(text);
+    const Diagram diagram = read_ies(text);
     CHECK(diagram.theta_rad == expected.theta_rad);
     CHECK(diagram.relative == expected.relative);
   };
@@ -88,56 +88,56 @@ TEST_CASE("An IES file may be of any edition, with its numbers on any lines") {
 
 TEST_CASE("Tilt factors in an IES file are read past, however they are split") {
   const Diagram diagram =
-      read("IESNA91\nTILT=INCLUDE\n1\n3\n0 45\n90\n1.0 0.9 0.8\n" + head + "0 45 90\n0\n8 4 0\n");
+      read_ies("IESNA91\nTILT=INCLUDE\n1\n3\n0 45\n90\n1.0 0.9 0.8\n" + head + "0 45 90\n0\n8 4 0\n");
   CHECK(diagram.relative == std::vector{1.0, 0.5, 0.0});
 }
 
 TEST_CASE("The ending .ies in any case makes an IES file, any other a table") {
-  CHECK(read(good, "LED.IES").relative.size() == 3);
-  CHECK(read("angle_deg,relative\n0,1\n9,1\n", "ies.txt").relative.size() == 2);
-  CHECK_THAT(test::input_error_of([] { read(good, "led.txt"); }), Contains("led.txt:1: unknown column"));
+  CHECK(read_ies(good, "LED.IES").relative.size() == 3);
+  CHECK(read_ies("angle_deg,relative\n0,1\n9,1\n", "ies.txt").relative.size() == 2);
+  CHECK_THAT(test::input_error_of([] { read_ies(good, "led.txt"); }), Contains("led.txt:1: unknown column"));
 }
 
 TEST_CASE("An IES file's symmetries are unfolded") {
-  CHECK(rim_of(read(with_horizontals({0}, {0.5}))) == Rim{{0, 0.5}});
-  CHECK(rim_of(read(with_horizontals({0, 30, 90}, {0, 0.3, 0.9}))) ==
+  CHECK(rim_of(read_ies(with_horizontals({0}, {0.5}))) == Rim{{0, 0.5}});
+  CHECK(rim_of(read_ies(with_horizontals({0, 30, 90}, {0, 0.3, 0.9}))) ==
         Rim{{0, 0}, {30, 0.3}, {90, 0.9}, {150, 0.3}, {180, 0}, {210, 0.3}, {270, 0.9}, {330, 0.3}});
-  CHECK(rim_of(read(with_horizontals({0, 30, 180}, {0, 0.3, 0.9}))) ==
+  CHECK(rim_of(read_ies(with_horizontals({0, 30, 180}, {0, 0.3, 0.9}))) ==
         Rim{{0, 0}, {30, 0.3}, {180, 0.9}, {330, 0.3}});
 }
 
 TEST_CASE("An IES file's horizontal angles run against phi") {
-  CHECK(rim_of(read(with_horizontals({0, 90, 200, 360}, {0, 0.9, 0.2, 0}))) ==
+  CHECK(rim_of(read_ies(with_horizontals({0, 90, 200, 360}, {0, 0.9, 0.2, 0}))) ==
         Rim{{0, 0}, {160, 0.2}, {270, 0.9}});
   // Bright at the horizontal angle 90, dark at 270, and 120 as bright as 60.
-  CHECK(rim_of(read(with_horizontals({90, 120, 180, 270}, {0.9, 0.6, 0.3, 0}))) ==
+  CHECK(rim_of(read_ies(with_horizontals({90, 120, 180, 270}, {0.9, 0.6, 0.3, 0}))) ==
         Rim{{270, 0.9}, {240, 0.6}, {180, 0.3}, {90, 0}, {0, 0.3}, {300, 0.6}});
 }
 
 TEST_CASE("The horizontal angle 360 of an IES file is 0 again") {
   CHECK_THAT(
-      error_of(with_horizontals({0, 180, 360}, {0.5, 0, 0.6})),
+      ies_error(with_horizontals({0, 180, 360}, {0.5, 0, 0.6})),
       EndsWith("led.ies:10: expected at 360 degrees what 0 has, 0.5 (within 1 % of the maximum), found 0.6"));
 }
 
 TEST_CASE("What is wrong in an IES file is named with its line") {
   const auto with_head = [](const std::string &numbers) {
-    return error_of(label + numbers + "0 45 90\n0\n8 4 0\n");
+    return ies_error(label + numbers + "0 45 90\n0\n8 4 0\n");
   };
-  const auto with_data = [](const std::string &numbers) { return error_of(label + head + numbers); };
+  const auto with_data = [](const std::string &numbers) { return ies_error(label + head + numbers); };
   const std::string no_tilt = "expected a line TILT=NONE, TILT=INCLUDE or TILT= and a file's name";
-  CHECK_THAT(error_of(""), EndsWith("led.ies:1: " + no_tilt));
-  CHECK_THAT(error_of("IESNA91\n[TEST] 1\n" + head), EndsWith("led.ies:3: " + no_tilt));
-  CHECK_THAT(error_of("IESNA91\nTILT= \n" + head),
+  CHECK_THAT(ies_error(""), EndsWith("led.ies:1: " + no_tilt));
+  CHECK_THAT(ies_error("IESNA91\n[TEST] 1\n" + head), EndsWith("led.ies:3: " + no_tilt));
+  CHECK_THAT(ies_error("IESNA91\nTILT= \n" + head),
              EndsWith("led.ies:2: expected NONE, INCLUDE or a file's name after TILT="));
-  CHECK_THAT(error_of("IESNA91\nTILT=INCLUDE\n4\n"),
+  CHECK_THAT(ies_error("IESNA91\nTILT=INCLUDE\n4\n"),
              EndsWith("led.ies:3: lamp-to-luminaire geometry: expected a number from 1 to 3, found \"4\""));
-  CHECK_THAT(error_of("IESNA91\nTILT=INCLUDE\n1\n2 0 90\n1\none\n"),
+  CHECK_THAT(ies_error("IESNA91\nTILT=INCLUDE\n1\n2 0 90\n1\none\n"),
              EndsWith("led.ies:6: tilt factor: expected a number, found \"one\""));
   CHECK_THAT(
-      error_of("IESNA91\nTILT=INCLUDE\n1\n1e9\n"),
+      ies_error("IESNA91\nTILT=INCLUDE\n1\n1e9\n"),
       EndsWith("led.ies:4: number of tilt angles: expected a number from 1 to 1048576, found \"1e9\""));
-  CHECK_THAT(error_of(label),
+  CHECK_THAT(ies_error(label),
              EndsWith("led.ies:4: number of lamps: expected a number, found the end of the file"));
   CHECK_THAT(with_head("one 1000 1 3 1 1 2 0 0 0 1 1 10\n"),
              EndsWith("led.ies:4: number of lamps: expected a number, found \"one\""));
@@ -179,12 +179,12 @@ TEST_CASE("What is wrong in an IES file is named with its line") {
              EndsWith("led.ies:8: expected the end of the file after the last candela value, found \"7\""));
   CHECK_THAT(with_data("0 45 90\n0\n0 0 0\n"),
              EndsWith("led.ies:7: expected light in some direction, found only zeros"));
-  CHECK_THAT(error_of(good + std::string(1, '\0')), EndsWith("led.ies:8: expected text, found a NUL byte"));
+  CHECK_THAT(ies_error(good + std::string(1, '\0')), EndsWith("led.ies:8: expected text, found a NUL byte"));
   const std::string spans =
       "horizontal angles: expected a single 0, or 0 to 90, 180 or 360, or 90 to 270, found ";
   CHECK_THAT(with_data("0 45 90\n5\n8 4 0\n"), EndsWith("led.ies:6: " + spans + "5 to 5"));
-  CHECK_THAT(error_of(with_horizontals({0, 45}, {1, 1})), EndsWith("led.ies:7: " + spans + "0 to 45"));
-  CHECK_THAT(error_of(with_horizontals({90, 180}, {1, 1})), EndsWith(spans + "90 to 180"));
-  CHECK_THAT(error_of(with_horizontals({0, 180, 90}, {1, 1, 1})),
+  CHECK_THAT(ies_error(with_horizontals({0, 45}, {1, 1})), EndsWith("led.ies:7: " + spans + "0 to 45"));
+  CHECK_THAT(ies_error(with_horizontals({90, 180}, {1, 1})), EndsWith(spans + "90 to 180"));
+  CHECK_THAT(ies_error(with_horizontals({0, 180, 90}, {1, 1, 1})),
              EndsWith("led.ies:7: horizontal angle: expected ascending angles, found 90 after 180"));
 }

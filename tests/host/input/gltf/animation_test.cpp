@@ -12,8 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double float_rounding = 1e-6; // the files hold floats
-
 // The triangle on node 0, one of whose properties is animated.
 GltfFile animated(const std::string &path, const std::string &interpolation,
                   const std::vector<float> &times_s, const std::vector<float> &values) {

@@ -15,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 // A folder that holds a scene's file, for what lies beside it.
-struct Bench {
+struct SceneFile {
   TemporaryFolder folder;
 
   std::string error_of_bytes(const std::string &bytes) const {
@@ -33,7 +33,7 @@ struct Bench {
 // The error of a good scene in which one value is replaced.
 std::string error_with(const std::string &pointer, const json &value, json gltf = one_triangle()) {
   gltf[json::json_pointer(pointer)] = value;
-  return Bench().error_of(gltf);
+  return SceneFile().error_of(gltf);
 }
 
 json indexed() { return document(triangle_positions(), {0, 1, 2}, 4); }
@@ -72,23 +72,23 @@ TEST_CASE("Accessors beyond their buffers") {
              EndsWith("/accessors/0: elements of 12 bytes lie 8 apart"));
   json missing = indexed();
   missing["accessors"][1].erase("bufferView");
-  CHECK_THAT(Bench().error_of(missing),
+  CHECK_THAT(SceneFile().error_of(missing),
              EndsWith("/accessors/1: missing key \"bufferView\", which indices need"));
 }
 
 TEST_CASE("Vertices and positions that are none") {
-  CHECK_THAT(Bench().error_of(document(triangle_positions(), {0, 1, 3}, 4)),
+  CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1, 3}, 4)),
              EndsWith("/accessors/1: element 2 is vertex 3, expected one below 3"));
-  CHECK_THAT(Bench().error_of(document(triangle_positions(), {0, 1, 2, 65535}, 5)),
+  CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1, 2, 65535}, 5)),
              EndsWith("/accessors/1: element 3 is 65535, the primitive restart value"));
   std::vector<float> positions = triangle_positions();
   positions[5] = std::nanf("");
-  CHECK_THAT(Bench().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
+  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
   positions[5] = INFINITY;
-  CHECK_THAT(Bench().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
-  CHECK_THAT(Bench().error_of(document(triangle_positions(), {0, 1}, 5)),
+  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
+  CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1}, 5)),
              EndsWith("/meshes/0/primitives/0: 2 vertices make no whole triangles"));
-  CHECK_THAT(Bench().error_of(document(triangle_positions(), {0, 1, 2, 0}, 4)),
+  CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1, 2, 0}, 4)),
              Contains("4 vertices make no whole"));
 }
 
@@ -119,14 +119,14 @@ TEST_CASE("Values of a wrong type are not dropped") {
              Contains("/accessors/1/type: expected \"SCALAR\""));
   CHECK_THAT(error_with("/meshes/0/primitives/0/attributes", json::object()),
              Contains("missing key \"POSITION\""));
-  CHECK_THAT(Bench().error_of_bytes("[]"), EndsWith("scene.gltf: expected an object, found an array of 0"));
-  CHECK_THAT(Bench().error_of_bytes("{}"), EndsWith("scene.gltf: missing key \"asset\""));
+  CHECK_THAT(SceneFile().error_of_bytes("[]"), EndsWith("scene.gltf: expected an object, found an array of 0"));
+  CHECK_THAT(SceneFile().error_of_bytes("{}"), EndsWith("scene.gltf: missing key \"asset\""));
   CHECK_THAT(error_with("/asset/version", "1.0"),
              EndsWith("/asset/version: expected \"2.0\", found \"1.0\""));
 }
 
 TEST_CASE("Buffers that are not in the scene's folder") {
-  const Bench bench;
+  const SceneFile bench;
   CHECK_THAT(bench.error_of_uri("../../../../../../../etc/passwd"),
              Contains("/buffers/0/uri") && EndsWith("lies outside the scene's folder"));
   CHECK_THAT(bench.error_of_uri("%2e%2e/%2E%2E/etc/passwd"), EndsWith("lies outside the scene's folder"));
@@ -140,7 +140,7 @@ TEST_CASE("Buffers that are not in the scene's folder") {
 }
 
 TEST_CASE("Buffers that are no files, or not those stated") {
-  const Bench bench;
+  const SceneFile bench;
   std::filesystem::create_directory(bench.folder.path() / "parts");
   CHECK_THAT(bench.error_of_uri("parts"), EndsWith("is a directory, expected a file"));
   CHECK_THAT(bench.error_of_uri("."), EndsWith("is a directory, expected a file"));
@@ -158,7 +158,7 @@ TEST_CASE("Buffers that are no files, or not those stated") {
 }
 
 TEST_CASE("Buffers that are somewhere else") {
-  const Bench bench;
+  const SceneFile bench;
   for (const std::string uri : {"http://x/y", "file:///etc/passwd", "C:own.bin", "DATA:,x", "git+ssh://x"})
     CHECK_THAT(
         bench.error_of_uri(uri),
@@ -171,7 +171,7 @@ TEST_CASE("All buffers together have a limit") {
   const auto error_of_second = [](std::size_t length_bytes) {
     json gltf = one_triangle();
     gltf["buffers"].push_back({{"byteLength", length_bytes}, {"uri", "absent.bin"}});
-    return Bench().error_of(gltf);
+    return SceneFile().error_of(gltf);
   };
   const std::size_t left_bytes = (std::size_t{1} << 30) - 36;
   CHECK_THAT(error_of_second(left_bytes + 1),
@@ -180,7 +180,7 @@ TEST_CASE("All buffers together have a limit") {
 }
 
 TEST_CASE("No more of a buffer's file is read than the buffer has") {
-  const Bench bench;
+  const SceneFile bench;
   const std::string positions = bytes_of(triangle_positions());
   const auto file = bench.folder.write("own.bin", positions);
   std::filesystem::resize_file(file, std::uintmax_t{1} << 31); // sparse
@@ -191,7 +191,7 @@ TEST_CASE("No more of a buffer's file is read than the buffer has") {
 }
 
 TEST_CASE("Text that is too deep or broken") {
-  const Bench bench;
+  const SceneFile bench;
   CHECK_THAT(bench.error_of_bytes(R"({"asset": {"version": "2.0"}, "extras": )" + std::string(20'000, '[')),
              Contains("nested too deep"));
   CHECK_THAT(bench.error_of_bytes("{\n\"asset\" 1}"), Contains("scene.gltf:2:9: not valid JSON"));
@@ -199,7 +199,7 @@ TEST_CASE("Text that is too deep or broken") {
 }
 
 TEST_CASE("A .glb whose header or chunks are wrong") {
-  const Bench bench;
+  const SceneFile bench;
   const std::string good = glb(one_triangle(), bytes_of(triangle_positions()));
   const auto with_byte = [&](std::size_t offset, char byte) {
     std::string bytes = good;

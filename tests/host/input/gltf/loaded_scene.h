@@ -5,8 +5,11 @@
 #include "tests/host/input/file/input_error_of.h"
 #include "tests/support/temporary_folder.h"
 
+#include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace pmdsim::test {
 
@@ -16,10 +19,25 @@ inline GltfFile file_of(const nlohmann::json &gltf) {
   return load_gltf(file, Place{file});
 }
 
-inline Scene scene_of(const nlohmann::json &gltf) { return file_of(gltf).at(0).scene; }
+inline GltfScene gltf_scene_of(const nlohmann::json &gltf) { return file_of(gltf).at(0); }
+
+inline Scene scene_of(const nlohmann::json &gltf) { return gltf_scene_of(gltf).scene; }
 
 inline std::string scene_error_of(const nlohmann::json &gltf) {
   return input_error_of([&] { scene_of(gltf); });
 }
+
+// The corners of its triangles.
+using Ids = std::vector<std::array<std::uint32_t, 3>>;
+
+inline Ids vertices_of(const Scene &scene) {
+  Ids ids;
+  for (const Triangle &triangle : scene.triangles)
+    ids.push_back(triangle.vertices);
+  return ids;
+}
+
+// The files hold floats.
+constexpr double float_rounding = 1e-6;
 
 } // namespace pmdsim::test

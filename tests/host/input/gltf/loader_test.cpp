@@ -1,5 +1,6 @@
 #include "host/input/gltf/loader.h"
 #include "tests/host/input/gltf/builder.h"
+#include "tests/host/input/gltf/loaded_scene.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -17,19 +18,8 @@ GltfScene load_bytes(const std::string &bytes, const std::string &name = "scene.
   return load_gltf(file, Place{file}).at(0);
 }
 
-Scene load(const json &gltf) { return load_bytes(gltf.dump()).scene; }
-
 // Five points along a zigzag from left to right, in the order that a strip takes them.
 const std::vector<float> zigzag = {0, 0, 0, 1, 1, 0, 2, 0, 0, 3, 1, 0, 4, 0, 0};
-
-using Ids = std::vector<std::array<std::uint32_t, 3>>;
-
-Ids vertices_of(const Scene &scene) {
-  Ids ids;
-  for (const Triangle &triangle : scene.triangles)
-    ids.push_back(triangle.vertices);
-  return ids;
-}
 
 glm::dvec3 normal_of(const Scene &scene, const Triangle &triangle) {
   const auto corner = [&](std::size_t i) { return scene.positions_m[triangle.vertices[i]]; };
@@ -39,24 +29,24 @@ glm::dvec3 normal_of(const Scene &scene, const Triangle &triangle) {
 } // namespace
 
 TEST_CASE("Triangles, strips and fans, plain and indexed") {
-  CHECK(vertices_of(load(document(triangle_positions(), {}, 4))) == Ids{{0, 1, 2}});
-  CHECK(vertices_of(load(document(zigzag, {0, 2, 1, 2, 4, 3}, 4))) == Ids{{0, 2, 1}, {2, 4, 3}});
-  CHECK(vertices_of(load(document(zigzag, {}, 5))) == Ids{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}});
-  CHECK(vertices_of(load(document(zigzag, {4, 3, 2, 1}, 5))) == Ids{{4, 3, 2}, {3, 1, 2}});
-  CHECK(vertices_of(load(document(zigzag, {}, 6))) == Ids{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}});
-  CHECK(vertices_of(load(document(zigzag, {1, 0, 2, 3}, 6))) == Ids{{0, 2, 1}, {2, 3, 1}});
+  CHECK(vertices_of(scene_of(document(triangle_positions(), {}, 4))) == Ids{{0, 1, 2}});
+  CHECK(vertices_of(scene_of(document(zigzag, {0, 2, 1, 2, 4, 3}, 4))) == Ids{{0, 2, 1}, {2, 4, 3}});
+  CHECK(vertices_of(scene_of(document(zigzag, {}, 5))) == Ids{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}});
+  CHECK(vertices_of(scene_of(document(zigzag, {4, 3, 2, 1}, 5))) == Ids{{4, 3, 2}, {3, 1, 2}});
+  CHECK(vertices_of(scene_of(document(zigzag, {}, 6))) == Ids{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}});
+  CHECK(vertices_of(scene_of(document(zigzag, {1, 0, 2, 3}, 6))) == Ids{{0, 2, 1}, {2, 3, 1}});
 }
 
 TEST_CASE("A strip's triangles all show the same side") {
-  const Scene scene = load(document(zigzag, {}, 5));
+  const Scene scene = scene_of(document(zigzag, {}, 5));
   for (const Triangle &triangle : scene.triangles)
     CHECK(normal_of(scene, triangle).z == Approx(-1.0));
 }
 
 TEST_CASE("Triangles without an area stay, so that ids count what the file holds") {
   // Two triangles, stitched by repeated vertices.
-  CHECK(vertices_of(load(document(zigzag, {0, 1, 2, 2, 2, 3, 4}, 5))).size() == 5);
-  CHECK(vertices_of(load(document(zigzag, {0, 0, 1, 0, 1, 2}, 4))) == Ids{{0, 0, 1}, {0, 1, 2}});
+  CHECK(vertices_of(scene_of(document(zigzag, {0, 1, 2, 2, 2, 3, 4}, 5))).size() == 5);
+  CHECK(vertices_of(scene_of(document(zigzag, {0, 0, 1, 0, 1, 2}, 4))) == Ids{{0, 0, 1}, {0, 1, 2}});
 }
 
 TEST_CASE("Indices of 8, 16 and 32 bit") {
@@ -65,7 +55,7 @@ TEST_CASE("Indices of 8, 16 and 32 bit") {
     gltf["accessors"][1]["componentType"] = component_type;
     gltf["bufferViews"][1] = {{"buffer", 1}, {"byteLength", bytes.size()}};
     gltf["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-    return vertices_of(load(gltf));
+    return vertices_of(scene_of(gltf));
   };
   CHECK(with_indices(bytes_of<std::uint8_t>({0, 2, 1}), 5121) == Ids{{0, 2, 1}});
   CHECK(with_indices(bytes_of<std::uint16_t>({0, 2, 1}), 5123) == Ids{{0, 2, 1}});
@@ -79,12 +69,12 @@ TEST_CASE("Offsets and strides of interleaved vertices") {
   gltf["buffers"][0] = {{"byteLength", 48}, {"uri", data_uri(bytes_of(interleaved))}};
   gltf["bufferViews"][0] = {{"buffer", 0}, {"byteLength", 48}, {"byteStride", 16}};
   gltf["accessors"][0]["byteOffset"] = 4;
-  CHECK(load(gltf).positions_m == load(one_triangle()).positions_m);
+  CHECK(scene_of(gltf).positions_m == scene_of(one_triangle()).positions_m);
 }
 
 TEST_CASE("A .glb, a .gltf with a file beside it and one with a data URI are the same scene") {
   const std::string bytes = bytes_of(triangle_positions());
-  const auto expected = load(one_triangle()).positions_m;
+  const auto expected = scene_of(one_triangle()).positions_m;
   CHECK(expected[2] == glm::dvec3(0, 1, -1));
   CHECK(load_bytes(glb(one_triangle(), bytes), "scene.glb").scene.positions_m == expected);
 
@@ -102,10 +92,10 @@ TEST_CASE("Reflectivity is the base colour's luminance or what extras give") {
   const auto surface = [&](const json &material) {
     gltf["materials"] = {material};
     gltf["meshes"][0]["primitives"][0]["material"] = 0;
-    return load(gltf).surfaces.at(0);
+    return scene_of(gltf).surfaces.at(0);
   };
-  CHECK(load(one_triangle()).surfaces.at(0).reflectivity == 1.0);
-  CHECK_FALSE(load(one_triangle()).surfaces.at(0).double_sided);
+  CHECK(scene_of(one_triangle()).surfaces.at(0).reflectivity == 1.0);
+  CHECK_FALSE(scene_of(one_triangle()).surfaces.at(0).double_sided);
   CHECK(surface({{"doubleSided", true}}).double_sided);
   CHECK(surface({{"doubleSided", true}}).reflectivity == Approx(1.0));
   const json colour = {{"baseColorFactor", {0.5, 0.25, 1.0, 1.0}}};
@@ -131,13 +121,13 @@ TEST_CASE("Objects are the nodes that carry a mesh") {
 }
 
 TEST_CASE("An empty scene loads") {
-  CHECK(load({{"asset", {{"version", "2.0"}}}}).triangles.empty());
-  CHECK(load({{"asset", {{"version", "2.0"}}}, {"scenes", {json::object()}}}).triangles.empty());
+  CHECK(scene_of({{"asset", {{"version", "2.0"}}}}).triangles.empty());
+  CHECK(scene_of({{"asset", {{"version", "2.0"}}}, {"scenes", {json::object()}}}).triangles.empty());
 }
 
 TEST_CASE("Images that no material needs are not looked at") {
   json gltf = one_triangle();
   gltf["images"] = {{{"uri", "../../../../../../etc/passwd"}}, {{"uri", "absent.png"}}, {{"bufferView", 0}}};
   gltf["textures"] = {{{"source", 0}}};
-  CHECK(load(gltf).triangles.size() == 1);
+  CHECK(scene_of(gltf).triangles.size() == 1);
 }

@@ -24,11 +24,11 @@ using nlohmann::json;
 namespace {
 
 // One material that a test describes, and an image for its texture.
-struct Bench {
+struct MaterialBench {
   TemporaryFolder folder;
   json gltf = one_triangle();
 
-  Bench() {
+  MaterialBench() {
     // Opaque red left, opaque green right.
     folder.write("opaque.png", png_bytes({2, 1, 8, 2, {255, 0, 0, 0, 255, 0}}));
     gltf["images"] = {{{"uri", "opaque.png"}}};
@@ -94,7 +94,7 @@ void check_point(const glm::dvec2 &found, const glm::dvec2 &expected) {
 } // namespace
 
 TEST_CASE("The default material is white and single-sided") {
-  GltfMaterials materials = Bench().materials();
+  GltfMaterials materials = MaterialBench().materials();
   const Surface plain = materials.material_of(-1, false).surface;
   CHECK(plain.reflectivity == 1.0);
   CHECK_FALSE(plain.double_sided);
@@ -108,7 +108,7 @@ TEST_CASE("The default material is white and single-sided") {
 }
 
 TEST_CASE("A plain material has a reflectivity and no paint") {
-  Bench bench;
+  MaterialBench bench;
   bench.base()["baseColorFactor"] = {0.5, 0.25, 1.0, 0.5};
   bench.material()["doubleSided"] = true;
   bench.material()["extensions"] = {{"KHR_materials_unlit", json::object()}};
@@ -119,7 +119,7 @@ TEST_CASE("A plain material has a reflectivity and no paint") {
 }
 
 TEST_CASE("Texture and vertex colours multiply the factor's luminance") {
-  Bench bench;
+  MaterialBench bench;
   bench.base()["baseColorFactor"] = {0.5, 0.25, 1.0, 1.0};
   const glm::dvec3 expected(0.2126 * 0.5, 0.7152 * 0.25, 0.0722);
   CHECK(bench.made(true).surface.reflectivity == 0.0);
@@ -136,7 +136,7 @@ TEST_CASE("Texture and vertex colours multiply the factor's luminance") {
 }
 
 TEST_CASE("A stated reflectivity needs neither texture nor vertex colours") {
-  Bench bench;
+  MaterialBench bench;
   bench.gltf["images"][0]["uri"] = "absent.png";
   bench.texture_info();
   bench.material()["extras"] = {{"pmdsim_reflectivity", 0.125}};
@@ -150,7 +150,7 @@ TEST_CASE("A stated reflectivity needs neither texture nor vertex colours") {
 }
 
 TEST_CASE("A mask by a constant alpha") {
-  Bench bench;
+  MaterialBench bench;
   bench.material()["alphaMode"] = "MASK";
   bench.base()["baseColorFactor"] = {1, 1, 1, 0.5};
   CHECK_FALSE(bench.made().surface.paint); // 0.5 is not below 0.5
@@ -168,7 +168,7 @@ TEST_CASE("A mask by a constant alpha") {
 }
 
 TEST_CASE("A mask by a texture's alpha") {
-  Bench bench;
+  MaterialBench bench;
   bench.make_translucent();
   CHECK(bench.paint().alpha_cutoff == 0.0); // OPAQUE
   bench.material()["alphaMode"] = "MASK";
@@ -184,7 +184,7 @@ TEST_CASE("A mask by a texture's alpha") {
 }
 
 TEST_CASE("A mask leaves a stated reflectivity alone") {
-  Bench bench;
+  MaterialBench bench;
   bench.make_translucent();
   bench.material()["alphaMode"] = "MASK";
   bench.material()["extras"] = {{"pmdsim_reflectivity", 0.5}};
@@ -200,7 +200,7 @@ TEST_CASE("A mask leaves a stated reflectivity alone") {
 TEST_CASE("Blending is refused where something is translucent") {
   const std::string refused = "/materials/0/alphaMode: BLEND is not supported where alpha is below 1 "
                               "(expected \"MASK\" or \"OPAQUE\")";
-  Bench bench;
+  MaterialBench bench;
   bench.material()["alphaMode"] = "BLEND";
   CHECK_FALSE(bench.made().surface.paint);
   bench.texture_info();
@@ -209,14 +209,14 @@ TEST_CASE("Blending is refused where something is translucent") {
   CHECK_THAT(bench.error(), EndsWith(refused));
   bench.material()["extras"] = {{"pmdsim_reflectivity", 0.5}};
   CHECK_THAT(bench.error(), EndsWith(refused));
-  Bench factor;
+  MaterialBench factor;
   factor.material()["alphaMode"] = "BLEND";
   factor.base()["baseColorFactor"] = {1, 1, 1, 0.999};
   CHECK_THAT(factor.error(), EndsWith(refused));
 }
 
 TEST_CASE("Samplers wrap and filter") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   CHECK(bench.paint().wrap_u == Wrap::repeat);
   CHECK(bench.paint().wrap_v == Wrap::repeat);
@@ -240,7 +240,7 @@ TEST_CASE("Samplers wrap and filter") {
 }
 
 TEST_CASE("Texture coordinates and their transform") {
-  Bench bench;
+  MaterialBench bench;
   json &info = bench.texture_info();
   CHECK(bench.made().texture_coordinates == 0);
   CHECK(bench.made().texture_from_coordinates == glm::dmat3(1.0));
@@ -263,7 +263,7 @@ TEST_CASE("Texture coordinates and their transform") {
 }
 
 TEST_CASE("The examples of KHR_texture_transform") {
-  Bench bench;
+  MaterialBench bench;
   json &transform = bench.texture_info()["extensions"]["KHR_texture_transform"];
   // "Utilizes only the lower left quadrant of the source image, rotated clockwise 90 degrees."
   transform = {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
@@ -279,7 +279,7 @@ TEST_CASE("The examples of KHR_texture_transform") {
 TEST_CASE("Images in files, data URIs and buffers are the same") {
   const std::string png = png_bytes({2, 1, 8, 2, {255, 0, 0, 0, 255, 0}});
   const std::vector<glm::vec4> expected = {{1, 0, 0, 1}, {0, 1, 0, 1}};
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   const auto base64 = [](const std::string &bytes) {
     const std::string uri = data_uri(bytes);
@@ -304,7 +304,7 @@ TEST_CASE("Images in files, data URIs and buffers are the same") {
 }
 
 TEST_CASE("An image is decoded once") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   bench.gltf["textures"].push_back({{"source", 0}});
   bench.gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
@@ -316,7 +316,7 @@ TEST_CASE("An image is decoded once") {
 }
 
 TEST_CASE("Images that no used material needs are not opened") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   bench.gltf["images"][0]["uri"] = "../../../etc/passwd";
   bench.gltf["materials"].push_back({{"emissiveTexture", {{"index", 0}}}});
@@ -328,7 +328,7 @@ TEST_CASE("Images that no used material needs are not opened") {
 }
 
 TEST_CASE("All images of a file together have a limit") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   bench.folder.write("huge.png", png_header(16384, 8192)); // all that is allowed, if nothing else were there
   bench.gltf["images"].push_back({{"uri", "huge.png"}});
@@ -343,7 +343,7 @@ TEST_CASE("All images of a file together have a limit") {
 
 TEST_CASE("Textures without an image that can be read") {
   const auto error_of = [](const json &texture) {
-    Bench bench;
+    MaterialBench bench;
     bench.texture_info();
     bench.gltf["textures"][0] = texture;
     return bench.error();
@@ -354,14 +354,14 @@ TEST_CASE("Textures without an image that can be read") {
                       "\"source\" in PNG or JPEG)"));
   CHECK_THAT(error_of({{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}),
              Contains("\"KHR_texture_basisu\", which is not supported"));
-  Bench both;
+  MaterialBench both;
   both.texture_info();
   both.gltf["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 7}}}};
   CHECK(both.paint().texture->size == glm::uvec2(2, 1));
 }
 
 TEST_CASE("Images that cannot be had") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   const auto error_of = [&](const json &image) { return bench.error_of_image(image); };
   CHECK_THAT(error_of(json::object()), EndsWith("/images/0: expected either \"uri\" or \"bufferView\""));
@@ -377,7 +377,7 @@ TEST_CASE("Images that cannot be had") {
 }
 
 TEST_CASE("Images that are in data URIs and buffers and are none") {
-  Bench bench;
+  MaterialBench bench;
   bench.texture_info();
   const auto error_of = [&](const json &image) { return bench.error_of_image(image); };
   const std::string data = "/images/0/uri: expected a base64 data URI of image/png or image/jpeg";
@@ -393,7 +393,7 @@ TEST_CASE("Images that are in data URIs and buffers and are none") {
 
 TEST_CASE("Textures, images and samplers of a wrong type or to nowhere") {
   const auto error_with = [](const std::string &pointer, const json &value) {
-    Bench bench;
+    MaterialBench bench;
     bench.texture_info();
     bench.gltf["textures"][0]["sampler"] = 0;
     bench.gltf["samplers"] = {json::object()};

@@ -15,19 +15,11 @@ using nlohmann::json;
 namespace {
 
 using Positions = std::vector<glm::dvec3>;
-using Ids = std::vector<std::array<std::uint32_t, 3>>;
 
 constexpr const char *part = "/extensions/EXT_meshopt_compression";
 
-Ids vertices_of(const Scene &scene) {
-  Ids ids;
-  for (const Triangle &triangle : scene.triangles)
-    ids.push_back(triangle.vertices);
-  return ids;
-}
-
 // The square with one value of a compressed bufferView replaced: 2 is ATTRIBUTES, 3 TRIANGLES.
-std::string error_with(std::size_t view, const std::string &key, const json &value) {
+std::string error_of_view(std::size_t view, const std::string &key, const json &value) {
   json gltf = compressed_square();
   compression(gltf, view)[key] = value;
   return scene_error_of(gltf);
@@ -121,18 +113,18 @@ TEST_CASE("The quaternion filter finds the largest component") {
 
 TEST_CASE("Compressed views whose layout breaks the extension's rules") {
   CHECK_THAT(
-      error_with(2, "byteStride", 10),
+      error_of_view(2, "byteStride", 10),
       EndsWith("/bufferViews/2/extensions/EXT_meshopt_compression/byteStride: expected a multiple of 4 "
                "for \"ATTRIBUTES\", found 10"));
-  CHECK_THAT(error_with(2, "byteStride", 260), Contains("/byteStride: expected an integer from 2 to 256"));
-  CHECK_THAT(error_with(2, "byteStride", 16),
+  CHECK_THAT(error_of_view(2, "byteStride", 260), Contains("/byteStride: expected an integer from 2 to 256"));
+  CHECK_THAT(error_of_view(2, "byteStride", 16),
              EndsWith("/bufferViews/2/byteLength: expected 64, 4 elements of 16 bytes, found 48"));
-  CHECK_THAT(error_with(3, "byteStride", 8),
+  CHECK_THAT(error_of_view(3, "byteStride", 8),
              EndsWith(std::string(part) + "/byteStride: expected 2 or 4 for indices, found 8"));
-  CHECK_THAT(error_with(2, "count", 5), EndsWith("/bufferViews/2/byteLength: expected 60, 5 elements of 12 "
+  CHECK_THAT(error_of_view(2, "count", 5), EndsWith("/bufferViews/2/byteLength: expected 60, 5 elements of 12 "
                                                  "bytes, found 48"));
-  CHECK_THAT(error_with(2, "count", 0), Contains("/count: expected an integer from 1 to 4294967295"));
-  CHECK_THAT(error_with(3, "count", 7),
+  CHECK_THAT(error_of_view(2, "count", 0), Contains("/count: expected an integer from 1 to 4294967295"));
+  CHECK_THAT(error_of_view(3, "count", 7),
              EndsWith(std::string(part) + "/count: expected a multiple of 3 for \"TRIANGLES\", found 7"));
   json gltf = compressed_square();
   gltf["bufferViews"][2]["byteStride"] = 16;
@@ -141,28 +133,28 @@ TEST_CASE("Compressed views whose layout breaks the extension's rules") {
 }
 
 TEST_CASE("Compressed views with an unknown mode or a filter that does not fit") {
-  CHECK_THAT(error_with(2, "mode", "POINTS"),
+  CHECK_THAT(error_of_view(2, "mode", "POINTS"),
              EndsWith("/mode: expected \"ATTRIBUTES\" or \"TRIANGLES\" or \"INDICES\", found \"POINTS\""));
-  CHECK_THAT(error_with(2, "filter", "COLOR"), Contains("/filter: expected \"NONE\" or \"OCTAHEDRAL\""));
-  CHECK_THAT(error_with(3, "filter", "EXPONENTIAL"),
+  CHECK_THAT(error_of_view(2, "filter", "COLOR"), Contains("/filter: expected \"NONE\" or \"OCTAHEDRAL\""));
+  CHECK_THAT(error_of_view(3, "filter", "EXPONENTIAL"),
              EndsWith(std::string(part) + "/filter: expected \"NONE\" for \"TRIANGLES\""));
-  CHECK_THAT(error_with(2, "filter", "OCTAHEDRAL"),
+  CHECK_THAT(error_of_view(2, "filter", "OCTAHEDRAL"),
              EndsWith("/byteStride: expected 4 or 8 for \"OCTAHEDRAL\", found 12"));
-  CHECK_THAT(error_with(2, "filter", "QUATERNION"),
+  CHECK_THAT(error_of_view(2, "filter", "QUATERNION"),
              EndsWith("/byteStride: expected 8 for \"QUATERNION\", found 12"));
 }
 
 TEST_CASE("Streams that are not where they are said to be") {
   CHECK_THAT(
-      error_with(2, "buffer", 5),
+      error_of_view(2, "buffer", 5),
       EndsWith("/bufferViews/2/extensions/EXT_meshopt_compression/buffer: index 5 into /buffers, which "
                "has 5"));
-  CHECK_THAT(error_with(2, "byteOffset", 1), Contains(std::string(part) + ": ends at byte "));
-  CHECK_THAT(error_with(2, "byteOffset", 9007199254740991),
+  CHECK_THAT(error_of_view(2, "byteOffset", 1), Contains(std::string(part) + ": ends at byte "));
+  CHECK_THAT(error_of_view(2, "byteOffset", 9007199254740991),
              Contains(std::string(part) + ": ends at byte 9007199254741"));
-  CHECK_THAT(error_with(2, "byteLength", 100000),
+  CHECK_THAT(error_of_view(2, "byteLength", 100000),
              Contains(std::string(part) + ": ends at byte 100000, its buffer has "));
-  CHECK_THAT(error_with(2, "buffer", 2), Contains(", its buffer has 0")); // a fallback buffer
+  CHECK_THAT(error_of_view(2, "buffer", 2), Contains(", its buffer has 0")); // a fallback buffer
   json gltf = compressed_square();
   compression(gltf, 2).erase("count");
   CHECK_THAT(scene_error_of(gltf), EndsWith(std::string(part) + ": missing key \"count\""));
@@ -184,8 +176,8 @@ TEST_CASE("Streams that cannot be decoded") {
   CHECK_THAT(error_of_stream('\x01' + good.substr(1)), EndsWith(expected));
   CHECK_THAT(error_of_stream(good.substr(0, good.size() - 1)), EndsWith(expected));
   CHECK_THAT(error_of_stream(good + "more"), EndsWith(expected));
-  CHECK_THAT(error_with(2, "byteLength", 1), EndsWith(expected));
-  CHECK_THAT(error_with(3, "mode", "INDICES"), Contains("cannot be decoded as 6 elements of \"INDICES\""));
+  CHECK_THAT(error_of_view(2, "byteLength", 1), EndsWith(expected));
+  CHECK_THAT(error_of_view(3, "mode", "INDICES"), Contains("cannot be decoded as 6 elements of \"INDICES\""));
 }
 
 TEST_CASE("What a stream claims to hold costs nothing before it can") {

@@ -21,7 +21,7 @@ struct Corner {
 
 using Corners = std::array<Corner, 3>;
 
-Scene load(const std::string &name) {
+Scene load_packed(const std::string &name) {
   const auto file = std::filesystem::path(PMDSIM_TEST_FILES) / "packed" / name;
   return load_gltf(file, Place{file}).at(0).scene;
 }
@@ -88,7 +88,7 @@ void check_discs(const Scene &packed, const Scene &plain, double largest_m) {
 
 void check_same_scene(const std::string &name, double largest_m) {
   INFO(name);
-  const Scene plain = load("plain.gltf"), packed = load(name);
+  const Scene plain = load_packed("plain.gltf"), packed = load_packed(name);
   REQUIRE(packed.triangles.size() == 100);
   REQUIRE(plain.triangles.size() == 100);
   check_each_has_its_like(triangles_of(packed), triangles_of(plain), largest_m);

@@ -10,8 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double float_rounding = 1e-6; // the files hold floats
-
 json &attributes_of(json &gltf) { return gltf["meshes"][0]["primitives"][0]["attributes"]; }
 
 void check_positions(const Scene &scene, const std::vector<glm::dvec3> &expected) {

@@ -18,9 +18,7 @@ namespace {
 const std::string diode_header = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern";
 const std::string small_diagram = "angle_deg,relative\n0,2\n90,1\n";
 
-double distance(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::length(a - b); }
 
-std::vector<Diode> diodes_of(const Setup &setup) { return setup.start.illuminators.at(0).diodes; }
 
 json named(json illuminator, const std::string &name) {
   illuminator["name"] = name;

@@ -9,10 +9,8 @@ using nlohmann::json;
 
 namespace {
 
-double distance(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::length(a - b); }
 
 // By value: a loop over it outlives a setup that is only a temporary.
-std::vector<Diode> diodes_of(const Setup &setup) { return setup.start.illuminators.at(0).diodes; }
 
 std::size_t active_of_48(const json &active_deg) {
   SetupFixture fixture;

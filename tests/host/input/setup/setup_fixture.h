@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace pmdsim::test {
 
@@ -42,5 +43,10 @@ struct SetupFixture {
     return input_error_of([&] { load(); });
   }
 };
+
+// The first illuminator's.
+inline std::vector<Diode> diodes_of(const Setup &setup) { return setup.start.illuminators.at(0).diodes; }
+
+inline double distance(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::length(a - b); }
 
 } // namespace pmdsim::test
