@@ -38,6 +38,6 @@ inline Ids vertices_of(const Scene &scene) {
 }
 
 // The files hold floats.
-constexpr double float_rounding = 1e-6;
+inline constexpr double float_rounding = 1e-6;
 
 } // namespace pmdsim::test
