@@ -20,7 +20,8 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
 // With shadows a quarter of the usual on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
 std::uint32_t largest_strip(const vulkan::Device &device, const Signal &signal, const Sensor &sensor) {
   const std::uint32_t usual = signal.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;
-  return samples_of_a_strip(usual, signal.sum_planes(), ChannelLayout(signal).channels(), sensor.samples * sensor.samples);
+  return samples_of_a_strip(usual, signal.sum_planes(), ChannelLayout(signal).channels(),
+                            sensor.samples * sensor.samples);
 }
 
 } // namespace

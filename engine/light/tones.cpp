@@ -31,9 +31,8 @@ std::vector<shader::Tone> Signal::all_tones() const {
 }
 
 Signal signal_of(const Sensor &sensor, const SimulatorOptions &options) {
-  Signal signal{
-      shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, options.allowed.moments,
-      sensor.modulation_hz,  {1.0f}};
+  Signal signal{shader::waveform_sine,   sensor.taps,          1,     1, 1, options.keep_taps,
+                options.allowed.moments, sensor.modulation_hz, {1.0f}};
   switch (sensor.waveform.kind) {
   case Waveform::Kind::sine:
     break;

@@ -33,7 +33,7 @@ Scene disc_at(const glm::dvec3 &centre_m, double radius_m, const Surface &surfac
 }
 
 reference::Frame disc_frame(const Scene &scene, const Sensor &sensor, const Diode &diode = {},
-                          Backscatter backscatter = Backscatter::lambert) {
+                            Backscatter backscatter = Backscatter::lambert) {
   return reference::simulate(scene, sensor, {diode_beside_lens(sensor, diode)}, backscatter);
 }
 
@@ -111,7 +111,8 @@ TEST_CASE("the light on a disc falls by the angle to the line to the lens") {
   CHECK(frame.returns[0].amplitude[0] == Approx(std::sqrt(0.5) / std::numbers::pi / 8).epsilon(1e-5));
   CHECK(frame.returns[0].distance_m[0] == Approx((2 + std::sqrt(8)) / 2).epsilon(1e-6));
   // One behind the disc does not reach the side that the lens sees.
-  CHECK(disc_frame(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at({0, 0, 3})).returns[0].amplitude[0] == 0);
+  CHECK(disc_frame(disc_at({0, 0, 2}, 0.5), axial_sensor(), diode_at({0, 0, 3})).returns[0].amplitude[0] ==
+        0);
 }
 
 TEST_CASE("a disc hides what is behind it and is hidden by what is before it") {

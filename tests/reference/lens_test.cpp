@@ -3,8 +3,8 @@
 #include "engine/reference/reference.h"
 #include "engine/reference/view/camera_frame.h"
 #include "engine/reference/view/lens_model.h"
-#include "tests/support/random_scenes.h"
 #include "tests/reference/monostatic_frame.h"
+#include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Surfaces whose reflectivity varies, and the holes that masks cut into them.
 
 #include "engine/reference/reference.h"
-#include "tests/support/random_scenes.h"
 #include "tests/reference/monostatic_frame.h"
+#include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 
 #include <catch2/catch.hpp>
@@ -74,14 +74,16 @@ TEST_CASE("a checker's texels are the pixels that they fill") {
     }
   const auto filter = GENERATE(TextureFilter::nearest, TextureFilter::linear);
   // At the texels' centres; the weights 0.2, 0.5 and 0.3 of a grey add up to 1.
-  check_close(reflectivities(monostatic_frame(painted_wall(paint_with({4, 4}, texels, filter)), square_view(4))),
-              expected);
+  check_close(
+      reflectivities(monostatic_frame(painted_wall(paint_with({4, 4}, texels, filter)), square_view(4))),
+      expected);
 }
 
 TEST_CASE("row 0 of a texture is at the top, its columns run to the right") {
   const auto paint =
       paint_with({2, 2}, {grey(0.1f), grey(0.2f), grey(0.3f), grey(0.4f)}, TextureFilter::nearest);
-  check_close(reflectivities(monostatic_frame(painted_wall(paint), square_view(2))), {0.1f, 0.2f, 0.3f, 0.4f});
+  check_close(reflectivities(monostatic_frame(painted_wall(paint), square_view(2))),
+              {0.1f, 0.2f, 0.3f, 0.4f});
 }
 
 TEST_CASE("a wall whose coordinates run beyond the texture wraps it") {

@@ -2,8 +2,8 @@
 
 #include "engine/reference/light/return_sum.h"
 #include "engine/reference/reference.h"
-#include "tests/support/random_scenes.h"
 #include "tests/reference/monostatic_frame.h"
+#include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/units.h"
 

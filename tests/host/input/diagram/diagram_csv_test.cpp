@@ -49,7 +49,7 @@ TEST_CASE("A diagram's table over the angle to the axis is the same all around")
 
 TEST_CASE("A diagram's table over both angles comes in any order") {
   const Diagram diagram = read_csv("phi_deg,relative,theta_deg\n"
-                               "90,1,60\n0,4,0\n270,3,60\n90,4,0\n0,2,60\n270,4,0\n");
+                                   "90,1,60\n0,4,0\n270,3,60\n90,4,0\n0,2,60\n270,4,0\n");
   check_close(diagram.theta_rad, {0, 60 * degree});
   check_close(diagram.phi_rad, {0, 90 * degree, 270 * degree});
   CHECK(diagram.relative == std::vector{1.0, 1.0, 1.0, 0.5, 0.25, 0.75});
@@ -67,7 +67,8 @@ TEST_CASE("A diagram's phi of 360 is 0 again") {
 }
 
 TEST_CASE("All phi of a diagram's axis have their mean") {
-  const Diagram diagram = read_csv(two + "0,0,1.004\n0,120,1.001\n0,240,0.995\n90,0,0\n90,120,0.5\n90,240,0\n");
+  const Diagram diagram =
+      read_csv(two + "0,0,1.004\n0,120,1.001\n0,240,0.995\n90,0,0\n90,120,0.5\n90,240,0\n");
   check_close(diagram.relative, {1, 1, 1, 0, 0.5, 0});
   CHECK_THAT(
       csv_error(two + "0,0,1\n0,120,0.98\n90,0,0\n90,120,0\n"),
@@ -98,7 +99,8 @@ TEST_CASE("What is wrong in a diagram's table is named with its line") {
   CHECK_THAT(csv_error("phi_deg,relative\n0,1\n"), EndsWith(header));
   CHECK_THAT(csv_error("angle_deg,phi_deg,relative\n0,0,1\n"), EndsWith(header));
   CHECK_THAT(csv_error("angle_deg,relative,colour\n"), EndsWith("led.csv:1: unknown column \"colour\""));
-  CHECK_THAT(csv_error("angle_deg,relative,relative\n"), EndsWith("led.csv:1: column relative appears twice"));
+  CHECK_THAT(csv_error("angle_deg,relative,relative\n"),
+             EndsWith("led.csv:1: column relative appears twice"));
   CHECK_THAT(csv_error(one), EndsWith("led.csv:2: expected at least two angles to the axis"));
   CHECK_THAT(csv_error(one + "0,1\n"), EndsWith("led.csv:3: expected at least two angles to the axis"));
   CHECK_THAT(csv_error(two + "0,0,1\n0,90,1\n"),

@@ -49,7 +49,7 @@ TEST_CASE("A law may be named by its key and its number") {
 
 TEST_CASE("Columns come in any order, lines end in any way") {
   const auto diodes = read_diodes("pattern, z_m,y_m,x_m,intensity_w_sr,axis_z,axis_y,axis_x\r\nisotropic, 3 "
-                           ",2,1,4,1,0,0\r\n1,3,2,1,4,1,0,0");
+                                  ",2,1,4,1,0,0\r\n1,3,2,1,4,1,0,0");
   REQUIRE(diodes.size() == 2);
   CHECK(diodes[0].position_m == glm::dvec3(1, 2, 3));
   CHECK(diodes[1].pattern.order == 1.0);
@@ -68,7 +68,8 @@ TEST_CASE("What is wrong in a diode file is named with its line") {
   CHECK_THAT(diodes_error(header + "1.5x,0,0,0,0,1,1,2\n"),
              EndsWith(":2: x_m: expected a number, found \"1.5x\""));
   CHECK_THAT(diodes_error(header + "0,0,,0,0,1,1,2\n"), EndsWith(":2: z_m: expected a number, found \"\""));
-  CHECK_THAT(diodes_error(header + "0,0,nan,0,0,1,1,2\n"), EndsWith(":2: z_m: expected a number, found \"nan\""));
+  CHECK_THAT(diodes_error(header + "0,0,nan,0,0,1,1,2\n"),
+             EndsWith(":2: z_m: expected a number, found \"nan\""));
   CHECK_THAT(diodes_error(header + "0,0,1e999,0,0,1,1,2\n"), Contains("z_m: expected a number"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,0,1,2\n"), EndsWith(":2: expected an axis, found zero"));
   CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,-1,2\n"),

@@ -83,9 +83,11 @@ TEST_CASE("Vertices and positions that are none") {
              EndsWith("/accessors/1: element 3 is 65535, the primitive restart value"));
   std::vector<float> positions = triangle_positions();
   positions[5] = std::nanf("");
-  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
+  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)),
+             EndsWith("/accessors/0: element 1 is not finite"));
   positions[5] = INFINITY;
-  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)), EndsWith("/accessors/0: element 1 is not finite"));
+  CHECK_THAT(SceneFile().error_of(document(positions, {}, 4)),
+             EndsWith("/accessors/0: element 1 is not finite"));
   CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1}, 5)),
              EndsWith("/meshes/0/primitives/0: 2 vertices make no whole triangles"));
   CHECK_THAT(SceneFile().error_of(document(triangle_positions(), {0, 1, 2, 0}, 4)),
@@ -119,7 +121,8 @@ TEST_CASE("Values of a wrong type are not dropped") {
              Contains("/accessors/1/type: expected \"SCALAR\""));
   CHECK_THAT(error_with("/meshes/0/primitives/0/attributes", json::object()),
              Contains("missing key \"POSITION\""));
-  CHECK_THAT(SceneFile().error_of_bytes("[]"), EndsWith("scene.gltf: expected an object, found an array of 0"));
+  CHECK_THAT(SceneFile().error_of_bytes("[]"),
+             EndsWith("scene.gltf: expected an object, found an array of 0"));
   CHECK_THAT(SceneFile().error_of_bytes("{}"), EndsWith("scene.gltf: missing key \"asset\""));
   CHECK_THAT(error_with("/asset/version", "1.0"),
              EndsWith("/asset/version: expected \"2.0\", found \"1.0\""));

@@ -121,8 +121,9 @@ TEST_CASE("Compressed views whose layout breaks the extension's rules") {
              EndsWith("/bufferViews/2/byteLength: expected 64, 4 elements of 16 bytes, found 48"));
   CHECK_THAT(error_of_view(3, "byteStride", 8),
              EndsWith(std::string(part) + "/byteStride: expected 2 or 4 for indices, found 8"));
-  CHECK_THAT(error_of_view(2, "count", 5), EndsWith("/bufferViews/2/byteLength: expected 60, 5 elements of 12 "
-                                                 "bytes, found 48"));
+  CHECK_THAT(error_of_view(2, "count", 5),
+             EndsWith("/bufferViews/2/byteLength: expected 60, 5 elements of 12 "
+                      "bytes, found 48"));
   CHECK_THAT(error_of_view(2, "count", 0), Contains("/count: expected an integer from 1 to 4294967295"));
   CHECK_THAT(error_of_view(3, "count", 7),
              EndsWith(std::string(part) + "/count: expected a multiple of 3 for \"TRIANGLES\", found 7"));

@@ -32,10 +32,10 @@ glm::dvec3 front_of(const Scene &scene) {
 TEST_CASE("Translation, rotation and scale apply in glTF's order, parents outside") {
   const double half_turn = std::sqrt(0.5); // 90 degrees about y: x to -z, z to x
   const Scene scene = gltf_scene_of(with_nodes({{{"translation", {10, 0, 0}}, {"children", {1}}},
-                                       {{"mesh", 0},
-                                        {"translation", {0, 0, 5}},
-                                        {"rotation", {0, half_turn, 0, half_turn}},
-                                        {"scale", {2, 3, 4}}}}))
+                                                {{"mesh", 0},
+                                                 {"translation", {0, 0, 5}},
+                                                 {"rotation", {0, half_turn, 0, half_turn}},
+                                                 {"scale", {2, 3, 4}}}}))
                           .scene;
   // (-1, -1, -1) scaled (-2, -3, -4), turned (-4, -3, 2), moved (6, -3, 7).
   CHECK(distance(scene.positions_m.at(0), {6, -3, 7}) < 1e-12);
@@ -44,7 +44,8 @@ TEST_CASE("Translation, rotation and scale apply in glTF's order, parents outsid
 
 TEST_CASE("A matrix is column-major and kept in double") {
   const Scene scene =
-      gltf_scene_of(with_nodes({{{"mesh", 0}, {"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1e6, 0, 1e-7, 1}}}}))
+      gltf_scene_of(
+          with_nodes({{{"mesh", 0}, {"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1e6, 0, 1e-7, 1}}}}))
           .scene;
   CHECK(scene.positions_m.at(0) == glm::dvec3(1e6 - 1, -1, 1 + 1e-7));
 }
@@ -95,16 +96,16 @@ TEST_CASE("Nodes that are no tree are refused") {
 TEST_CASE("Transforms that are none are refused") {
   CHECK_THAT(scene_error_of(with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 0}}}})),
              EndsWith("/nodes/0/rotation: expected a unit quaternion"));
-  CHECK_THAT(
-      scene_error_of(with_nodes({{{"mesh", 0}, {"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})),
-      EndsWith("/nodes/0/matrix: expected 0, 0, 0, 1 as the last row"));
+  CHECK_THAT(scene_error_of(
+                 with_nodes({{{"mesh", 0}, {"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})),
+             EndsWith("/nodes/0/matrix: expected 0, 0, 0, 1 as the last row"));
   CHECK_THAT(
       scene_error_of(with_nodes({{{"scale", {1e300, 1, 1}}, {"children", {1}}}, {{"scale", {1e300, 1, 1}}}})),
       EndsWith("/nodes/1: its transform is not finite"));
-  CHECK_THAT(
-      scene_error_of(with_nodes({{{"mesh", 0}, {"scale", {1e308, 1, 1}}, {"translation", {-1.5e308, 0, 0}}}})),
-      EndsWith("/meshes/0/primitives/0: vertex 0 lies outside the world, expected coordinates from "
-               "-1000000000 to 1000000000 m"));
+  CHECK_THAT(scene_error_of(
+                 with_nodes({{{"mesh", 0}, {"scale", {1e308, 1, 1}}, {"translation", {-1.5e308, 0, 0}}}})),
+             EndsWith("/meshes/0/primitives/0: vertex 0 lies outside the world, expected coordinates from "
+                      "-1000000000 to 1000000000 m"));
   CHECK_THAT(scene_error_of(with_nodes(
                  {{{"scale", {1, 1, 1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})),
              EndsWith("/nodes/0: expected a matrix or translation, rotation and scale, found both"));

@@ -18,8 +18,6 @@ namespace {
 const std::string diode_header = "x_m,y_m,z_m,axis_x,axis_y,axis_z,intensity_w_sr,pattern";
 const std::string small_diagram = "angle_deg,relative\n0,2\n90,1\n";
 
-
-
 json named(json illuminator, const std::string &name) {
   illuminator["name"] = name;
   return illuminator;

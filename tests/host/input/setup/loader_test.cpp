@@ -9,7 +9,6 @@ using nlohmann::json;
 
 namespace {
 
-
 // By value: a loop over it outlives a setup that is only a temporary.
 
 std::size_t active_of_48(const json &active_deg) {
