@@ -53,9 +53,9 @@ void add_measuring(CLI::App &command, Written &written) {
   command.add_option("--device", written.device,
                      "part of a device's name, its index (see `pmdsim devices`), or `reference`");
   add_accuracy(command, written.accuracy);
-  command.add_flag(
-      "--no-wide-vectors",
-      "lavapipe: vectors of no more than 256 bits, whatever LP_NATIVE_VECTOR_WIDTH says; always so");
+  command.add_flag("--no-wide-vectors")
+      ->description(
+          "lavapipe: vectors of no more than 256 bits, whatever LP_NATIVE_VECTOR_WIDTH says; always so");
 }
 
 void add_output(CLI::App &command, Written &written) {

@@ -9,14 +9,6 @@
 #include <variant>
 
 namespace pmdsim {
-namespace {
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-} // namespace
-
 Frame::Frame(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request,
              std::uint32_t attempt, TextureCache &textures, SpareMemory &&spare)
     : options_(options), shadows_(request.shadows), accuracy_(request.accuracy),
@@ -231,7 +223,7 @@ void Frame::check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measu
   check_graph_.run(recorder, planned, strip, windows, {}, measurement);
   recorder.reset(times);
   on_.check->compare(strip, planned, on_.buffers, measurement, measurement.accuracy);
-  measurement.accuracy.check_ms += milliseconds_since(start);
+  measurement.accuracy.check_ms += vulkan::milliseconds_since(start);
 }
 
 Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
@@ -239,7 +231,8 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
   const auto start = std::chrono::steady_clock::now();
   recorder.reset();
   Measurement measurement = make_measurement(on_.sensor, on_.signal, options_, std::move(memory));
-  const double memory_ms = milliseconds_since(start); // of a first frame, to which the system gives it
+  const double memory_ms =
+      vulkan::milliseconds_since(start); // of a first frame, to which the system gives it
   measurement.accuracy = on_.report;
   const bool shaded = shadows_ == Shadows::automatic;
   if (!shaded)
@@ -262,7 +255,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
     finish_visibility(measurement);
   recorder.add("read_back", memory_ms);
   measurement.passes = recorder.times();
-  measurement.frame_ms = milliseconds_since(start) - measurement.accuracy.check_ms;
+  measurement.frame_ms = vulkan::milliseconds_since(start) - measurement.accuracy.check_ms;
   return measurement;
 }
 

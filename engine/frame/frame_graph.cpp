@@ -21,10 +21,6 @@ std::set<std::size_t> windows_to_warm(std::size_t count) {
   return {0, std::min<std::size_t>(1, count - 1), count - 1};
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
 void FrameGraph::check(const Pass &pass) {
@@ -95,7 +91,7 @@ void FrameGraph::run_pass(const Pass &pass, std::size_t window, Run &run) const 
   run.open = false;
   const auto start = std::chrono::steady_clock::now();
   pass.store({run.recorder.commands(), run.planned, run.strip, window, {}}, *run.to);
-  run.recorder.add(pass.name, milliseconds_since(start));
+  run.recorder.add(pass.name, vulkan::milliseconds_since(start));
 }
 
 void FrameGraph::run(vulkan::PassRecorder &recorder, const PlannedStrip &planned, std::size_t strip,

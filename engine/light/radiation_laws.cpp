@@ -65,8 +65,8 @@ double cosine_slope(const Diode &diode, const std::vector<VisibleBox> &visible) 
 }
 
 // cos^n = exp(n / 2 log(1 - sin^2)).
-double real_power_rounding_u(double order, double t, double least_cosine) {
-  const double c = std::max(least_cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
+double real_power_rounding_u(double order, double t, double cosine) {
+  const double c = std::max(cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
   const double s2 = std::min(0.5, 1.0 - c * c), r2 = squared_range_error_u(t);
   const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
   double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);

@@ -35,7 +35,7 @@ struct SimulatorOptions {
   bool validate = false; // run under the Khronos validation layer; a message is a std::logic_error
   SamplePrecision precision = SamplePrecision::automatic;
   DiodeLoop loop = DiodeLoop::automatic;
-  PathForms allowed;
+  PathForms allowed{};
 };
 
 } // namespace pmdsim

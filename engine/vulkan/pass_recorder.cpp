@@ -12,6 +12,10 @@ constexpr auto when_all_is_done = vk::PipelineStageFlagBits2::eAllCommands;
 
 } // namespace
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 PassRecorder::PassRecorder(const Device &device)
     : device_(&device), commands_(device), pool_(checked([&] {
         return vk::raii::QueryPool(device.get(),
@@ -35,7 +39,7 @@ void PassRecorder::open() {
 void PassRecorder::end_pass(const std::string &name) {
   if (device_->is_cpu()) {
     commands_.submit_and_wait();
-    add(name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - opened_).count());
+    add(name, milliseconds_since(opened_));
     open();
     return;
   }

@@ -12,6 +12,8 @@
 
 namespace pmdsim::vulkan {
 
+double milliseconds_since(std::chrono::steady_clock::time_point start);
+
 // On GPUs the passes of one submission are told apart by timestamps. A CPU device (lavapipe) takes its
 // timestamps when the rasteriser is flushed, not when compute work ends: there every pass is a submission of
 // its own, by the clock.

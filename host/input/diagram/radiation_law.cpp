@@ -1,6 +1,6 @@
 #include "host/input/diagram/radiation_law.h"
 
-#include "host/input/schema/schemas.h"
+#include "host/input/schema/schema_check.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // What comes later is refused by name, never ignored.
 
 #include "host/input/gltf/extensions.h"
-#include "host/input/schema/schemas.h"
+#include "host/input/schema/schema_check.h"
 #include "tests/host/input/setup/setup_fixture.h"
 
 #include <map>
