@@ -138,7 +138,7 @@ lint() {
   install_linters
   build_target pmdsim_spirv
   check_format
-  tidy release '-clang-analyzer-*,-bugprone-suspicious-include'
+  tidy release '-clang-analyzer-*,-bugprone-suspicious-include,-clang-diagnostic-shadow'
 }
 
 lint_long() {

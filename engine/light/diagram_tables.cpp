@@ -144,7 +144,7 @@ double error_of(const Diagram &diagram, const DiagramGrid &grid) {
 
 // `steps` + 1 values, each with the next one; after the last it stays.
 template <class ValueOf>
-void append(std::uint32_t steps, ValueOf value_of, std::vector<glm::vec2> &table) {
+void append(std::uint32_t steps, const ValueOf &value_of, std::vector<glm::vec2> &table) {
   auto value = static_cast<float>(value_of(0));
   for (std::uint32_t step = 0; step <= steps; ++step) {
     const auto next = static_cast<float>(value_of(std::min(step + 1, steps)));
