@@ -28,8 +28,9 @@ Specialization all_of(const ShaderModule &module) {
 }
 
 Specialization all_but(const ShaderModule &module, std::uint32_t forgotten) {
+  const Specialization all = all_of(module);
   Specialization constants;
-  for (const auto &[constant, value] : all_of(module).values())
+  for (const auto &[constant, value] : all.values())
     if (constant != forgotten)
       constants.set(constant, value);
   return constants;
