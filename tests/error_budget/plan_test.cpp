@@ -39,9 +39,9 @@ FramePlan plan(const PlannedSetup &setup, const Accuracy &accuracy, std::uint32_
   const Projection projection = project(camera, chip_blocks(setup.sensor, 8192));
   const Signal signal = signal_of(setup.sensor, {});
   const SumModel model = sum_model(lights, Backscatter::constant, all_face_the_light(camera, lights));
-  return plan_frame({camera, lights, projection.visible, setup.sensor, signal, model, Backscatter::constant,
-                     setup.long_runs},
-                    accuracy, attempt);
+  return plan_frame(
+      {lights, projection.visible, setup.sensor, signal, model, Backscatter::constant, setup.long_runs},
+      accuracy, attempt);
 }
 
 Accuracy automatic(double max_error_m) {

@@ -24,7 +24,7 @@ std::vector<std::vector<float>> taps_of(std::uint32_t count, double phase_rad, C
   return taps;
 }
 
-double cosine(double phase_rad) { return std::cos(phase_rad); }
+double cosine_of(double phase_rad) { return std::cos(phase_rad); }
 
 void check_dark(const Return &result) {
   CHECK(result.amplitude[0] == 0.0f);
@@ -99,7 +99,7 @@ TEST_CASE("phase and distance stay below the end of their ranges, rounded to flo
   const Return result = return_from_taps({{1.0f}, {-1e-9f}, {-1.0f}, {1e-9f}}, modulation_hz);
   CHECK(result.phase_rad[0] == 0.0f); // 2 pi - 1e-9, which float rounds to more than 2 pi
   CHECK(result.distance_m[0] == 0.0f);
-  const Return before = return_from_taps(taps_of(4, full_turn_rad - 1e-5, cosine), modulation_hz);
+  const Return before = return_from_taps(taps_of(4, full_turn_rad - 1e-5, cosine_of), modulation_hz);
   CHECK(before.phase_rad[0] > 6.28f);
   CHECK(static_cast<double>(before.phase_rad[0]) < full_turn_rad);
 }

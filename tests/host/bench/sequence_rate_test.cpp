@@ -19,12 +19,12 @@ public:
   TemporaryFilesIn &operator=(const TemporaryFilesIn &) = delete;
 };
 
-struct Wall {
+struct MeasuredWall {
   test::Workspace work;
   Setup setup;
   BenchRequest request;
 
-  Wall() {
+  MeasuredWall() {
     work.write("wall.gltf", test::wall_gltf());
     setup = load_setup(work.write("setup.json", test::small_setup()));
     std::filesystem::create_directory(work / "temporary");
@@ -34,7 +34,7 @@ struct Wall {
 } // namespace
 
 TEST_CASE("a sequence's rate is known without writing, as NPY and as EXR, and no file of it is left") {
-  const Wall wall;
+  const MeasuredWall wall;
   const TemporaryFilesIn there(wall.work / "temporary");
   const SequenceRate rate = measure_sequence_rate(wall.setup, wall.request, 5);
   CHECK(rate.frames == 5);
@@ -45,7 +45,7 @@ TEST_CASE("a sequence's rate is known without writing, as NPY and as EXR, and no
 }
 
 TEST_CASE("a sequence that fails in the middle leaves no file either") {
-  Wall wall;
+  MeasuredWall wall;
   wall.setup.start.sensors[0].name = std::string(300, 'x'); // too long for a file's name
   const TemporaryFilesIn there(wall.work / "temporary");
   CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.request, 5),
@@ -54,7 +54,7 @@ TEST_CASE("a sequence that fails in the middle leaves no file either") {
 }
 
 TEST_CASE("a directory for temporary files that is none is told") {
-  const Wall wall;
+  const MeasuredWall wall;
   const TemporaryFilesIn nowhere(wall.work / "nowhere");
   CHECK_THROWS_WITH(measure_sequence_rate(wall.setup, wall.request, 2),
                     "TMPDIR: expected a directory for temporary files: No such file or directory");

@@ -1,14 +1,14 @@
 #include "host/output/tables/deformation.h"
+#include "tests/host/output/nan_value.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 
 namespace {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 float single_deformation_mm(float bistatic_m, float monostatic_m, double ambiguity_m) {
   return deformation_mm(std::vector{bistatic_m}, std::vector{monostatic_m}, ambiguity_m).front();

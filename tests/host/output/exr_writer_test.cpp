@@ -16,12 +16,12 @@ using namespace pmdsim;
 
 namespace {
 
-constexpr glm::uvec2 resolution{5, 37}; // more than two of ZIP's blocks of 16 lines
-constexpr std::size_t pixel_count = resolution.x * resolution.y;
+constexpr glm::uvec2 exr_resolution{5, 37}; // more than two of ZIP's blocks of 16 lines
+constexpr std::size_t pixel_count = exr_resolution.x * exr_resolution.y;
 
 Measurement numbered_measurement() {
   Measurement measurement;
-  measurement.resolution = resolution;
+  measurement.resolution = exr_resolution;
   measurement.returns.resize(1);
   float next = 0.1f;
   for (auto *channel : {&measurement.returns[0].amplitude, &measurement.returns[0].phase_rad,
@@ -41,10 +41,10 @@ template <typename T>
 std::vector<T> read_channel(Imf::InputFile &exr, const std::string &name, Imf::PixelType type) {
   std::vector<T> values(pixel_count);
   Imf::FrameBuffer frame;
-  frame.insert(
-      name, Imf::Slice(type, reinterpret_cast<char *>(values.data()), sizeof(T), sizeof(T) * resolution.x));
+  frame.insert(name, Imf::Slice(type, reinterpret_cast<char *>(values.data()), sizeof(T),
+                                sizeof(T) * exr_resolution.x));
   exr.setFrameBuffer(frame);
-  exr.readPixels(0, resolution.y - 1);
+  exr.readPixels(0, exr_resolution.y - 1);
   return values;
 }
 

@@ -1,5 +1,6 @@
 #include "host/output/pictures/preview.h"
 #include "tests/host/output/directory_content.h"
+#include "tests/host/output/nan_value.h"
 #include "tests/host/output/pixel_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -9,12 +10,12 @@
 #include <numeric>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 using pmdsim::test::count_pixels;
 
 namespace {
 
 using Scale = PreviewStyle::Scale;
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 int area_of(Canvas &canvas, std::uint32_t colour) {
   return count_pixels(canvas, [=](std::uint32_t pixel) { return pixel == colour; });

@@ -1,6 +1,7 @@
 #include "host/output/pictures/profile_plot.h"
 #include "host/output/tables/profile.h"
 #include "tests/host/output/directory_content.h"
+#include "tests/host/output/nan_value.h"
 #include "tests/host/output/pixel_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -10,6 +11,7 @@
 #include <sstream>
 
 using namespace pmdsim;
+using namespace pmdsim::test;
 
 namespace {
 
@@ -62,23 +64,21 @@ TEST_CASE("the profile's angles are those of the lens's rays, and its channels c
 }
 
 TEST_CASE("a profile is a line with gaps") {
-  constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> values(100);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = static_cast<float>(i);
   Canvas whole = draw_profile(values, {100, 1}, "deformation", "mm", "title");
   for (std::size_t i = 30; i < 80; ++i)
     values[i] = nan_value;
-  Canvas half = draw_profile(values, {100, 1}, "deformation", "mm", "title");
+  Canvas half_profile = draw_profile(values, {100, 1}, "deformation", "mm", "title");
   Canvas none = draw_profile(std::vector<float>(100, nan_value), {100, 1}, "deformation", "mm", "title");
   CHECK(line_pixels(whole) > 800);
-  CHECK(line_pixels(half) < 0.6 * line_pixels(whole));
-  CHECK(line_pixels(half) > 0.4 * line_pixels(whole));
+  CHECK(line_pixels(half_profile) < 0.6 * line_pixels(whole));
+  CHECK(line_pixels(half_profile) > 0.4 * line_pixels(whole));
   CHECK(line_pixels(none) == 0);
 }
 
 TEST_CASE("a single value between gaps is still seen, and a constant row too") {
-  constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
   Canvas dot = draw_profile(std::vector{nan_value, 1.0f, nan_value}, {3, 1}, "deformation", "mm", "title");
   CHECK(line_pixels(dot) > 0);
   Canvas constant = draw_profile(std::vector(50, 2.0f), {50, 1}, "deformation", "mm", "title");

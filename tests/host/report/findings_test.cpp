@@ -1,5 +1,6 @@
 // What check finds in a setup, against figures worked out by hand.
 
+#include "engine/reference/reference.h"
 #include "host/report/findings.h"
 #include "tests/support/scenes.h"
 

@@ -105,7 +105,7 @@ void check_obstacles(const std::string &name, const Mesh &mesh) {
 }
 
 // A spiral disc of diodes beside the lens.
-Illuminator many_diodes(std::size_t count, const Sensor &sensor) {
+Illuminator diodes_beside_lens(std::size_t count, const Sensor &sensor) {
   Illuminator illuminator{"many", sensor.world_from_camera, {}};
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   for (std::size_t k = 0; k < count; ++k) {
@@ -127,7 +127,7 @@ void check_shadow_counts(const std::vector<std::size_t> &counts) {
   builder.add_wall({1.0, {0.5, true}, {0.22, -5.0}, {5.0, 5.0}});
   builder.add_wall({1.2, {0.5, true}, {-0.07, -0.1}, {-0.05, 0.1}});
   for (const std::size_t count : counts) {
-    const Illuminator illuminator = many_diodes(count, sensor);
+    const Illuminator illuminator = diodes_beside_lens(count, sensor);
     Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_reached = true});
     simulator.prepare(builder.scene(), sensor, {illuminator}, Backscatter::lambert, Shadows::automatic);
     const Measurement measured = simulator.measure();

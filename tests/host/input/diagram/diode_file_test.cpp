@@ -38,13 +38,13 @@ TEST_CASE("A diode file gives position, unit axis, intensity and pattern") {
 }
 
 TEST_CASE("A law may be named by its key and its number") {
-  const auto diodes = read(header + "0,0,0,0,0,1,1,order 2.5\n");
+  const auto diodes = read_diodes(header + "0,0,0,0,0,1,1,order 2.5\n");
   CHECK(diodes[0].pattern.kind == Pattern::Kind::cosine);
   CHECK(diodes[0].pattern.order == 2.5);
-  CHECK_THAT(error_of(header + "0,0,0,0,0,1,1,order -1\n"),
+  CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1,order -1\n"),
              EndsWith(":2: pattern: expected a number from 0 to 1000000, found \"-1\""));
   for (const char *file : {"order", "isotropic 1", "file"})
-    CHECK_THAT(error_of(header + "0,0,0,0,0,1,1," + file + "\n"), EndsWith("no such file"));
+    CHECK_THAT(diodes_error(header + "0,0,0,0,0,1,1," + file + "\n"), EndsWith("no such file"));
 }
 
 TEST_CASE("Columns come in any order, lines end in any way") {
