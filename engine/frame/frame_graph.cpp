@@ -59,7 +59,7 @@ void FrameGraph::run_parts(const Pass &pass, std::size_t window, Parts parts, Ru
     if (last == pass.all_parts)
       continue;
     run.recorder.finish();
-    if (run.progress)
+    if (run.progress && *run.progress)
       (*run.progress)(static_cast<double>(last) / pass.all_parts);
     run.recorder.begin();
   }

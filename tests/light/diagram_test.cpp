@@ -137,7 +137,7 @@ TEST_CASE("a beam of one degree") {
   check_wall(beam, 1e-4);
 }
 
-TEST_CASE("straight behind the diode is within a diagram of all angles") {
+TEST_CASE("straight behind a diode a frame has what a diagram of all angles says") {
   const Gain behind = [](const Angles &angles) { return angles.theta_rad > 90 * degree ? 0.25 : 1.0; };
   const Pattern all_around = table({0, 80 * degree, 100 * degree, 180 * degree}, {0}, behind);
   WallCase away{.name = "light to all sides, turned away",
