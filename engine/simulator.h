@@ -7,7 +7,6 @@
 #include "engine/model/measurement.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
-#include "engine/model/shadows.h"
 #include "engine/model/simulator_options.h"
 
 #include <functional>

@@ -5,7 +5,6 @@
 #include "engine/light/sum_model.h"
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"
-#include "engine/model/shadows.h"
 #include "engine/model/simulator_options.h"
 #include "engine/shadow/occluders.h"
 #include "engine/view/projection.h"

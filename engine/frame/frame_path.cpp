@@ -1,6 +1,6 @@
 #include "engine/frame/frame_path.h"
 
-#include "engine/sampling/chip_place.h"
+#include "engine/sampling/sample_grid.h"
 #include "shaders/shared/interface.h"
 
 #include <algorithm>

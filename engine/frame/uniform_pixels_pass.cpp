@@ -1,6 +1,6 @@
 #include "engine/frame/uniform_pixels_pass.h"
 
-#include "engine/sampling/chip_place.h"
+#include "engine/sampling/sample_grid.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/resolve_pass.h"
 #include "shaders/shared/constants.h"

@@ -7,7 +7,7 @@
 #include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/pixel_lists.h"
-#include "engine/view/scene_buffers.h"
+#include "engine/view/surface_appearance.h"
 
 namespace pmdsim {
 

@@ -7,10 +7,10 @@
 #include "engine/light/tones.h"
 #include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
-#include "engine/sampling/chip_grid.h"
 #include "engine/sampling/pixel_lists.h"
+#include "engine/sampling/sample_grid.h"
 #include "engine/sampling/strip_memory.h"
-#include "engine/view/scene_buffers.h"
+#include "engine/view/surface_appearance.h"
 #include "engine/vulkan/compute_pipeline.h"
 
 #include <optional>

@@ -11,6 +11,11 @@
 
 namespace pmdsim {
 
+// Which diodes light which point: V_nm of the paper's eq. 5 to 7. A diode reaches a sample where it stands in
+// front of the surface that the lens sees there and no shape of the scene, whichever side it shows, lies
+// between them. The sample's own shape never stands in its way. `off`: whatever lies between.
+enum class Shadows { off, automatic };
+
 // Marks "no triangle or disc" and "no object" wherever an id is stored.
 inline constexpr std::uint32_t no_id = 0xffffffffu;
 

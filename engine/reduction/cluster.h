@@ -4,6 +4,7 @@
 #include "engine/model/illuminator.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,30 @@
 #include <vector>
 
 namespace pmdsim {
+
+// How an error of the sum over the diodes becomes one of distance and of amplitude. Errors over sum|terms| /
+// |sum|: of distance, and of amplitude, relative.
+struct SumError {
+  double distance_m = 0.0, amplitude = 0.0;
+};
+
+// `re` is an error along the phase of a path from where the diodes are, `im` one across it, both over
+// sum|terms|.
+struct ErrorScale {
+  std::vector<double> wavenumbers_rad_m;   // ascending, of all modulation frequencies
+  double distance_per_re_m;                // because the sum's phase is not that path's
+  double distance_per_im_m;                // at the largest wavenumber
+  double max_error_m, max_amplitude_error; // bearable
+  bool lambert;
+
+  double largest_wavenumber_rad_m() const { return wavenumbers_rad_m.back(); }
+
+  double distance_m(double re, double im) const { return distance_per_re_m * re + distance_per_im_m * im; }
+  // Over what is bearable; at most 1 is good.
+  double excess(double re, double im) const {
+    return std::max(distance_m(re, im) / max_error_m, (re + im) / max_amplitude_error);
+  }
+};
 
 struct DiodeCluster {
   std::vector<glm::dvec3> offsets_m; // from the centre, along `axes`

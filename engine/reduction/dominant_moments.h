@@ -12,7 +12,6 @@
 #include "engine/reduction/cluster.h"
 #include "engine/reduction/directional_bounds.h"
 #include "engine/reduction/series_samples.h"
-#include "engine/reduction/sum_error.h"
 
 #include <optional>
 #include <vector>

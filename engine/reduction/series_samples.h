@@ -8,7 +8,6 @@
 
 #include "engine/reduction/cluster.h"
 #include "engine/reduction/directional_bounds.h"
-#include "engine/reduction/sum_error.h"
 
 #include <array>
 #include <complex>

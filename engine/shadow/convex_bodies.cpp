@@ -2,7 +2,7 @@
 
 #include "engine/shadow/point_set.h"
 #include "engine/view/camera_scene.h"
-#include "engine/view/welded_edges.h"
+#include "engine/view/mesh_edges.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include "engine/shadow/convex_bodies.h"
 #include "engine/shadow/point_set.h"
-#include "engine/view/vertex_order.h"
+#include "engine/view/mesh_edges.h"
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "engine/sampling/strip_memory.h"
 #include "engine/shadow/occluders.h"
 #include "engine/shadow/tile_shadow_pipelines.h"
-#include "engine/view/scene_buffers.h"
+#include "engine/view/surface_appearance.h"
 
 #include <span>
 

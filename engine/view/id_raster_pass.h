@@ -3,11 +3,11 @@
 // its triangle ID, nearest wins.
 
 #include "engine/model/simulator_options.h"
-#include "engine/sampling/chip_grid.h"
+#include "engine/sampling/sample_grid.h"
 #include "engine/sampling/strip_memory.h"
 #include "engine/view/projection.h"
 #include "engine/view/raster_images.h"
-#include "engine/view/scene_buffers.h"
+#include "engine/view/surface_appearance.h"
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/compute_pipeline.h"
 

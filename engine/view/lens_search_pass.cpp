@@ -1,8 +1,8 @@
 #include "engine/view/lens_search_pass.h"
 
 #include "engine/lens/lens.h"
-#include "engine/sampling/chip_place.h"
-#include "engine/view/triangle_corners.h"
+#include "engine/sampling/sample_grid.h"
+#include "engine/view/mesh_edges.h"
 #include "engine/vulkan/float_pair.h"
 #include "shaders/shared/constants.h"
 

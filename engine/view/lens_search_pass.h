@@ -7,7 +7,7 @@
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/strip_memory.h"
 #include "engine/view/camera_scene.h"
-#include "engine/view/scene_buffers.h"
+#include "engine/view/surface_appearance.h"
 #include "engine/vulkan/compute_pipeline.h"
 
 namespace pmdsim {

@@ -1,6 +1,6 @@
 #include "engine/view/points_pass.h"
 
-#include "engine/sampling/chip_place.h"
+#include "engine/sampling/sample_grid.h"
 #include "engine/sampling/raster_blocks.h"
 #include "shaders/shared/constants.h"
 

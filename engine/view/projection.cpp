@@ -1,6 +1,6 @@
 #include "engine/view/projection.h"
 
-#include "engine/view/vertex_order.h"
+#include "engine/view/mesh_edges.h"
 
 #include <algorithm>
 #include <array>

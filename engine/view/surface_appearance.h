@@ -1,11 +1,13 @@
 #pragma once
-// How the scene's shapes are painted, as the shaders read it; empty where nothing is.
+// How the scene's shapes are painted, as the shaders read it, empty where nothing is; and all that the passes
+// look up about the scene by a shape's id.
 
 #include "engine/view/camera_scene.h"
 #include "engine/vulkan/buffer.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -47,5 +49,12 @@ PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, con
 
 // ShapePaint::origin of each shape and the affine functions, by the shape's id.
 std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene);
+
+struct SceneBuffers {
+  vulkan::Buffer planes; // TrianglePlane of each of the scene's shapes
+  PaintBuffers paint;
+  std::optional<float> backscatter; // TrianglePlane's, where all that the lens can see has the same
+  double world_rounding_m;          // as in CameraScene
+};
 
 } // namespace pmdsim

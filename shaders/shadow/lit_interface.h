@@ -30,7 +30,7 @@ struct Occluder {
   vec4 a_hi, b_hi, c_hi;   // corners
   vec4 a_lo, b_lo, c_lo;
   uint id;            // of the shape in the scene
-  uint edges;         // bit 0, 1, 2: ab, bc, ca run from the corner that comes later (vertex_order.h)
+  uint edges;         // bit 0, 1, 2: ab, bc, ca run from the corner that comes later (mesh_edges.h)
   uint may_be_absent; // 1: it has holes, or is a disc
   uint body;          // the convex body that it is a part of, or no_body
 };

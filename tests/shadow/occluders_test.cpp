@@ -2,7 +2,7 @@
 
 #include "engine/shadow/occluders.h"
 
-#include "engine/view/vertex_order.h"
+#include "engine/view/mesh_edges.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 

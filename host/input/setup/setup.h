@@ -4,7 +4,6 @@
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
-#include "engine/model/shadows.h"
 
 #include <filesystem>
 #include <memory>

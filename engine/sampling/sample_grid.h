@@ -1,5 +1,6 @@
 #pragma once
-// The chip where a strip's samples are an even grid over it (shaders/shared/interface.h: SampleGrid).
+// The chip as the points passes read it, and where a strip's samples are an even grid over it
+// (shaders/shared/interface.h: SampleGrid).
 
 #include "engine/model/sensor.h"
 #include "engine/vulkan/buffer.h"
@@ -8,6 +9,17 @@
 #include <memory>
 
 namespace pmdsim {
+
+// True where the samples lie evenly over an upright chip in its nominal place: then their rays are multiples
+// of one slope.
+bool is_plain(const Sensor &sensor);
+
+shader::ChipPlace chip_place(const Sensor &sensor);
+
+// Of a nominal chip, as PointsConstants carries it: half a sample's width over the image distance.
+shader::vec4 half_sample_slope(const Sensor &sensor);
+
+vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor);
 
 class ChipGrid {
 public:

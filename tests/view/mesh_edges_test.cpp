@@ -1,6 +1,6 @@
 // Which triangle lies beyond which edge, as the search walks over a mesh.
 
-#include "engine/view/triangle_corners.h"
+#include "engine/view/mesh_edges.h"
 
 #include "tests/support/scenes.h"
 

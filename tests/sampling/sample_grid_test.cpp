@@ -1,7 +1,7 @@
 // The samples' places on the chip as the shaders add them up, against eq. 1 (docs/theory.md,
 // "Conventions").
 
-#include "engine/sampling/chip_place.h"
+#include "engine/sampling/sample_grid.h"
 
 #include "engine/lens/lens.h"
 #include "tests/support/random_cameras.h"
