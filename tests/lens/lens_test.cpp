@@ -52,7 +52,7 @@ std::string fault_of(const Sensor &sensor) {
 
 } // namespace
 
-TEST_CASE("a place on the chip and its ray lead to each other") {
+TEST_CASE("a place on the chip and its ray lead to each other", "[smoke]") {
   Random random(11);
   int brown = 0, fisheye = 0, pinhole = 0;
   for (int i = 0; i < 300; ++i) {

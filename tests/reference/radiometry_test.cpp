@@ -129,7 +129,7 @@ TEST_CASE("vignetting takes the fourth power of the cosine from what is off the 
   }
 }
 
-TEST_CASE("the frame of many diodes is the sum of their frames") {
+TEST_CASE("the frame of many diodes is the sum of their frames", "[smoke]") {
   Random random(11);
   const Pose world_from_camera = random.pose(3);
   const Scene scene = random_triangles(random, 60, world_from_camera);

@@ -126,7 +126,7 @@ TEST_CASE("frequencies mix two returns each by its own phase") {
                  measured.returns[2].distance_m[0], 2);
 }
 
-TEST_CASE("the taps of a sine") {
+TEST_CASE("the taps of a sine", "[smoke]") {
   const auto taps = GENERATE(3u, 4u, 5u, 16u);
   const double phase_turns = GENERATE(0.0625, 0.3, 0.875);
   Reading expected{{}, 1, phase_turns};

@@ -97,7 +97,7 @@ TEST_CASE("amplitude falls with the square of the distance") {
   }
 }
 
-TEST_CASE("two equal returns c / (4 f) apart cancel") {
+TEST_CASE("two equal returns c / (4 f) apart cancel", "[smoke]") {
   const Engine engine = both_engines();
   const Setup setup = analytic_setup("cancel");
   const Measurement frame = measure(engine, setup);

@@ -218,7 +218,7 @@ TEST_CASE("no Vulkan device") {
             .exit_code == 0);
 }
 
-TEST_CASE("wrong command lines") {
+TEST_CASE("wrong command lines", "[smoke]") {
   for (const std::vector<std::string> &arguments : {std::vector<std::string>{},
                                                     {"paint"},
                                                     {"render"},

@@ -67,7 +67,7 @@ TEST_CASE("the paper's figures 11 and 13, on the device and on the reference") {
   CHECK(half["centre"].get<double>() == Approx(ring["centre"].get<double>()).margin(0.002));
 }
 
-TEST_CASE("render --json names what scripts rely on, and every output exists") {
+TEST_CASE("render --json names what scripts rely on, and every output exists", "[smoke]") {
   const Workspace work;
   work.write("wall.gltf", wall_gltf());
   const std::string setup = work.write("setup.json", small_setup());

@@ -74,7 +74,7 @@ TEST_CASE("Unknown and missing keys are named") {
   CHECK_THAT(error_without("/illuminators/0", "diodes"), EndsWith("/illuminators/0: missing key \"diodes\""));
 }
 
-TEST_CASE("Wrong types and values say what was expected") {
+TEST_CASE("Wrong types and values say what was expected", "[smoke]") {
   CHECK_THAT(error_of_text("[]"), EndsWith("setup.json: expected an object, found an array of 0"));
   CHECK_THAT(error_with("/backscatter", "mirror"),
              EndsWith("/backscatter: expected \"lambert\" or \"constant\", found \"mirror\""));

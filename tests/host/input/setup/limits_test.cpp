@@ -66,7 +66,7 @@ std::string diode_error(const std::string &row, double intensity_w_sr = 1.0) {
 
 } // namespace
 
-TEST_CASE("The ranges of a setup's numbers") {
+TEST_CASE("The ranges of a setup's numbers", "[smoke]") {
   check_limits({"/sensors/0/pixel_pitch_m/0", 1e-9, 1e3});
   check_limits({"/sensors/0/pixel_pitch_m/1", 1e-9, 1e3});
   check_limits({"/sensors/0/focal_length_m", 1e-9, 1e3});
