@@ -1,7 +1,7 @@
 #include "engine/view/points_pass.h"
 
-#include "engine/sampling/sample_grid.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/sampling/sample_grid.h"
 #include "shaders/shared/constants.h"
 
 namespace pmdsim {
