@@ -51,6 +51,8 @@ ordered_json mode_json(const SetupBench &bench, const ModeBench &mode) {
                largest_error_m(mode.checks));
   json["first_frame_ms"] = mode.first_frame_ms;
   json["prepare_ms"] = or_null(mode.prepare_ms);
+  for (const auto &[name, value] : mode.path)
+    json["path"][name] = value;
   return json;
 }
 

@@ -33,6 +33,7 @@ public:
     for (std::size_t sensor = 0; sensor < setup_.start.sensors.size(); ++sensor)
       exposures->reuse(take(*exposures, sensor, mode, "first frame"));
     bench.first_frame_ms = ms_since(start);
+    bench.path = exposures->camera().path();
     bench.checks = check_accuracy(setup_, truth, request_.device, accuracy);
     for (const AccuracyCheck &check : bench.checks)
       require_plausible(check, fmt::format("{}, mode {}", exposures->camera().device(), mode_name(mode)));

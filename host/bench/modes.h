@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pmdsim {
@@ -22,6 +23,7 @@ struct ModeBench {
   std::optional<double> prepare_ms;  // again, warm; nothing of the reference
   std::vector<AccuracyCheck> checks; // none of the reference itself
   std::vector<TimedFrame> frames;    // one a round, of all sensors
+  std::vector<std::pair<std::string, std::string>> path; // of the last sensor's frame (Simulator::path())
 };
 
 struct SetupBench {

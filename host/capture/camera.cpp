@@ -50,6 +50,10 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
     simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
 }
 
+std::vector<std::pair<std::string, std::string>> Camera::path() const {
+  return simulator_ ? simulator_->path() : std::vector<std::pair<std::string, std::string>>();
+}
+
 Measurement Camera::measure(const Progress &progress) {
   throw_if_interrupted();
   if (simulator_)

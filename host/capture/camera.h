@@ -10,6 +10,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pmdsim {
 
@@ -36,6 +38,8 @@ public:
   // What follows measures this. `scene` must outlive it. The reference is always as exact as it can be.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
+  // As Simulator::path(); nothing of the reference.
+  std::vector<std::pair<std::string, std::string>> path() const;
   // One frame. Throws Error, interrupted among others.
   Measurement measure(const Progress &progress = {});
   // As Simulator::reuse().

@@ -1,5 +1,6 @@
 #version 460
 // How many workgroups the passes after the short way take for each list.
+// It has no Real.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require

@@ -1,6 +1,7 @@
 #version 460
 // Which parts of tiles anything may shade: their light from the window's diodes passes an occluder, or a diode stands behind
 // their surface. For all others nothing has to be done.
+// It has no Real.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require

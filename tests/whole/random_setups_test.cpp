@@ -207,8 +207,9 @@ void check_budgets(std::uint32_t step) {
              rows["all"].refused - without_bound);
   const std::size_t count = rows["all"].setups;
   CHECK(static_cast<double>(without_bound) <= most_without_bound * static_cast<double>(count));
-  CHECK(static_cast<double>(rows["all"].refused - without_bound) <=
-        most_beyond_rounding * static_cast<double>(count));
+  if (step == 1) // the share is of all setups; a part of them may have more or fewer
+    CHECK(static_cast<double>(rows["all"].refused - without_bound) <=
+          most_beyond_rounding * static_cast<double>(count));
   CHECK(rows["all"].pixels >= count * 100);
   CHECK(rows["all"].left_out <= rows["all"].pixels / 50);
 }
