@@ -23,7 +23,8 @@ struct ModeBench {
   std::optional<double> prepare_ms;  // again, warm; nothing of the reference
   std::vector<AccuracyCheck> checks; // none of the reference itself
   std::vector<TimedFrame> frames;    // one a round, of all sensors
-  std::vector<std::pair<std::string, std::string>> path; // of the last sensor's frame (Simulator::path())
+  std::vector<std::pair<std::string, std::string>> path =
+      {}; // of the last sensor's frame (Simulator::path())
 };
 
 struct SetupBench {

@@ -205,17 +205,17 @@ TEST_CASE("four places stand in for samples that one place is too far from") {
   }
 }
 
-TEST_CASE("few diodes stand in for the paper's ring") {
+TEST_CASE("few diodes stand in for the paper's ring", "[long]") {
   for (const std::uint32_t samples : {1u, 2u, 4u})
     check(shipped_ring(samples));
 }
 
-TEST_CASE("surfaces that part of the light is behind") {
+TEST_CASE("surfaces that part of the light is behind", "[long]") {
   for (const std::uint32_t samples : {1u, 2u, 4u})
     check(in_corner("corner", samples));
 }
 
-TEST_CASE("frequencies from one sum") {
+TEST_CASE("frequencies from one sum", "[long]") {
   for (const std::uint32_t samples : {1u, 2u}) {
     Case of = in_corner("20 and 60 MHz", samples);
     of.sensor.modulation_hz = {20e6, 60e6};
@@ -229,7 +229,7 @@ TEST_CASE("more frequencies than the short way has room for") {
   check(of);
 }
 
-TEST_CASE("chips that stand askew, pixels that are filled in part, cos^4") {
+TEST_CASE("chips that stand askew, pixels that are filled in part, cos^4", "[long]") {
   for (const std::uint32_t samples : {1u, 2u}) {
     Case tilted = in_corner("tilted chip", samples);
     tilted.sensor.chip = {{0.1, -0.05, 0.2}, {0.02, -0.01, 0.03}};
@@ -292,7 +292,7 @@ TEST_CASE("few diodes in the precision that was asked for") {
   }
 }
 
-TEST_CASE("lights half a radian apart") {
+TEST_CASE("lights half a radian apart", "[long]") {
   Case of = in_corner("phased", 2);
   of.lights.push_back(light_at(ring(40, 0.08), 0.5));
   of.fewer_than = 130;

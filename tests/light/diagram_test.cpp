@@ -48,7 +48,7 @@ double cosine3(const Angles &angles) { return std::pow(std::max(0.0, std::cos(an
 
 } // namespace
 
-TEST_CASE("a table of cos^3 at 1 degree is order 3") {
+TEST_CASE("a table of cos^3 at 1 degree is order 3", "[long]") {
   const auto places = ring(48, 0.166);
   const Pattern order{Pattern::Kind::cosine, 3.0};
   const WallCase by_order{.name = "order 3", .lights = {{light_at(places, 0, order), cosine3}}};

@@ -68,7 +68,7 @@ std::vector<Case> cases() {
 
 } // namespace
 
-TEST_CASE("frames of one sample a pixel, however their diodes are summed") {
+TEST_CASE("frames of one sample a pixel, however their diodes are summed", "[long]") {
   fmt::print("{}", comparison_heading());
   for (const Case &of : cases()) {
     Sensor sensor;

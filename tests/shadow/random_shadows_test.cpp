@@ -147,7 +147,7 @@ void check_random_shadows(std::uint32_t first, std::uint32_t last) {
 
 } // namespace
 
-TEST_CASE("shadows in a shipped scene agree with the reference") { check_shipped({"bars"}); }
+TEST_CASE("shadows in a shipped scene agree with the reference", "[long]") { check_shipped({"bars"}); }
 
 TEST_CASE("shadows in the shipped scenes agree with the reference", "[long]") {
   check_shipped({"room", "bars", "closed_box", "penumbra"});

@@ -213,7 +213,7 @@ TEST_CASE("some parameters of the signal agree with the reference") { check_sign
 
 TEST_CASE("every parameter of the signal agrees with the reference", "[long]") { check_signal_cases(1); }
 
-TEST_CASE("all parameters at once agree with the reference") {
+TEST_CASE("all parameters at once agree with the reference", "[long]") {
   const Setup setup = load_setup(PMDSIM_SCENES "/room.json");
   fmt::print("{}", comparison_heading());
   for (const Case &changed : everything)
