@@ -74,18 +74,22 @@ install_linters() {
   fi
 }
 
-# Builds $1 (a ninja target) of the preset $2, release without it; silent where there is nothing to do.
-build_target() {
-  local preset=${2:-release} folder
-  folder=$root/build/$preset
-  if [ -f "$folder/build.ninja" ] && ninja -C "$folder" -n "$1" 2>/dev/null | grep -q 'no work to do'; then return; fi
+# Prepares the build folder of the preset $1.
+configure() {
+  local folder=$root/build/$1
+  if [ -f "$folder/build.ninja" ]; then return; fi
   install_missing
-  if [ ! -f "$folder/build.ninja" ]; then
-    say "configuring in ${folder#"$PWD"/}"
-    (cd "$root" && cmake --preset "$preset") >&2
-  fi
+  say "configuring in ${folder#"$PWD"/}"
+  (cd "$root" && cmake --preset "$1") >&2
+}
+
+# Builds $1, a ninja target; silent where there is nothing to do.
+build_target() {
+  if [ -f "$build/build.ninja" ] && ninja -C "$build" -n "$1" 2>/dev/null | grep -q 'no work to do'; then return; fi
+  install_missing
+  configure release
   say "building (a few minutes the first time)"
-  cmake --build "$folder" --target "$1" >&2
+  cmake --build "$build" --target "$1" >&2
 }
 
 demo() {
@@ -136,14 +140,14 @@ tidy() {
 # A room's sources together are parsed once, but the analyzer passes over what is included: it needs each by itself.
 lint() {
   install_linters
-  build_target pmdsim_spirv
+  configure release
   check_format
   tidy release '-clang-analyzer-*,-bugprone-suspicious-include,-clang-diagnostic-shadow'
 }
 
 lint_long() {
   install_linters
-  build_target pmdsim_spirv dev
+  configure dev
   check_format
   tidy dev ''
 }

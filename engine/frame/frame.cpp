@@ -82,7 +82,7 @@ void Frame::list_reached() {
 }
 
 // The sum over the sources of all pixels, window by window of visibility bits, or of a list of pixels.
-void Frame::list_sum(FrameGraph &graph, const AccumulatePass &pass, std::vector<LitWindow> windows,
+void Frame::list_sum(FrameGraph &graph, const AccumulatePass &pass, const std::vector<LitWindow> &windows,
                      const vulkan::Buffer *list) {
   const Resources shadows = on_.shadow ? visibility_bits : no_resource;
   const Resources samples = on_.path.record == SampleRecord::depth ? ids : ids | points;

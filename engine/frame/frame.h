@@ -37,7 +37,7 @@ private:
   void list_view();
   void list_shadows(FrameGraph &graph);
   void list_reached();
-  void list_sum(FrameGraph &graph, const AccumulatePass &pass, std::vector<LitWindow> windows,
+  void list_sum(FrameGraph &graph, const AccumulatePass &pass, const std::vector<LitWindow> &windows,
                 const vulkan::Buffer *list);
   void list_resolve(FrameGraph &graph, const ResolvePass &pass, const vulkan::Buffer *list);
   void list_sorting();

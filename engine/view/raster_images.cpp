@@ -43,21 +43,21 @@ std::optional<vulkan::Image> image_in_place(const vulkan::Device &device,
 } // namespace
 
 RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents,
-                           vk::Format tag_format, const vulkan::Buffer &tags,
+                           vk::Format format, const vulkan::Buffer &tags,
                            std::optional<RasterImages> &&previous)
-    : extent_(largest_of(extents)), tag_format_(tag_format) {
+    : extent_(largest_of(extents)), tag_format_(format) {
   if (previous && previous->extent_ != extent_)
     previous.reset(); // its memory first
   depth_ = previous ? std::move(previous->depth_)
                     : vulkan::Image(device, extent_, depth_format, Usage::eDepthStencilAttachment,
                                     vk::ImageAspectFlagBits::eDepth);
-  tags_ = image_in_place(device, extents, extent_, tag_format, tags);
+  tags_ = image_in_place(device, extents, extent_, format, tags);
   in_place_ = tags_.has_value();
-  if (!in_place_ && previous && previous->tag_format_ == tag_format)
+  if (!in_place_ && previous && previous->tag_format_ == format)
     tags_ = std::move(previous->tags_);
   if (!tags_) {
     previous.reset();
-    tags_.emplace(device, extent_, tag_format, Usage::eColorAttachment | Usage::eTransferSrc,
+    tags_.emplace(device, extent_, format, Usage::eColorAttachment | Usage::eTransferSrc,
                   vk::ImageAspectFlagBits::eColor);
   }
 }

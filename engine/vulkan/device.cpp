@@ -93,9 +93,9 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags
 }
 
 bool Device::is_fast_for_the_host(std::uint32_t memory_type) const {
-  using Property = vk::MemoryPropertyFlagBits;
+  using Flag = vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags fast =
-      Property::eDeviceLocal | Property::eHostVisible | Property::eHostCoherent | Property::eHostCached;
+      Flag::eDeviceLocal | Flag::eHostVisible | Flag::eHostCoherent | Flag::eHostCached;
   return (memory_.memoryTypes[memory_type].propertyFlags & fast) == fast;
 }
 
