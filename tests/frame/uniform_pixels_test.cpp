@@ -259,7 +259,7 @@ TEST_CASE("painted surfaces and points") {
   }
 }
 
-TEST_CASE("a single diode, and diodes that are turned from what is seen") {
+TEST_CASE("a single diode, and diodes that are turned from what is seen", "[long]") {
   for (const std::uint32_t samples : {1u, 4u}) {
     Case single = in_corner("single diode", samples);
     single.lights = {light_at({{0.1, 0.02, -0.05}}, 0.0, {Pattern::Kind::cosine, 4.0})};
@@ -283,7 +283,7 @@ TEST_CASE("beams end in view") {
   CHECK(measure(of, {}, within(of)).accuracy.precision == Precision::fp64);
 }
 
-TEST_CASE("few diodes in the precision that was asked for") {
+TEST_CASE("few diodes in the precision that was asked for", "[long]") {
   for (const Precision precision : {Precision::fp32, Precision::fp64}) {
     Case of = in_corner(precision == Precision::fp64 ? "fp64" : "fp32", 1);
     of.precision = precision;

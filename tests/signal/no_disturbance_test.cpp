@@ -89,7 +89,7 @@ Difference difference(const Measurement &a, const Measurement &b, const Sensor &
 
 } // namespace
 
-TEST_CASE("next to no tilt and no distortion change nothing") {
+TEST_CASE("next to no tilt and no distortion change nothing", "[long]") {
   const Engine engine = both_engines();
   for (const auto &[scene, samples, most_at_edges, coplanar] : cases_of(engine)) {
     const Setup setup = load_setup(PMDSIM_SCENES "/" + scene + ".json");
