@@ -103,9 +103,6 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
-  if (!state_->options.allowed.moments && sensor.waveform.kind == Waveform::Kind::sine &&
-      (accuracy.mode != Mode::exact || sensor.adaptive_samples))
-    throw std::logic_error("no error is promised of a sine that is summed diode by diode");
   state_->requested = State::Requested{&scene, sensor, illuminators, backscatter, shadows, accuracy};
   state_->attempt = 0;
   state_->prepare();

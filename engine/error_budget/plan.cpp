@@ -86,7 +86,7 @@ DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> 
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
-    if (precision == Precision::fp32 && view.signal.by_moments)
+    if (precision == Precision::fp32 && view.signal.by_moments())
       sum_by_powers(groups, view.model, wavenumber_rad_m, view.allowed);
     return groups;
   };

@@ -1,7 +1,6 @@
 #pragma once
 // How a frame is measured: its passes as a list, strip by strip.
 
-#include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_passes.h"
 
 #include <functional>
@@ -15,8 +14,6 @@ public:
   // As the `attempt`-th of frame_plans has it. Throws Error: out_of_memory, accuracy.
   Frame(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request,
         std::uint32_t attempt, TextureCache &textures, SpareMemory &&spare);
-  Frame(const Frame &) = delete; // its list refers to it
-  Frame &operator=(const Frame &) = delete;
 
   const FramePath &path() const { return on_.path; }
 
@@ -31,20 +28,9 @@ public:
   std::optional<std::string> violation(const Measurement &measured) const;
 
   // After it the frame is of no use any more.
-  SpareMemory release_memory() { return {std::move(on_.buffers), on_.raster.release_images()}; }
+  SpareMemory release_memory() { return {std::move(on_.memory->buffers), on_.raster->release_images()}; }
 
 private:
-  void list_view();
-  void list_shadows(FrameGraph &graph);
-  void list_reached();
-  void list_sum(FrameGraph &graph, const AccumulatePass &pass, const std::vector<LitWindow> &windows,
-                const vulkan::Buffer *list);
-  void list_resolve(FrameGraph &graph, const ResolvePass &pass, const vulkan::Buffer *list);
-  void list_sorting();
-  void list_class(const ClassPasses &passes, const vulkan::Buffer &list, const LitWindow &window);
-  void list_read_back();
-  void list_check();
-
   void forget_broken(vulkan::PassRecorder &recorder) const;
   void finish_visibility(Measurement &measurement) const;
   void check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measurement &measurement) const;
@@ -53,8 +39,6 @@ private:
   Shadows shadows_;
   Accuracy accuracy_;
   FramePasses on_;
-  FrameGraph graph_;
-  FrameGraph check_graph_; // over the same strip, once it is stored
 };
 
 } // namespace pmdsim

@@ -1,12 +1,16 @@
 #include "engine/frame/frame_passes.h"
 
+#include "engine/frame/uniform_pixels_pass.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/shadow/tile_shadow_pass.h"
+#include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
-#include "engine/vulkan/shader_module.h"
+#include "engine/signal/read_back.h"
+#include "engine/signal/resolve_pass.h"
+#include "engine/view/lens_search_pass.h"
+#include "engine/view/points_pass.h"
 
 #include <algorithm>
-#include <array>
-#include <span>
 
 namespace pmdsim {
 namespace {
@@ -19,6 +23,11 @@ struct Basis {
   const FrameFacts &facts;
   const FramePlan &plan;
   const FramePath &path;
+  const FrameMemory &memory;
+
+  PassSetup setup() const {
+    return {device, options, request.sensor, facts.signal, facts.model, memory.buffers, memory.scene};
+  }
 };
 
 std::vector<shader::TrianglePlane> planes_of(const FrameFacts &facts, const FrameRequest &request) {
@@ -50,116 +59,134 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
 }
 
 // What a strip keeps of its samples.
-SampleLayout layout_of(const Basis &on, bool host_reads_ids) {
-  const bool depth_only = on.path.record == SampleRecord::depth;
-  const Precision of_check = on.path.check.value_or(on.plan.precision);
+SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
+                       const FramePath &path) {
+  const bool depth_only = path.record == SampleRecord::depth;
+  const Precision of_check = path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
-      std::max(on.facts.model.surface_vectors(on.plan.precision), on.facts.model.surface_vectors(of_check));
-  const Signal &signal = on.facts.signal;
-  return {.host_reads_tags = host_reads_ids,
+      std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
+  const Signal &signal = facts.signal;
+  return {.host_reads_tags = path.host_reads_truth || options.keep_sample_tags || options.keep_reached,
           .tag_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
-          .sum_bytes = depth_only && on.path.single_batch ? sizeof(shader::vec2) : sizeof(shader::vec4),
+          .sum_bytes = depth_only && path.single_batch ? sizeof(shader::vec2) : sizeof(shader::vec4),
           .sum_planes = signal.sum_planes(),
           .channels = ChannelLayout(signal).channels(),
           .visibility_words = signal.lit ? shader::bundles_per_window : 0,
           .keeps_terms = signal.promised};
 }
 
-PointsPass points_pass(const Basis &on, Precision precision, bool listed) {
-  return {on.device,       on.request.sensor,    on.facts.model.surface_vectors(precision),
-          on.path.painted, on.options.precision, listed};
-}
-
-std::variant<std::monostate, PointsPass, SearchPass> every_point(const Basis &on, const PaintBuffers &paint) {
+// What each sample sees, and where.
+void list_view(const Basis &on, const std::shared_ptr<VisibilityPass> &raster, FrameGraph &graph) {
+  graph.add_before({.name = "visibility",
+                    .reads = no_resource,
+                    .writes = ids,
+                    .record = [raster, &memory = on.memory](const Recording &at) {
+                      raster->record(at.commands, at.planned, memory.scene, drawn_tags(memory.buffers));
+                    }});
+  const std::uint32_t vectors = on.facts.model.surface_vectors(on.plan.precision);
   if (on.path.grid == SampleGrid::distorted)
-    return SearchPass(on.device, on.request.sensor, on.facts.camera, on.request.scene,
-                      on.facts.projection.blocks, on.facts.model.surface_vectors(on.plan.precision), paint,
-                      on.options.precision);
-  if (!on.path.points_first)
-    return std::monostate();
-  return points_pass(on, on.plan.precision, false);
+    graph.add_before(lens_search_pass(on.device, on.options.precision, on.request.sensor, on.facts.camera,
+                                      on.request.scene, on.facts.projection.blocks, vectors,
+                                      on.memory.buffers, on.memory.scene));
+  else if (on.path.points_first)
+    graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor, vectors,
+                                 on.memory.buffers, on.memory.scene));
 }
 
-std::optional<ResolvePass::PlainScope> plain_scope(const Basis &on, const std::optional<ChipGrid> &grid) {
-  if (!grid)
-    return std::nullopt;
-  return ResolvePass::PlainScope{
-      *grid,           on.request.sensor.samples, on.path.single_batch,    on.path.vignetting,
-      on.path.painted, on.path.one_backscatter,   on.path.host_reads_truth};
+// Which sources reach which sample. The spot check finds the frame's tiles.
+Pass shadow_pass(const Basis &on, const std::shared_ptr<const LitPass> &shadow, bool makes_tiles) {
+  return {.name = "lit",
+          .reads = ids | points,
+          .writes = visibility_bits | visibility_counts,
+          .record = [=, &buffers = on.memory.buffers](const Recording &at) {
+            if (at.window == 0 && makes_tiles)
+              shadow->record_tiles(at.commands, at.of_strip(), buffers);
+            shadow->record(at.commands, at.of_strip(), buffers, at.window);
+          }};
 }
 
-// Sources of a class's sum.
-const DiodeGroups &sources_of(const PixelClass &pixels, const FramePlan &plan) {
-  return pixels.reduced ? plan.stand_ins : plan.all;
+// The bits for the host.
+Pass reached_pass(const Basis &on, const std::vector<LitWindow> &windows,
+                  const std::shared_ptr<const DiodeGroups> &sources) {
+  return {.name = "read_back",
+          .reads = visibility_bits,
+          .writes = no_resource,
+          .record =
+              [=, &buffers = on.memory.buffers](const Recording &at) {
+                record_reached(at.commands, at.of_strip(), buffers, windows[at.window]);
+              },
+          .store =
+              [=, &buffers = on.memory.buffers](const Recording &at, Measurement &to) {
+                store_reached(at.of_strip(), buffers, windows[at.window], *sources, to.sample_reached);
+              }};
 }
 
-std::optional<ClassPasses> class_passes(const Basis &on, PixelsOf who, const std::optional<ChipGrid> &grid) {
+// Sorts the pixels into classes, and sums those whose light is uniform.
+void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &lists, FrameGraph &graph) {
+  const PixelClass *uniform = on.path.of(PixelsOf::uniform), *refined = on.path.of(PixelsOf::uniform_refined);
+  const Promise &bound = on.plan.short_promise ? *on.plan.short_promise : *on.plan.promise;
+  const std::uint32_t points = uniform && on.request.sensor.samples > 1 ? uniform->points : 0;
+  graph.add_after(uniform_pixels_pass(on.setup(), on.plan.short_groups, on.plan.extent, bound,
+                                      {.points = points,
+                                       .few_follow = refined != nullptr,
+                                       .sums = uniform != nullptr,
+                                       .lists = on.path.lists_pixels()},
+                                      lists));
+  if (refined)
+    graph.add_after(uniform_pixels_pass(on.setup(), on.plan.short_groups, on.plan.extent, *refined->bound,
+                                        {.points = refined->points}, lists));
+}
+
+// A class of pixels, sample by sample: all of them, or those of `list`.
+void list_class(const Basis &on, PixelsOf who, const std::vector<LitWindow> &windows,
+                const vulkan::Buffer *list, FrameGraph &graph) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
-    return std::nullopt;
-  const DiodeGroups &groups = sources_of(*pixels, on.plan);
-  const bool listed = who != PixelsOf::all;
-  return ClassPasses{AccumulatePass(on.device, groups, on.facts.model, on.facts.signal, on.options,
-                                    {pixels->shadowed, listed, pixels->precision, pixels->bound, grid}),
-                     ResolvePass(on.device, on.facts.signal, groups, on.options,
-                                 {is_tiled(on.request.sensor), listed, pixels->precision, pixels->bound,
-                                  plain_scope(on, grid)})};
+    return;
+  const DiodeGroups &groups = pixels->reduced ? on.plan.stand_ins : on.plan.all;
+  SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
+  if (on.path.record == SampleRecord::depth)
+    scope.depth_records.emplace(on.device, on.request.sensor);
+  if (list && !on.path.points_first)
+    graph.add_after(points_pass(on.device, on.options.precision, on.request.sensor,
+                                on.facts.model.surface_vectors(pixels->precision), on.memory.buffers,
+                                on.memory.scene, list));
+  Pass sum =
+      accumulate_pass(on.setup(), groups, pixels->reduced ? std::vector{all_runs(groups)} : windows, scope);
+  list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
+  graph.add_after(resolve_pass(on.setup(), groups, scope, on.path.host_reads_truth));
 }
 
-// The pass that sorts, whether it sums or not.
-ShortWay uniform_pass(const Basis &on, const PixelLists &lists) {
-  const PixelClass *uniform = on.path.of(PixelsOf::uniform);
-  const Promise &bound = on.plan.short_promise ? *on.plan.short_promise : *on.plan.promise;
-  return {on.device,
-          on.request.sensor,
-          on.plan.short_groups,
-          on.plan.extent,
-          on.facts.model,
-          on.facts.signal,
-          bound,
-          on.options,
-          {.painted = on.path.painted,
-           .places = uniform && on.request.sensor.samples > 1 ? uniform->points : 0,
-           .few_follow = on.path.of(PixelsOf::uniform_refined) != nullptr,
-           .sums = uniform != nullptr,
-           .lists = on.path.lists_pixels()},
-          lists};
-}
-
-std::optional<ShortWay> refined_pass(const Basis &on, const PixelLists &lists) {
-  const PixelClass *refined = on.path.of(PixelsOf::uniform_refined);
-  if (!refined)
-    return std::nullopt;
-  return ShortWay(on.device, on.request.sensor, on.plan.short_groups, on.plan.extent, on.facts.model,
-                  on.facts.signal, *refined->bound, on.options, {.painted = false, .places = refined->points},
-                  lists);
-}
-
-SortedPasses sorted_passes(const Basis &on, const std::vector<PlannedStrip> &strips) {
-  PixelLists lists(on.device, strips);
-  ShortWay uniform = uniform_pass(on, lists);
-  std::optional<ShortWay> refined = refined_pass(on, lists);
-  std::optional<PointsPass> points;
-  if (!on.path.points_first)
-    points = points_pass(on, on.plan.precision, true);
-  return {std::move(lists), std::move(uniform), std::move(refined), std::move(points)};
-}
-
-ExactCheck spot_check(const Basis &on, const std::vector<PlannedStrip> &strips) {
+// Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
+void list_check(const Basis &on, const SpotCheck &check, const std::vector<LitWindow> &windows,
+                const std::shared_ptr<const LitPass> &shadow, FrameGraph &graph) {
   Signal signal = on.facts.signal;
   signal.promised = false;
+  PassSetup setup{on.device,      on.options,        on.request.sensor, signal,
+                  on.facts.model, on.memory.buffers, on.memory.scene};
   const Precision precision = *on.path.check;
-  DiodeGroups groups = precision == on.plan.precision
-                           ? on.plan.all
-                           : group_diodes(on.facts.lights, on.facts.projection.visible,
-                                          signal.largest_wavenumber_rad_m(), precision);
-  return {on.device,      on.request.sensor,
-          strips,         signal,
-          on.facts.model, std::move(groups),
-          on.options,     {precision, on.path.check_makes_points, on.path.painted}};
+  DiodeGroups of_precision;
+  if (precision != on.plan.precision)
+    of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
+                                signal.largest_wavenumber_rad_m(), precision);
+  const DiodeGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
+  const SumScope scope{signal.lit, precision, &check.list(), {}, {}};
+  graph.add_before(check.list_pass());
+  if (on.path.check_makes_points)
+    graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor,
+                                 on.facts.model.surface_vectors(precision), on.memory.buffers,
+                                 on.memory.scene, &check.list()));
+  if (shadow && windows.size() > 1)
+    graph.add_to_window(shadow_pass(on, shadow, false));
+  graph.add_to_window(
+      accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
+  graph.add_after(resolve_pass(setup, groups, scope));
+  Pass read_back = read_back_pass(on.request.sensor, on.facts.signal, on.memory.buffers, {});
+  read_back.store = {}; // it is only compared
+  graph.add_after(std::move(read_back));
 }
 
 std::uint32_t shining(const DiodeGroups &groups) {
@@ -177,55 +204,45 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   return report;
 }
 
-FramePasses make_passes(const Basis &on, std::vector<LitWindow> windows, SceneBuffers scene,
-                        SpareMemory &&spare) {
-  const auto &[device, options, request, facts, plan, path] = on;
-  const auto strips =
-      plan_strips(request.sensor, facts.projection.blocks,
-                  options.max_strip_samples > 0 ? options.max_strip_samples : facts.largest_strip);
-  std::optional<TruthOfRecords> truth;
-  if (path.host_reads_truth)
-    truth = truth_of_records(device, options, request.scene);
+FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::vector<LitWindow> windows,
+                        std::unique_ptr<FrameMemory> memory, std::optional<RasterImages> images) {
+  const auto &[device, options, request, facts, plan, path, _] = on;
   std::optional<ChipGrid> grid;
   if (path.record == SampleRecord::depth)
     grid.emplace(device, request.sensor);
-  StripBuffers buffers =
-      make_strip_buffers(device, strips, facts.projection.blocks,
-                         layout_of(on, truth || options.keep_sample_tags || options.keep_reached), options,
-                         std::move(spare.buffers));
-  VisibilityPass raster(device, facts.projection, request.sensor, strips, scene.paint.masked,
-                        options.precision, grid, drawn_tags(buffers), std::move(spare.images));
-  auto points = every_point(on, scene.paint);
-  std::optional<LitPass> shadow;
+  auto raster = std::make_shared<VisibilityPass>(device, facts.projection, request.sensor, strips,
+                                                 memory->scene.paint.masked, options.precision, grid,
+                                                 drawn_tags(memory->buffers), std::move(images));
+  const auto sources = std::make_shared<const DiodeGroups>(plan.all);
+  std::shared_ptr<const LitPass> shadow;
   if (path.windows > 0)
-    shadow.emplace(device, facts.occluders, plan.all, windows, scene, strips, is_tiled(request.sensor),
-                   options.precision);
-  std::optional<SortedPasses> sorted;
-  if (path.is_sorted())
-    sorted.emplace(sorted_passes(on, strips));
-  std::optional<ExactCheck> check;
-  if (path.check)
-    check.emplace(spot_check(on, strips));
-  if (path.classes.front().reduced && !path.is_sorted())
-    windows = {all_runs(plan.stand_ins)};
-  return {path,
-          request.sensor,
-          facts.signal,
-          strips,
-          std::move(scene),
-          std::move(buffers),
-          std::move(raster),
-          std::move(points),
-          plan.all,
-          std::move(windows),
-          std::move(shadow),
-          std::move(sorted),
-          class_passes(on, PixelsOf::all, grid),
-          class_passes(on, PixelsOf::unshadowed, {}),
-          class_passes(on, PixelsOf::rest, {}),
-          std::move(truth),
-          std::move(check),
-          report_of(plan, path)};
+    shadow = std::make_shared<const LitPass>(device, facts.occluders, plan.all, windows, memory->scene,
+                                             strips, is_tiled(request.sensor), options.precision);
+  std::optional<TruthOfRecords> truth;
+  if (path.host_reads_truth)
+    truth = truth_of_records(device, options, request.scene);
+
+  FramePasses made{path,    request.sensor,    facts.signal, strips, windows.size(),
+                   sources, std::move(memory), raster,       {},     report_of(plan, path)};
+  FrameGraph &graph = made.graph;
+  list_view(on, raster, graph);
+  if (shadow)
+    graph.add_to_window(shadow_pass(on, shadow, true));
+  if (shadow && options.keep_reached)
+    graph.add_to_window(reached_pass(on, windows, sources));
+  list_class(on, PixelsOf::all, windows, nullptr, graph);
+  if (path.is_sorted()) {
+    const auto lists = std::make_shared<const PixelLists>(device, strips);
+    list_sorting(on, lists, graph);
+    list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_lit), graph);
+    list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
+  }
+  graph.add_after(read_back_pass(request.sensor, facts.signal, on.memory.buffers, truth));
+  if (path.check) {
+    made.check.emplace(on.setup(), strips);
+    list_check(on, *made.check, windows, shadow, made.check_graph);
+  }
+  return made;
 }
 
 } // namespace
@@ -243,12 +260,17 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);
   const FramePath path = choose_path(facts, plan, request, windows.size(), backscatter, options.allowed);
-  SceneBuffers scene{
-      vulkan::upload(device, std::as_bytes(std::span(planes))),
-      upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
-      path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m};
-  return make_passes({device, options, request, facts, plan, path}, std::move(windows), std::move(scene),
-                     std::move(spare));
+  std::vector<PlannedStrip> strips =
+      plan_strips(request.sensor, facts.projection.blocks,
+                  options.max_strip_samples > 0 ? options.max_strip_samples : facts.largest_strip);
+  auto memory = std::make_unique<FrameMemory>(FrameMemory{
+      make_strip_buffers(device, strips, facts.projection.blocks, layout_of(options, facts, plan, path),
+                         options, std::move(spare.buffers)),
+      {vulkan::upload(device, planes),
+       upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
+       path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m}});
+  const Basis on{device, options, request, facts, plan, path, *memory};
+  return make_passes(on, std::move(strips), std::move(windows), std::move(memory), std::move(spare.images));
 }
 
 } // namespace pmdsim

@@ -19,7 +19,7 @@ SampleGrid grid_of(const Sensor &sensor) {
 }
 
 Summation summation_of(const FrameFacts &facts, const DiodeGroups &groups) {
-  return !facts.signal.by_moments       ? Summation::per_diode
+  return !facts.signal.by_moments()     ? Summation::per_diode
          : groups.power_sums.powers > 0 ? Summation::polynomial_moments
                                         : Summation::moments;
 }
@@ -41,7 +41,7 @@ bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.sign
 
 // Whether the pass from IDs to channels can sum such groups itself, as one straight line.
 bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
-  return signal.waveform == shader::waveform_sine && signal.by_moments && !sensor.has_distortion() &&
+  return signal.waveform == shader::waveform_sine && !sensor.has_distortion() &&
          signal.frequencies() <= shader::short_way_tones &&
          groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;
 }

@@ -1,6 +1,6 @@
 #include "engine/frame/spot_check.h"
 
-#include "engine/sampling/raster_blocks.h"
+#include "engine/sampling/pixel_lists.h"
 #include "engine/signal/channel_layout.h"
 
 #include <algorithm>
@@ -62,31 +62,23 @@ double wrapped(double difference_m, double ambiguity_m) {
 
 } // namespace
 
-ExactCheck::ExactCheck(const vulkan::Device &device, const Sensor &sensor,
-                       const std::vector<PlannedStrip> &strips, const Signal &signal, const SumModel &model,
-                       DiodeGroups groups, const SimulatorOptions &options, const Scope &scope)
-    : signal_(signal), pixels_(std::min<std::uint64_t>(sensor.pixel_count(), checked_pixels)),
-      of_strip_(by_strip(choose_pixels(sensor.pixel_count()), strips)), groups_(std::move(groups)),
-      list_(make_pixel_list(device, checked_pixels)),
-      sum_(device, groups_, model, signal, options, {signal.lit, true, scope.precision}),
-      resolve_(device, signal, groups_, options, {is_tiled(sensor), true, scope.precision, {}}) {
-  if (scope.makes_points)
-    points_.emplace(device, sensor, model.surface_vectors(scope.precision), scope.painted, options.precision,
-                    true);
+SpotCheck::SpotCheck(const PassSetup &on, const std::vector<PlannedStrip> &strips)
+    : signal_(on.signal), of_strip_(by_strip(choose_pixels(on.sensor.pixel_count()), strips)),
+      list_(std::make_shared<const vulkan::Buffer>(make_pixel_list(on.device, checked_pixels))) {}
+
+Pass SpotCheck::list_pass() const {
+  return {.name = "points",
+          .reads = no_resource,
+          .writes = pixel_lists,
+          .record = [pixels = of_strip_, list = list_](const Recording &at) {
+            const std::uint32_t side = at.of_strip().samples;
+            record_fill(at.commands, *list, pixels[at.strip], side * side);
+          }};
 }
 
-void ExactCheck::record_points(const vk::raii::CommandBuffer &commands, std::size_t strip,
-                               const PlannedStrip &planned, const StripBuffers &buffers,
-                               const SceneBuffers &scene) const {
-  const std::uint32_t side = planned.strip.samples;
-  record_fill(commands, list_, of_strip_[strip], side * side);
-  if (points_)
-    points_->record(commands, planned.strip, buffers, scene, &list_);
-}
-
-void ExactCheck::compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
-                         const Measurement &measured, AccuracyReport &report) const {
-  const shader::Strip &of = planned.strip;
+void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
+                        Measurement &measured) const {
+  AccuracyReport &report = measured.accuracy;
   const ChannelLayout layout(signal_);
   double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
   for (const std::uint32_t pixel : of_strip_[strip])

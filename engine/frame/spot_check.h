@@ -3,51 +3,30 @@
 // by.
 
 #include "engine/light/accumulate_pass.h"
-#include "engine/model/accuracy.h"
 #include "engine/model/measurement.h"
-#include "engine/signal/resolve_pass.h"
-#include "engine/view/points_pass.h"
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace pmdsim {
 
-class ExactCheck {
+class SpotCheck {
 public:
-  struct Scope {
-    Precision precision; // of `groups`, which hold every diode
-    bool makes_points;   // else the sample's points are there
-    bool painted;
-  };
   // The pixels are the same for every frame of a resolution.
-  ExactCheck(const vulkan::Device &device, const Sensor &sensor, const std::vector<PlannedStrip> &strips,
-             const Signal &signal, const SumModel &model, DiodeGroups groups, const SimulatorOptions &options,
-             const Scope &scope);
+  SpotCheck(const PassSetup &on, const std::vector<PlannedStrip> &strips);
 
-  std::size_t pixels() const { return pixels_; }
-  const DiodeGroups &groups() const { return groups_; }
-  const AccumulatePass &sum() const { return sum_; }
-  const ResolvePass &resolve() const { return resolve_; }
-  const vulkan::Buffer &list() const { return list_; }
-
-  // Makes the list of the strip's pixels and their samples' points; after it comes the sum, then the
-  // channels.
-  void record_points(const vk::raii::CommandBuffer &commands, std::size_t strip, const PlannedStrip &planned,
-                     const StripBuffers &buffers, const SceneBuffers &scene) const;
-  // Largest difference of the measured strip from the channels that were read back.
-  void compare(std::size_t strip, const PlannedStrip &planned, const StripBuffers &buffers,
-               const Measurement &measured, AccuracyReport &report) const;
+  const vulkan::Buffer &list() const { return *list_; }
+  // Fills it with the strip's pixels.
+  Pass list_pass() const;
+  // Largest difference of the measured strip from the channels that were read back, into the measurement's
+  // report.
+  void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
+               Measurement &measured) const;
 
 private:
   Signal signal_;
-  std::size_t pixels_;
   std::vector<std::vector<std::uint32_t>> of_strip_; // pixels, counted within the strip
-  DiodeGroups groups_;
-  vulkan::Buffer list_;
-  std::optional<PointsPass> points_;
-  AccumulatePass sum_;
-  ResolvePass resolve_;
+  std::shared_ptr<const vulkan::Buffer> list_;
 };
 
 } // namespace pmdsim

@@ -8,29 +8,29 @@
 #include <algorithm>
 #include <cstring>
 #include <numbers>
+#include <span>
 
 namespace pmdsim {
 namespace {
 
-std::uint32_t lists_of(const ShortWayOptions &ways) {
-  if (!ways.lists)
+std::uint32_t lists_of(const UniformPixels &pixels) {
+  if (!pixels.lists)
     return shader::lists_no_pixel;
-  return ways.few_follow ? shader::lists_in_three : shader::lists_in_two;
+  return pixels.few_follow ? shader::lists_in_three : shader::lists_in_two;
 }
 
-vulkan::Specialization constants_of(const vulkan::Device &device, const SimulatorOptions &options,
-                                    const Sensor &sensor, const DiodeGroups &groups, const SumModel &model,
-                                    const Signal &signal, const ShortWayOptions &ways) {
-  return sum_constants(device, options, groups, model, signal, {})
-      .merge(resolve_constants(signal, {is_tiled(sensor)}, true))
+vulkan::Specialization constants_of(const PassSetup &on, const DiodeGroups &groups,
+                                    const UniformPixels &pixels) {
+  return sum_constants(on, groups, {})
+      .merge(resolve_constants(on, {}, true))
       .merge({{shader::constant_surface_vectors, 1},
-              {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
-              {shader::constant_general_chip, !is_plain(sensor)},
-              {shader::constant_painted, ways.painted},
-              {shader::constant_runs, ways.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
-              {shader::constant_side, sensor.samples},
-              {shader::constant_places, ways.places},
-              {shader::constant_lists_pixels, lists_of(ways)}});
+              {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
+              {shader::constant_general_chip, !is_plain(on.sensor)},
+              {shader::constant_painted, on.scene.paint.painted},
+              {shader::constant_runs, pixels.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
+              {shader::constant_side, on.sensor.samples},
+              {shader::constant_places, pixels.points},
+              {shader::constant_lists_pixels, lists_of(pixels)}});
 }
 
 shader::ShortWayLight light_record(const LightExtent &extent, const Signal &signal, bool phased) {
@@ -52,57 +52,80 @@ shader::ShortWayLight light_record(const LightExtent &extent, const Signal &sign
   return record;
 }
 
-vulkan::Buffer upload_light(const vulkan::Device &device, shader::ShortWayLight light,
-                            const std::vector<shader::LightRun> &runs) {
+// The record, and behind it what the sources share.
+vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
+                            const Promise &promise, bool sums, const vulkan::Buffer &diagrams) {
+  shader::ShortWayLight light = light_record(extent, on.signal, groups.phased);
+  light.diagrams = diagrams.words();
+  if (sums) {
+    std::ranges::copy(on.signal.all_tones(), light.tones);
+    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, promise),
+                      light.frequencies);
+  }
+  const std::vector<shader::LightRun> runs = light_runs(groups, promise);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));
   std::memcpy(bytes.data(), &light, sizeof(light));
   std::memcpy(bytes.data() + sizeof(light), runs.data(), runs.size() * sizeof(shader::LightRun));
-  return vulkan::upload(device, bytes);
+  return vulkan::upload(on.device, bytes);
 }
 
-} // namespace
-
-ShortWay::ShortWay(const vulkan::Device &device, const Sensor &sensor, const DiodeGroups &groups,
-                   const LightExtent &extent, const SumModel &model, const Signal &signal,
-                   const Promise &promise, const SimulatorOptions &options, const ShortWayOptions &ways,
-                   const PixelLists &lists)
-    : slope_(half_sample_slope(sensor)), chip_(upload_chip(device, sensor)),
-      diodes_(upload_diodes(device, groups, {})),
-      diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      pipeline_(device, vulkan::shader_module(device, options.precision, "uniform_pixels"),
-                sizeof(shader::ShortWayConstants),
-                constants_of(device, options, sensor, groups, model, signal, ways)) {
-  shader::ShortWayLight light = light_record(extent, signal, groups.phased);
-  light.diagrams = diagrams_.words();
-  if (ways.sums) {
-    std::ranges::copy(signal.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(signal, groups.largest_intensity_w_sr, promise), light.frequencies);
-  }
-  light_ = upload_light(device, light, light_runs(groups, promise));
+vulkan::Buffer upload_work(const PassSetup &on, const DiodeGroups &groups, const PixelLists &lists) {
   shader::ShortWayWork work{};
-  work.lit_channel = ChannelLayout(signal).lit_channel();
+  work.lit_channel = ChannelLayout(on.signal).lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
     work.lists[list] = lists.of(list).words();
-  work_ = vulkan::upload(device, std::as_bytes(std::span(&work, 1)));
+  return vulkan::upload(on.device, std::as_bytes(std::span(&work, 1)));
 }
 
-void ShortWay::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const SceneBuffers &scene,
-                      const vulkan::Buffer *few) const {
-  const shader::ShortWayConstants constants{strip,
-                                            slope_,
-                                            chip_.words(),
-                                            buffers.tags.words(),
-                                            scene.planes.words(),
-                                            scene.paint.shapes.words(),
-                                            scene.paint.surfaces.words(),
-                                            buffers.lit.words(),
-                                            light_.words(),
-                                            diodes_.words(),
-                                            buffers.channels.words(),
-                                            work_.words()};
-  dispatch_listed(pipeline_, commands, constants, strip.padded_pixels, few, of_pixels);
+// The pass on the device.
+struct OnDevice {
+  OnDevice(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent, const Promise &promise,
+           const UniformPixels &pixels, const PixelLists &lists)
+      : slope(half_sample_slope(on.sensor)), chip(upload_chip(on.device, on.sensor)),
+        diodes(upload_diodes(on.device, groups, {})), diagrams(vulkan::upload(on.device, groups.diagrams)),
+        light(upload_light(on, groups, extent, promise, pixels.sums, diagrams)),
+        work(upload_work(on, groups, lists)),
+        pipeline(on.device, vulkan::shader_module(on.device, on.options.precision, "uniform_pixels"),
+                 sizeof(shader::ShortWayConstants), constants_of(on, groups, pixels)) {}
+
+  shader::vec4 slope;
+  vulkan::Buffer chip, diodes, diagrams, light, work;
+  vulkan::ComputePipeline pipeline;
+};
+
+} // namespace
+
+Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
+                         const Promise &promise, const UniformPixels &pixels,
+                         const std::shared_ptr<const PixelLists> &lists) {
+  const auto made = std::make_shared<const OnDevice>(on, groups, extent, promise, pixels, *lists);
+  const vulkan::Buffer *const few = pixels.points == 4 ? &lists->of(shader::list_few) : nullptr;
+  const auto record = [=, &buffers = on.buffers, &scene = on.scene](const Recording &at) {
+    const shader::Strip &strip = at.of_strip();
+    const shader::ShortWayConstants constants{strip,
+                                              made->slope,
+                                              made->chip.words(),
+                                              buffers.tags.words(),
+                                              scene.planes.words(),
+                                              scene.paint.shapes.words(),
+                                              scene.paint.surfaces.words(),
+                                              buffers.lit.words(),
+                                              made->light.words(),
+                                              made->diodes.words(),
+                                              buffers.channels.words(),
+                                              made->work.words()};
+    if (!few)
+      lists->record_clear(at.commands);
+    dispatch_listed(made->pipeline, at.commands, constants, strip.padded_pixels, few, of_pixels);
+    lists->record_count(at.commands, strip.samples * strip.samples);
+  };
+  return {.name = "short_way",
+          .reads =
+              ids | (on.signal.lit ? visibility_counts : no_resource) | (few ? pixel_lists : no_resource),
+          .writes = channels | pixel_lists,
+          .record = record,
+          .list = few};
 }
 
 } // namespace pmdsim

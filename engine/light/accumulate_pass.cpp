@@ -1,6 +1,7 @@
 #include "engine/light/accumulate_pass.h"
 
 #include "engine/light/radiation_laws.h"
+#include "engine/sampling/pixel_lists.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/float_pair.h"
 #include "shaders/shared/constants.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace pmdsim {
 namespace {
@@ -16,12 +18,11 @@ namespace {
 // times the size of the light with its distance from the lens.
 constexpr double height_rounding = 14.0;
 
-std::string_view module_of(const Signal &signal, const AccumulatePass::Scope &scope) {
-  if (scope.plain)
-    return "accumulate_plain";
-  if (!signal.by_moments)
-    return "accumulate_per_diode";
-  return scope.precision == Precision::fp64 ? "accumulate_precise" : "accumulate";
+std::string_view module_of(const Signal &signal, const SumScope &scope) {
+  return scope.depth_records                  ? "accumulate_plain"
+         : !signal.by_moments()               ? "accumulate_per_diode"
+         : scope.precision == Precision::fp64 ? "accumulate_precise"
+                                              : "accumulate";
 }
 
 // Precise sums of pairs of floats would take minutes to compile as a straight line.
@@ -31,68 +32,8 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
          (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
-} // namespace
-
-vulkan::Buffer upload_tones(const vulkan::Device &device, const Signal &signal) {
-  const std::vector<shader::Tone> tones = signal.all_tones();
-  return vulkan::upload(device, std::as_bytes(std::span(tones)));
-}
-
-namespace {
-
-bool sums_alike(const DiodeGroups &groups, const AccumulatePass::Scope &scope) {
+bool sums_alike(const DiodeGroups &groups, const SumScope &scope) {
   return groups.power_sums.alike && !scope.shadowed;
-}
-
-} // namespace
-
-vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups,
-                             const AccumulatePass::Scope &scope) {
-  if (scope.precision == Precision::fp64)
-    return vulkan::upload(device, std::as_bytes(std::span(groups.precise_diodes)));
-  if (!sums_alike(groups, scope))
-    return vulkan::upload(device, std::as_bytes(std::span(groups.diodes)));
-  std::vector<shader::vec4> positions(groups.diodes.size());
-  std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupDiode::position);
-  return vulkan::upload(device, std::as_bytes(std::span(positions)));
-}
-
-vulkan::Specialization sum_constants(const vulkan::Device &device, const SimulatorOptions &options,
-                                     const DiodeGroups &groups, const SumModel &model, const Signal &signal,
-                                     const AccumulatePass::Scope &scope) {
-  return {{shader::constant_straight, is_straight(device, options, scope.precision)},
-          {shader::constant_blocks_per_run, groups.blocks_per_run},
-          {shader::constant_moments, groups.moments},
-          {shader::constant_powers, groups.power_sums.powers},
-          {shader::constant_alike, sums_alike(groups, scope)},
-          {shader::constant_planar, groups.power_sums.planar},
-          {shader::constant_backscatter_model, model.backscatter},
-          {shader::constant_pattern_model, model.pattern},
-          {shader::constant_cosine_order, model.order},
-          {shader::constant_phased, groups.phased},
-          {shader::constant_shadowed, scope.shadowed},
-          {shader::constant_tones, signal.tones * signal.frequencies()},
-          {shader::constant_waveform, signal.waveform},
-          {shader::constant_taps, signal.taps},
-          {shader::constant_listed, scope.listed},
-          {shader::constant_promised, signal.promised}};
-}
-
-namespace {
-
-vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const DiodeGroups &groups,
-                                      const SumModel &model, const Signal &signal,
-                                      const SimulatorOptions &options, const AccumulatePass::Scope &scope,
-                                      bool first) {
-  vulkan::Specialization constants = sum_constants(device, options, groups, model, signal, scope);
-  constants.set(shader::constant_is_first, first);
-  if (scope.plain)
-    constants.set(shader::constant_is_only, groups.runs.size() == 1)
-        .set(shader::constant_general_chip, !scope.plain->is_nominal());
-  const vulkan::ShaderModule &module =
-      vulkan::shader_module(device, options.precision, module_of(signal, scope));
-  return {device, module,
-          scope.plain ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants), constants};
 }
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
@@ -110,6 +51,34 @@ void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, co
 }
 
 } // namespace
+
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, const SumScope &scope) {
+  if (scope.precision == Precision::fp64)
+    return vulkan::upload(device, groups.precise_diodes);
+  if (!sums_alike(groups, scope))
+    return vulkan::upload(device, groups.diodes);
+  std::vector<shader::vec4> positions(groups.diodes.size());
+  std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupDiode::position);
+  return vulkan::upload(device, positions);
+}
+
+vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope) {
+  return {{shader::constant_straight, is_straight(on.device, on.options, scope.precision)},
+          {shader::constant_blocks_per_run, groups.blocks_per_run},
+          {shader::constant_moments, groups.moments},
+          {shader::constant_powers, groups.power_sums.powers},
+          {shader::constant_alike, sums_alike(groups, scope)},
+          {shader::constant_planar, groups.power_sums.planar},
+          {shader::constant_backscatter_model, on.model.backscatter},
+          {shader::constant_pattern_model, on.model.pattern},
+          {shader::constant_cosine_order, on.model.order},
+          {shader::constant_phased, groups.phased},
+          {shader::constant_shadowed, scope.shadowed},
+          {shader::constant_tones, on.signal.tones * on.signal.frequencies()},
+          {shader::constant_taps, on.signal.taps},
+          {shader::constant_listed, scope.list != nullptr},
+          {shader::constant_promised, on.signal.promised}};
+}
 
 std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
@@ -145,74 +114,108 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
 
 namespace {
 
-vulkan::Buffer upload_runs(const vulkan::Device &device, const DiodeGroups &groups,
-                           const std::optional<Promise> &promise) {
-  const std::vector<shader::LightRun> runs = light_runs(groups, promise.value_or(Promise{}));
-  return vulkan::upload(device, std::as_bytes(std::span(runs)));
-}
+// The pass on the device.
+class Sum {
+public:
+  Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+      const SumScope &scope);
 
-} // namespace
+  void record(const Recording &at) const;
+  // Samples times diodes of one run over `strip`, padding included.
+  std::uint64_t interactions_per_run(const shader::Strip &strip) const {
+    return std::uint64_t{sample_count(strip)} * blocks_per_run_ * shader::diodes_per_block * dispatches_;
+  }
 
-AccumulatePass::AccumulatePass(const vulkan::Device &device, const DiodeGroups &groups, const SumModel &model,
-                               const Signal &signal, const SimulatorOptions &options, const Scope &scope)
-    : plain_(scope.plain), runs_(groups.runs), light_runs_(upload_runs(device, groups, scope.promise)),
+private:
+  vulkan::ComputePipeline make_pipeline(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope,
+                                        bool first) const;
+  void record_run(const Recording &at, std::uint32_t run) const;
+  void record_run_of_depths(const Recording &at, std::uint32_t run) const;
+
+  const StripBuffers &buffers_;
+  const SceneBuffers &scene_;
+  std::vector<LitWindow> windows_;
+  const vulkan::Buffer *list_;
+  std::optional<ChipGrid> depth_records_;
+  std::vector<DiodeRun> runs_;
+  vulkan::Buffer light_runs_; // shader::LightRun of each
+  std::uint32_t blocks_per_run_, bundles_per_run_;
+  std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
+  std::uint32_t planes_;     // of the sum, of each frequency
+  vulkan::Buffer tones_, diodes_, diagrams_;
+  vk::DeviceSize diode_bytes_;    // of each
+  vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
+  vulkan::ComputePipeline later_; // all the others; empty where there are none
+};
+
+Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+         const SumScope &scope)
+    : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
+      depth_records_(scope.depth_records), runs_(groups.runs),
+      light_runs_(vulkan::upload(on.device, light_runs(groups, scope.promise.value_or(Promise{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      dispatches_(signal.by_moments ? 1 : signal.frequencies()), planes_(signal.planes),
-      tones_(upload_tones(device, signal)), diodes_(upload_diodes(device, groups, scope)),
-      diode_bytes_(diodes_.bytes() / groups.diodes.size()),
-      diagrams_(vulkan::upload(device, std::as_bytes(std::span(groups.diagrams)))),
-      first_(make_pipeline(device, groups, model, signal, options, scope, true)) {
-  if (runs_.size() > 1 && !plain_)
-    later_ = make_pipeline(device, groups, model, signal, options, scope, false);
+      dispatches_(on.signal.by_moments() ? 1 : on.signal.frequencies()), planes_(on.signal.planes),
+      tones_(vulkan::upload(on.device, on.signal.all_tones())),
+      diodes_(upload_diodes(on.device, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
+      diode_bytes_(diodes_.bytes() / groups.diodes.size()), first_(make_pipeline(on, groups, scope, true)) {
+  if (runs_.size() > 1 && !depth_records_)
+    later_ = make_pipeline(on, groups, scope, false);
 }
 
-std::uint64_t AccumulatePass::interactions_per_run(const shader::Strip &strip) const {
-  return std::uint64_t{sample_count(strip)} * blocks_per_run_ * shader::diodes_per_block * dispatches_;
+vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const DiodeGroups &groups,
+                                           const SumScope &scope, bool first) const {
+  vulkan::Specialization constants = sum_constants(on, groups, scope);
+  constants.set(shader::constant_is_first, first).set(shader::constant_is_only, runs_.size() == 1);
+  if (depth_records_)
+    constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
+  return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.signal, scope)),
+          depth_records_ ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants),
+          constants};
 }
 
-void AccumulatePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, const SceneBuffers &scene, const LitWindow &window,
-                            std::uint32_t first, std::uint32_t last, const vulkan::Buffer *list) const {
-  const std::uint32_t plane = sample_count(strip);
-  for (std::uint32_t run = first; run < last; ++run) {
-    if (run > first)
-      vulkan::compute_barrier(commands);
-    if (plain_) {
-      record_plain(commands, strip, buffers, scene, run);
-      continue;
-    }
-    const vk::DeviceSize bundle = vk::DeviceSize{run - window.first_run} * bundles_per_run_;
-    for (std::uint32_t d = 0; d < dispatches_; ++d) {
-      const shader::AccumulateConstants constants{
-          buffers.position.words(),
-          buffers.surface.words(),
-          buffers.backscatter.words(),
-          buffers.sum.words(vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
-          light_runs_.words(run * sizeof(shader::LightRun)),
-          diodes_.words(runs_[run].first * diode_bytes_),
-          tones_.words(d * sizeof(shader::Tone)),
-          diagrams_.words(),
-          buffers.reached.words(bundle * plane * sizeof(std::uint32_t)),
-          buffers.terms.words(),
-          address_of(list),
-          blocks_per_run_,
-          plane,
-          strip.padded_pixels,
-          d == 0 ? 1u : 0u};
-      dispatch_listed(run == 0 ? first_ : later_, commands, constants, plane, list, of_samples);
-    }
+void Sum::record(const Recording &at) const {
+  for (std::uint32_t run = at.parts.first; run < at.parts.last; ++run) {
+    if (run > at.parts.first)
+      vulkan::compute_barrier(at.commands);
+    if (depth_records_)
+      record_run_of_depths(at, run);
+    else
+      record_run(at, run);
   }
 }
 
-void AccumulatePass::record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                                  const StripBuffers &buffers, const SceneBuffers &scene,
-                                  std::uint32_t run) const {
+void Sum::record_run(const Recording &at, std::uint32_t run) const {
+  const std::uint32_t plane = sample_count(at.of_strip());
+  const vk::DeviceSize bundle = vk::DeviceSize{run - windows_[at.window].first_run} * bundles_per_run_;
+  for (std::uint32_t d = 0; d < dispatches_; ++d) {
+    const shader::AccumulateConstants constants{
+        buffers_.position.words(),
+        buffers_.surface.words(),
+        buffers_.backscatter.words(),
+        buffers_.sum.words(vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
+        light_runs_.words(run * sizeof(shader::LightRun)),
+        diodes_.words(runs_[run].first * diode_bytes_),
+        tones_.words(d * sizeof(shader::Tone)),
+        diagrams_.words(),
+        buffers_.reached.words(bundle * plane * sizeof(std::uint32_t)),
+        buffers_.terms.words(),
+        address_of(list_),
+        blocks_per_run_,
+        plane,
+        at.of_strip().padded_pixels,
+        d == 0 ? 1u : 0u};
+    dispatch_listed(run == 0 ? first_ : later_, at.commands, constants, plane, list_, of_samples);
+  }
+}
+
+void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
+  const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::PlainSumConstants constants{plain_->of(strip),
-                                            plain_->chip(),
-                                            buffers.tags.words(),
-                                            scene.planes.words(),
-                                            buffers.sum.words(),
+  const shader::PlainSumConstants constants{depth_records_->of(strip),
+                                            depth_records_->chip(),
+                                            buffers_.tags.words(),
+                                            scene_.planes.words(),
+                                            buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),
                                             diodes_.words(runs_[run].first * diode_bytes_),
                                             tones_.words(),
@@ -221,7 +224,26 @@ void AccumulatePass::record_plain(const vk::raii::CommandBuffer &commands, const
                                             plane,
                                             strip.columns * strip.rows * strip.samples * strip.samples,
                                             run == 0 ? 1u : 0u};
-  first_.dispatch(commands, constants, plane, shader::workgroup_size);
+  first_.dispatch(at.commands, constants, plane, shader::workgroup_size);
+}
+
+} // namespace
+
+Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+                     const SumScope &scope) {
+  const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
+  return {.name = "accumulate",
+          .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
+                   (scope.list ? pixel_lists : no_resource),
+          .writes = sums | terms,
+          .record = [sum](const Recording &at) { sum->record(at); },
+          .parts =
+              [windows](std::size_t of) {
+                return Parts{windows[of].first_run, windows[of].last_run};
+              },
+          .all_parts = static_cast<std::uint32_t>(groups.runs.size()),
+          .interactions = [sum](const shader::Strip &strip) { return sum->interactions_per_run(strip); },
+          .list = scope.list};
 }
 
 } // namespace pmdsim

@@ -60,7 +60,7 @@ void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber
 }
 
 Precision sum_precision(const Signal &signal, Precision wanted) {
-  return signal.by_moments ? wanted : Precision::fp32;
+  return signal.by_moments() ? wanted : Precision::fp32;
 }
 
 } // namespace pmdsim

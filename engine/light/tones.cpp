@@ -31,8 +31,7 @@ std::vector<shader::Tone> Signal::all_tones() const {
 }
 
 Signal signal_of(const Sensor &sensor, const SimulatorOptions &options) {
-  Signal signal{shader::waveform_sine,   sensor.taps,          1,     1, 1, options.keep_taps,
-                options.allowed.moments, sensor.modulation_hz, {1.0f}};
+  Signal signal{shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, sensor.modulation_hz, {1.0f}};
   switch (sensor.waveform.kind) {
   case Waveform::Kind::sine:
     break;
@@ -40,13 +39,11 @@ Signal signal_of(const Sensor &sensor, const SimulatorOptions &options) {
     signal.waveform = shader::waveform_square;
     signal.distinct_taps = sensor.taps % 2 == 0 ? sensor.taps / 2 : sensor.taps;
     signal.planes = (signal.distinct_taps + 1) / 2;
-    signal.by_moments = false;
     break;
-  case Waveform::Kind::harmonics:
+  case Waveform::Kind::harmonics: // a harmonic is a tone like any other
     signal.waveform = shader::waveform_harmonics;
     signal.harmonics.assign(sensor.waveform.harmonics.begin(), sensor.waveform.harmonics.end());
     signal.planes = signal.tones = static_cast<std::uint32_t>(signal.harmonics.size());
-    signal.by_moments = true; // a harmonic is a tone like any other
     break;
   }
   return signal;

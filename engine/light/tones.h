@@ -11,19 +11,20 @@
 namespace pmdsim {
 
 struct Signal {
-  std::uint32_t waveform;      // shader::waveform_*
-  std::uint32_t taps;          // N
-  std::uint32_t distinct_taps; // that are summed where the waveform is square, else 1
-  std::uint32_t planes;        // of the sum, of each frequency
-  std::uint32_t tones;         // of each frequency, all multiples of it: the harmonics, else 1
-  bool keep_taps;              // the taps are channels, too
-  bool by_moments;             // one dispatch sums all tones of all frequencies by moments; else one each
+  std::uint32_t waveform;            // shader::waveform_*
+  std::uint32_t taps;                // N
+  std::uint32_t distinct_taps;       // that are summed where the waveform is square, else 1
+  std::uint32_t planes;              // of the sum, of each frequency
+  std::uint32_t tones;               // of each frequency, all multiples of it: the harmonics, else 1
+  bool keep_taps;                    // the taps are channels, too
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
   bool promised = false;             // an error was promised: what the terms come to is kept
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
+  // One dispatch sums all tones of all frequencies by moments; else one each.
+  bool by_moments() const { return waveform != shader::waveform_square; }
   std::uint32_t sum_planes() const { return planes * frequencies(); }
   // 2 pi f / c of the highest tone, rad/m.
   double largest_wavenumber_rad_m() const;

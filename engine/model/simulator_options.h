@@ -15,7 +15,6 @@ enum class DiodeLoop { automatic, straight_line, looped };
 // Forms of a frame's path that are faster where a setup allows them. Each may be forbidden, so that tests and
 // benchmarks see a frame with it and without. None changes a result beyond the frame's stated error.
 struct PathForms {
-  bool moments = true;                // one dispatch for all tones; else diode by diode for each frequency
   bool polynomial_moments = true;     // moments from powers of r_nm^2 - rho^2
   bool equal_weights = true;          // sources of one weight, which are there as positions alone
   bool coplanar = true;               // sources in a plane across the view

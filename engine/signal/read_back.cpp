@@ -123,6 +123,46 @@ void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, c
     }
 }
 
+void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                      const StripBuffers &buffers, const Signal &signal, bool leaves_truth) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
+                         Access::eTransferRead);
+  const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
+  const ChannelLayout layout(signal);
+  const vk::DeviceSize first = channel_bytes * (leaves_truth ? layout.first_channel(0) : 0);
+  if (!buffers.channels.is_mapped())
+    commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
+                        vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
+  if (signal.promised)
+    commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
+                        vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
+  if (buffers.tags_read.bytes() > 0) {
+    const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
+    commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
+                        vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
+  }
+  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                         Access::eTransferWrite | Access::eShaderStorageWrite | Access::eColorAttachmentWrite,
+                         Stage::eHost, Access::eHostRead);
+}
+
+void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
+                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
+  const ChannelLayout layout(signal);
+  const std::vector<Destination> to = destinations(layout, measurement);
+  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
+    const Row row = row_of(strip, index);
+    if (truth)
+      store_truth(records_for_host(buffers), row, *truth, measurement);
+    store_channels(row, strip, buffers, to, truth ? layout.first_channel(0) : 0);
+    check_radiance(row, measurement);
+  });
+  if (!measurement.sample_pixel_id.empty())
+    store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
+}
+
 } // namespace
 
 Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
@@ -145,51 +185,25 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
   return measurement;
 }
 
-void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const Signal &signal,
-                      const std::optional<TruthOfRecords> &truth) {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
-  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
-                         Access::eTransferRead);
-  const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
-  const ChannelLayout layout(signal);
-  const vk::DeviceSize first = channel_bytes * (truth ? layout.first_channel(0) : 0);
-  if (!buffers.channels.is_mapped())
-    commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
-                        vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
-  if (signal.promised)
-    commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
-                        vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
-  if (buffers.tags_read.bytes() > 0) {
-    const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
-    commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
-                        vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
-  }
-  vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader | Stage::eColorAttachmentOutput,
-                         Access::eTransferWrite | Access::eShaderStorageWrite | Access::eColorAttachmentWrite,
-                         Stage::eHost, Access::eHostRead);
+Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffers &buffers,
+                    const std::optional<TruthOfRecords> &truth) {
+  return {.name = "read_back",
+          .reads = ids | channels,
+          .writes = no_resource,
+          .record =
+              [=, &buffers](const Recording &at) {
+                record_read_back(at.commands, at.of_strip(), buffers, signal, truth.has_value());
+              },
+          .store =
+              [=, &buffers](const Recording &at, Measurement &to) {
+                store_strip(at.of_strip(), buffers, sensor, signal, truth, to);
+              }};
 }
 
 shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
   shader::BrokenPromise broken{};
   std::memcpy(&broken, buffers.broken_read.mapped().data(), sizeof(broken));
   return broken;
-}
-
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
-  const ChannelLayout layout(signal);
-  const std::vector<Destination> to = destinations(layout, measurement);
-  tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
-    const Row row = row_of(strip, index);
-    if (truth)
-      store_truth(records_for_host(buffers), row, *truth, measurement);
-    store_channels(row, strip, buffers, to, truth ? layout.first_channel(0) : 0);
-    check_radiance(row, measurement);
-  });
-  if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
 }
 
 } // namespace pmdsim

@@ -4,6 +4,7 @@
 
 #include "engine/light/tones.h"
 #include "engine/model/measurement.h"
+#include "engine/sampling/pass.h"
 #include "engine/sampling/strip_memory.h"
 
 #include <cstdint>
@@ -24,15 +25,10 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
                              Measurement &&memory);
 
 // Copies what the resolve pass (and, where the host reads them, the visibility pass) left to memory that the
-// host can read.
-void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const Signal &signal,
-                      const std::optional<TruthOfRecords> &truth);
-
-// Once that is done: copies it to its place in the frame. Throws Error: input where light is beyond what a
+// host can read, and then to its place in the frame. Storing throws Error: input where light is beyond what a
 // float holds.
-void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement);
+Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffers &buffers,
+                    const std::optional<TruthOfRecords> &truth);
 
 // Of all strips since it was cleared, as read back last; only where Signal::promised.
 shader::BrokenPromise broken_promise(const StripBuffers &buffers);

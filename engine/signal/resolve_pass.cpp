@@ -1,29 +1,34 @@
 #include "engine/signal/resolve_pass.h"
 
+#include "engine/sampling/pixel_lists.h"
 #include "engine/signal/channel_layout.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace pmdsim {
-vulkan::Specialization resolve_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
-  return {{shader::constant_planes, signal.planes},
-          {shader::constant_waveform, signal.waveform},
-          {shader::constant_taps, signal.taps},
-          {shader::constant_keep_taps, signal.keep_taps},
+
+vulkan::Specialization resolve_constants(const PassSetup &on, const SumScope &scope, bool first) {
+  return {{shader::constant_planes, on.signal.planes},
+          {shader::constant_waveform, on.signal.waveform},
+          {shader::constant_taps, on.signal.taps},
+          {shader::constant_keep_taps, on.signal.keep_taps},
           {shader::constant_ground_truth, first},
-          {shader::constant_tiled, scope.tiled},
-          {shader::constant_lit_is_kept, first && signal.lit},
-          {shader::constant_listed, scope.listed},
-          {shader::constant_promised, signal.promised},
+          {shader::constant_tiled, is_tiled(on.sensor)},
+          {shader::constant_lit_is_kept, first && on.signal.lit},
+          {shader::constant_listed, scope.list != nullptr},
+          {shader::constant_promised, on.signal.promised},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};
 }
 
 namespace {
 
-// Of the plain way, as one straight line, which should not take long to compile: a divisor of their number,
+// Of depth records, as one straight line, which should not take long to compile: a divisor of their number,
 // so that one pipeline does for all parts.
-std::uint32_t frequencies_at_once(const Signal &signal) {
+std::uint32_t frequencies_at_once(const Signal &signal, const SumScope &scope) {
+  if (!scope.depth_records)
+    return 1;
   constexpr std::uint32_t most = 8, most_planes = 16;
   std::uint32_t count = std::clamp(most_planes / signal.planes, 1u, std::min(signal.frequencies(), most));
   while (signal.frequencies() % count != 0)
@@ -31,103 +36,127 @@ std::uint32_t frequencies_at_once(const Signal &signal) {
   return count;
 }
 
-vulkan::Specialization plain_constants(const Signal &signal, const ResolvePass::Scope &scope, bool first) {
-  const ResolvePass::PlainScope &plain = *scope.plain;
-  vulkan::Specialization constants = resolve_constants(signal, scope, first && !plain.truth_of_records);
-  return constants.merge({{shader::constant_surface_vectors, 0},
-                          {shader::constant_vignetting, plain.vignetting},
-                          {shader::constant_general_chip, !plain.grid.is_nominal()},
-                          {shader::constant_painted, plain.painted},
-                          {shader::constant_is_only, plain.single_run},
-                          {shader::constant_side, plain.samples},
-                          {shader::constant_frequencies, frequencies_at_once(signal)},
-                          {shader::constant_one_backscatter, plain.one_backscatter}});
+// The pass on the device.
+class Resolve {
+public:
+  Resolve(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth);
+
+  void record(const Recording &at) const;
+
+private:
+  vulkan::ComputePipeline make_pipeline(const PassSetup &on, bool first, bool leaves_truth) const;
+  void record_samples(const Recording &at, std::uint32_t frequency) const;
+  void record_depths(const Recording &at, std::uint32_t first_frequency) const;
+
+  const StripBuffers &buffers_;
+  const SceneBuffers &scene_;
+  SumScope scope_;
+  std::uint32_t frequencies_, at_once_;
+  vk::DeviceSize sample_bytes_; // of the sum's planes of a frequency
+  std::uint32_t lit_channel_, diodes_, side_;
+  bool single_run_;
+  vulkan::Buffer records_, harmonics_; // shader::Frequency of each frequency; amplitudes
+  vulkan::ComputePipeline first_;      // of the frequencies: stores the ground truth, too
+  vulkan::ComputePipeline later_;      // all the others; empty where there are none
+};
+
+Resolve::Resolve(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth)
+    : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.signal.frequencies()),
+      at_once_(frequencies_at_once(on.signal, scope)), lit_channel_(ChannelLayout(on.signal).lit_channel()),
+      diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
+      records_(vulkan::upload(on.device,
+                              frequency_records(on.signal, groups.largest_intensity_w_sr, scope.promise))),
+      harmonics_(vulkan::upload(on.device, on.signal.harmonics)),
+      first_(make_pipeline(on, true, leaves_truth)) {
+  const bool is_short = scope.depth_records && single_run_;
+  sample_bytes_ = on.signal.planes * (is_short ? sizeof(shader::vec2) : sizeof(shader::vec4));
+  if (frequencies_ > at_once_)
+    later_ = make_pipeline(on, false, leaves_truth);
 }
 
-vulkan::ComputePipeline make_pipeline(const vulkan::Device &device, const Signal &signal,
-                                      SamplePrecision precision, const ResolvePass::Scope &scope,
-                                      bool first) {
-  if (scope.plain)
-    return {device, vulkan::shader_module(device, precision, "resolve_plain"),
-            sizeof(shader::PlainResolveConstants), plain_constants(signal, scope, first)};
-  return {device, vulkan::shader_module(device, precision, "resolve"), sizeof(shader::ResolveConstants),
-          resolve_constants(signal, scope, first)};
+vulkan::ComputePipeline Resolve::make_pipeline(const PassSetup &on, bool first, bool leaves_truth) const {
+  vulkan::Specialization constants = resolve_constants(on, scope_, first && !leaves_truth);
+  const auto module = [&](std::string_view name) -> const vulkan::ShaderModule & {
+    return vulkan::shader_module(on.device, on.options.precision, name);
+  };
+  if (!scope_.depth_records)
+    return {on.device, module("resolve"), sizeof(shader::ResolveConstants), constants};
+  constants.merge({{shader::constant_surface_vectors, 0},
+                   {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
+                   {shader::constant_general_chip, !scope_.depth_records->is_nominal()},
+                   {shader::constant_painted, on.scene.paint.painted},
+                   {shader::constant_is_only, single_run_},
+                   {shader::constant_side, side_},
+                   {shader::constant_frequencies, at_once_},
+                   {shader::constant_one_backscatter, on.scene.backscatter.has_value()}});
+  return {on.device, module("resolve_plain"), sizeof(shader::PlainResolveConstants), constants};
 }
 
-vulkan::Buffer upload_frequencies(const vulkan::Device &device, const Signal &signal,
-                                  const DiodeGroups &groups, const std::optional<Promise> &promise) {
-  const auto records = frequency_records(signal, groups.largest_intensity_w_sr, promise);
-  return vulkan::upload(device, std::as_bytes(std::span(records)));
+void Resolve::record(const Recording &at) const {
+  for (std::uint32_t f = 0; f < frequencies_; f += at_once_)
+    if (scope_.depth_records)
+      record_depths(at, f);
+    else
+      record_samples(at, f);
+}
+
+void Resolve::record_samples(const Recording &at, std::uint32_t frequency) const {
+  const shader::Strip &strip = at.of_strip();
+  const std::uint32_t plane = sample_count(strip);
+  const shader::ResolveConstants constants{buffers_.position.words(),
+                                           buffers_.sum.words(sample_bytes_ * plane * frequency),
+                                           buffers_.tags.words(),
+                                           scene_.planes.words(),
+                                           buffers_.channels.words(),
+                                           harmonics_.words(),
+                                           records_.words(frequency * sizeof(shader::Frequency)),
+                                           buffers_.lit.words(),
+                                           buffers_.terms.words(),
+                                           buffers_.broken.words(),
+                                           address_of(scope_.list),
+                                           strip.columns,
+                                           strip.samples,
+                                           strip.padded_pixels,
+                                           strip.columns * strip.rows,
+                                           plane,
+                                           lit_channel_,
+                                           diodes_};
+  dispatch_listed(frequency == 0 ? first_ : later_, at.commands, constants, strip.padded_pixels, scope_.list,
+                  of_pixels);
+}
+
+void Resolve::record_depths(const Recording &at, std::uint32_t first_frequency) const {
+  const shader::Strip &strip = at.of_strip();
+  const std::uint32_t plane = sample_count(strip);
+  const shader::PlainResolveConstants constants{scope_.depth_records->of(strip),
+                                                scope_.depth_records->chip(),
+                                                buffers_.tags.words(),
+                                                scene_.planes.words(),
+                                                buffers_.sum.words(sample_bytes_ * plane * first_frequency),
+                                                buffers_.channels.words(),
+                                                harmonics_.words(),
+                                                records_.words(first_frequency * sizeof(shader::Frequency)),
+                                                scene_.paint.shapes.words(),
+                                                scene_.paint.surfaces.words(),
+                                                strip.columns * strip.rows,
+                                                strip.padded_pixels,
+                                                plane,
+                                                scene_.backscatter.value_or(0.0f)};
+  (first_frequency == 0 ? first_ : later_)
+      .dispatch(at.commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 
 } // namespace
 
-ResolvePass::ResolvePass(const vulkan::Device &device, const Signal &signal, const DiodeGroups &groups,
-                         const SimulatorOptions &options, const Scope &scope)
-    : signal_(signal), plain_(scope.plain), diodes_(groups.diode_count),
-      frequencies_(upload_frequencies(device, signal, groups, scope.promise)),
-      harmonics_(vulkan::upload(device, std::as_bytes(std::span(signal.harmonics)))),
-      first_(make_pipeline(device, signal, options.precision, scope, true)) {
-  if (signal.frequencies() > (scope.plain ? frequencies_at_once(signal) : 1))
-    later_ = make_pipeline(device, signal, options.precision, scope, false);
-}
-
-void ResolvePass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                         const StripBuffers &buffers, const SceneBuffers &scene,
-                         const vulkan::Buffer *list) const {
-  if (plain_) {
-    for (std::uint32_t f = 0; f < signal_.frequencies(); f += frequencies_at_once(signal_))
-      record_plain(commands, strip, buffers, scene, f);
-    return;
-  }
-  const std::uint32_t plane = sample_count(strip);
-  for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
-    const vk::DeviceSize first_plane = vk::DeviceSize{f} * signal_.planes;
-    const shader::ResolveConstants constants{buffers.position.words(),
-                                             buffers.sum.words(first_plane * plane * sizeof(shader::vec4)),
-                                             buffers.tags.words(),
-                                             scene.planes.words(),
-                                             buffers.channels.words(),
-                                             harmonics_.words(),
-                                             frequencies_.words(f * sizeof(shader::Frequency)),
-                                             buffers.lit.words(),
-                                             buffers.terms.words(),
-                                             buffers.broken.words(),
-                                             address_of(list),
-                                             strip.columns,
-                                             strip.samples,
-                                             strip.padded_pixels,
-                                             strip.columns * strip.rows,
-                                             plane,
-                                             ChannelLayout(signal_).lit_channel(),
-                                             diodes_};
-    dispatch_listed(f == 0 ? first_ : later_, commands, constants, strip.padded_pixels, list, of_pixels);
-  }
-}
-
-void ResolvePass::record_plain(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                               const StripBuffers &buffers, const SceneBuffers &scene,
-                               std::uint32_t first_frequency) const {
-  const std::uint32_t plane = sample_count(strip);
-  const vk::DeviceSize sum_bytes = plain_->single_run ? sizeof(shader::vec2) : sizeof(shader::vec4);
-  const vk::DeviceSize first_plane = vk::DeviceSize{first_frequency} * signal_.planes;
-  const shader::PlainResolveConstants constants{
-      plain_->grid.of(strip),
-      plain_->grid.chip(),
-      buffers.tags.words(),
-      scene.planes.words(),
-      buffers.sum.words(first_plane * plane * sum_bytes),
-      buffers.channels.words(),
-      harmonics_.words(),
-      frequencies_.words(first_frequency * sizeof(shader::Frequency)),
-      scene.paint.shapes.words(),
-      scene.paint.surfaces.words(),
-      strip.columns * strip.rows,
-      strip.padded_pixels,
-      plane,
-      scene.backscatter.value_or(0.0f)};
-  (first_frequency == 0 ? first_ : later_)
-      .dispatch(commands, constants, strip.padded_pixels, shader::workgroup_size);
+Pass resolve_pass(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth) {
+  const auto resolve = std::make_shared<const Resolve>(on, groups, scope, leaves_truth);
+  return {.name = "resolve",
+          .reads = (scope.depth_records ? ids : ids | points) | sums | terms |
+                   (on.signal.lit ? visibility_counts : no_resource) |
+                   (scope.list ? pixel_lists : no_resource),
+          .writes = channels,
+          .record = [resolve](const Recording &at) { resolve->record(at); },
+          .list = scope.list};
 }
 
 } // namespace pmdsim

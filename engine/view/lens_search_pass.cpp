@@ -3,11 +3,13 @@
 #include "engine/lens/lens.h"
 #include "engine/sampling/sample_grid.h"
 #include "engine/view/mesh_edges.h"
+#include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/float_pair.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 namespace pmdsim {
 namespace {
@@ -73,46 +75,52 @@ vulkan::Buffer upload_views(const vulkan::Device &device, const std::vector<Rast
     views.push_back({glm::vec4(rows[0], 0), glm::vec4(rows[1], 0), glm::vec4(rows[2], 0), block.fragments.x,
                      block.fragments.y, 0, 0});
   }
-  return vulkan::upload(device, std::as_bytes(std::span(views)));
+  return vulkan::upload(device, views);
 }
 
-vulkan::Buffer upload_corners(const vulkan::Device &device, const CameraScene &camera, const Scene &scene) {
-  const auto corners = triangle_corners(camera, scene);
-  return vulkan::upload(device, std::as_bytes(std::span(corners)));
-}
+// The pass on the device.
+struct LensSearch {
+  vulkan::Buffer lens, views, corners; // views: RasterView of each block
+  vulkan::ComputePipeline pipeline;
+};
 
 } // namespace
 
-SearchPass::SearchPass(const vulkan::Device &device, const Sensor &sensor, const CameraScene &camera,
-                       const Scene &scene, const std::vector<RasterBlock> &blocks,
-                       std::uint32_t surface_vectors, const PaintBuffers &paint, SamplePrecision precision)
-    : lens_(upload_lens(device, sensor)), views_(upload_views(device, blocks)),
-      corners_(upload_corners(device, camera, scene)),
-      pipeline_(device, vulkan::shader_module(device, precision, "lens_search"),
-                sizeof(shader::SearchConstants),
-                {{shader::constant_surface_vectors, surface_vectors},
-                 {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
-                 {shader::constant_distortion, std::holds_alternative<Fisheye>(sensor.distortion)
-                                                   ? shader::distortion_fisheye
-                                                   : shader::distortion_brown},
-                 {shader::constant_masked, paint.masked},
-                 {shader::constant_painted, paint.painted}}) {}
-
-void SearchPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                        const StripBuffers &buffers, const SceneBuffers &scene) const {
-  const shader::SearchConstants constants{planned.strip,
-                                          lens_.words(),
-                                          views_.words(planned.block * sizeof(shader::RasterView)),
-                                          buffers.fragments.words(),
-                                          scene.planes.words(),
-                                          corners_.words(),
-                                          buffers.tags.words(),
-                                          buffers.position.words(),
-                                          buffers.surface.words(),
-                                          buffers.backscatter.words(),
-                                          scene.paint.shapes.words(),
-                                          scene.paint.surfaces.words()};
-  pipeline_.dispatch(commands, constants, sample_count(planned.strip), shader::workgroup_size);
+Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
+                      const CameraScene &camera, const Scene &scene, const std::vector<RasterBlock> &blocks,
+                      std::uint32_t surface_vectors, const StripBuffers &buffers,
+                      const SceneBuffers &scene_buffers) {
+  const bool fisheye = std::holds_alternative<Fisheye>(sensor.distortion);
+  vulkan::ComputePipeline pipeline(
+      device, vulkan::shader_module(device, precision, "lens_search"), sizeof(shader::SearchConstants),
+      {{shader::constant_surface_vectors, surface_vectors},
+       {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
+       {shader::constant_distortion, fisheye ? shader::distortion_fisheye : shader::distortion_brown},
+       {shader::constant_masked, scene_buffers.paint.masked},
+       {shader::constant_painted, scene_buffers.paint.painted}});
+  const auto made = std::make_shared<const LensSearch>(
+      LensSearch{upload_lens(device, sensor), upload_views(device, blocks),
+                 vulkan::upload(device, triangle_corners(camera, scene)), std::move(pipeline)});
+  return {.name = "points",
+          .reads = ids,
+          .writes = ids | points,
+          .record = [made, &buffers, &scene_buffers](const Recording &at) {
+            const shader::SearchConstants constants{
+                at.of_strip(),
+                made->lens.words(),
+                made->views.words(at.planned.block * sizeof(shader::RasterView)),
+                buffers.fragments.words(),
+                scene_buffers.planes.words(),
+                made->corners.words(),
+                buffers.tags.words(),
+                buffers.position.words(),
+                buffers.surface.words(),
+                buffers.backscatter.words(),
+                scene_buffers.paint.shapes.words(),
+                scene_buffers.paint.surfaces.words()};
+            made->pipeline.dispatch(at.commands, constants, sample_count(at.of_strip()),
+                                    shader::workgroup_size);
+          }};
 }
 
 } // namespace pmdsim

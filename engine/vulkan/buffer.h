@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim::vulkan {
@@ -53,5 +54,9 @@ private:
 // A device buffer that holds `data`, for shaders by its address and for whatever `usage` adds; waits until it
 // is there.
 Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferUsageFlags usage = {});
+template <class T>
+Buffer upload(const Device &device, const std::vector<T> &values) {
+  return upload(device, std::as_bytes(std::span(values)));
+}
 
 } // namespace pmdsim::vulkan

@@ -1,5 +1,5 @@
 #version 460
-// The sum over the diodes of one group, for every sample, diode by diode: for waveforms whose harmonics never end, which
+// The sum over the diodes of one group, for every sample, diode by diode: for square light, whose harmonics never end, which
 // moments cannot serve. With rho = |P - G| and e = r_nm - rho each diode adds w_m C(phase of (rho + r_n) + kappa e) to
 // each tap; kappa |e| is at most 1/2 (source_groups.cpp), so no phase has to be wrapped inside the loop.
 #extension GL_GOOGLE_include_directive : require
@@ -8,13 +8,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/light/accumulate.glsl"
 
-layout(constant_id = constant_waveform) const uint waveform = waveform_square;
 layout(constant_id = constant_taps) const uint taps = 4;
 
-// Of an even N the later half follows from the first; a sine has one of its own.
-const uint distinct_taps = waveform != waveform_square ? 1 : taps % 2 == 0 ? taps / 2 : taps;
-// Square: of w * (C + 1) / 4 for each distinct tap, and of w. Sine: the complex return relative to the reference path.
-const uint totals = distinct_taps + 1;
+// Of an even N the later half follows from the first.
+const uint distinct_taps = taps % 2 == 0 ? taps / 2 : taps;
+const uint totals = distinct_taps + 1; // of w * (C + 1) / 4 for each distinct tap, and of w
 const uint tap_planes = (distinct_taps + 1) / 2;
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
@@ -24,25 +22,12 @@ void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phas
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
 
-// (cos, sin) of x, |x| <= 1/2, in radians.
-vec2 small_phasor(float x) {
-  float u = x * x;
-  return vec2(1.0 + u * (-0.5 + u * (0.0416666667 + u * (-0.00138888889 + u * 2.48015873e-5))),
-              x * (1.0 + u * (-0.166666667 + u * (0.00833333333 + u * (-1.98412698e-4 + u * 2.75573192e-6)))));
-}
-
 void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_excess, Tone tone) {
-  if (waveform == waveform_square) {
-    float excess_turns = weight_excess.y * tone.turns_per_m.x;
-    // The triangle wave of x in [-1, 1] turns is 4 ||x| - 1/2| - 1.
-    [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
-      part[k] += weight_excess.x * abs(abs(phases[k] + excess_turns) - 0.5);
-    part[distinct_taps] += weight_excess.x;
-  } else {
-    vec2 z = weight_excess.x * small_phasor(weight_excess.y * tone.wavenumber);
-    part[0] += z.x;
-    part[distinct_taps] += z.y;
-  }
+  float excess_turns = weight_excess.y * tone.turns_per_m.x;
+  // The triangle wave of x in [-1, 1] turns is 4 ||x| - 1/2| - 1.
+  [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
+    part[k] += weight_excess.x * abs(abs(phases[k] + excess_turns) - 0.5);
+  part[distinct_taps] += weight_excess.x;
 }
 
 void add_block(inout float total[totals], Point point, float phases[distinct_taps], Tone tone,
@@ -86,12 +71,6 @@ void main() {
   }
 
   float backscatter = Floats(constants.backscatter).at[i];
-  if (waveform == waveform_square) {
-    add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
-    add_taps(i, total, backscatter);
-  } else {
-    Real detour = add(path.rho, negate(path.range));
-    float turns = turn_fraction(phase_turns(detour, run, tone));
-    add_to_plane(0, i, backscatter, complex_multiply(vec2(total[0], total[distinct_taps]), unit_phasor(turns)));
-  }
+  add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
+  add_taps(i, total, backscatter);
 }

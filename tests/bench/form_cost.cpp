@@ -38,31 +38,39 @@ struct Case {
   std::uint32_t samples = 1;
   Mode mode = Mode::exact;
   std::function<void(Setup &)> change = [](Setup &) {};
+  double max_error_m = Accuracy{}.max_error_m;
 };
 
-void give_cosines(Setup &setup) {
+void give_cosines(Setup &setup, double order) {
   setup.backscatter = Backscatter::lambert;
   for (Illuminator &illuminator : setup.start.illuminators)
     for (Diode &diode : illuminator.diodes) {
       diode.pattern.kind = Pattern::Kind::cosine;
-      diode.pattern.order = 3.0;
+      diode.pattern.order = order;
     }
 }
+
+void give_wide_beams(Setup &setup) { give_cosines(setup, 3.0); }
+void give_narrow_beams(Setup &setup) { give_cosines(setup, 40.0); }
 
 void light_through(Setup &setup) { setup.shadows = Shadows::off; }
 
 const std::vector<Case> cases{
     {"paper ring", "paper_ring"},
     {"paper ring, S = 4", "paper_ring", 4},
-    {"Lambert wall, cos^3", "paper_ring", 1, Mode::exact, give_cosines},
-    {"Lambert wall, cos^3, S = 4", "paper_ring", 4, Mode::exact, give_cosines},
+    {"Lambert wall, cos^3", "paper_ring", 1, Mode::exact, give_wide_beams},
+    {"Lambert wall, cos^3, S = 4", "paper_ring", 4, Mode::exact, give_wide_beams},
     {"lit room", "room", 1, Mode::exact, light_through},
     {"shadowed room", "room"},
     {"paper ring, auto", "paper_ring", 1, Mode::automatic},
     {"paper ring, auto, S = 4", "paper_ring", 4, Mode::automatic},
-    {"Lambert wall, cos^3, auto, S = 4", "paper_ring", 4, Mode::automatic, give_cosines},
+    {"Lambert wall, cos^3, auto, S = 4", "paper_ring", 4, Mode::automatic, give_wide_beams},
     {"lit room, auto", "room", 1, Mode::automatic, light_through},
     {"lit room, auto, S = 4", "room", 4, Mode::automatic, light_through},
+    {"paper ring, auto, S = 4, 10 um", "paper_ring", 4, Mode::automatic, [](Setup &) {}, 10e-6},
+    {"lit room, auto, S = 4, 10 um", "room", 4, Mode::automatic, light_through, 10e-6},
+    {"narrow beams, auto, S = 4", "paper_ring", 4, Mode::automatic, give_narrow_beams},
+    {"narrow beams, auto, S = 4, 10 um", "paper_ring", 4, Mode::automatic, give_narrow_beams, 10e-6},
 };
 
 Setup setup_of(const Case &of) {
@@ -76,6 +84,7 @@ Setup setup_of(const Case &of) {
 Simulator prepared(const Case &of, const Setup &setup, const PathForms &allowed) {
   Accuracy accuracy;
   accuracy.mode = of.mode;
+  accuracy.max_error_m = of.max_error_m;
   Simulator simulator({.device = {}, .allowed = allowed});
   simulator.prepare(setup.start.scene, setup.start.sensors[0], setup.start.illuminators, setup.backscatter,
                     setup.shadows, accuracy);
@@ -113,6 +122,7 @@ void compare(const Case &of, const Setup &setup, Simulator &with, const Form &fo
 
 int main(int argc, char **argv) {
   const std::string wanted = argc > 1 ? argv[1] : ""; // of a case's name
+  const std::string wanted_form = argc > 2 ? argv[2] : "";
   fmt::print(
       "| form | frame | with, ms | without, ms | without / with | spread |\n|---|---|---|---|---|---|\n");
   for (const Case &of : cases) {
@@ -121,6 +131,7 @@ int main(int argc, char **argv) {
     const Setup setup = setup_of(of);
     Simulator with = prepared(of, setup, {});
     for (const Form &form : forms)
-      compare(of, setup, with, form);
+      if (form.name.find(wanted_form) != std::string::npos)
+        compare(of, setup, with, form);
   }
 }

@@ -12,7 +12,7 @@ inline SimulatorOptions random_options(Random &random) {
   options.keep_taps = random.flip();
   options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
-  options.allowed.moments = random.flip();
+  options.allowed.polynomial_moments = random.flip();
   return options;
 }
 

@@ -96,16 +96,3 @@ TEST_CASE("what a float cannot hold is not promised") {
   }
   CHECK(refusal_of(within(Mode::automatic, 0.1), 1e3, half_turn_rad) == ExitCode::done);
 }
-
-TEST_CASE("a sine that is summed diode by diode has no promise") {
-  SimulatorOptions options;
-  options.allowed.moments = false;
-  Simulator simulator = make_simulator(options);
-  const Scene scene = wall_at(2.0);
-  const std::vector<Illuminator> lights{light_at(ring(6, 0.1), 0.0)};
-  for (const Mode mode : {Mode::reduced, Mode::automatic})
-    CHECK_THROWS_AS(simulator.prepare(scene, wide_sensor(), lights, Backscatter::lambert, Shadows::off,
-                                      within(mode, 1e-5)),
-                    std::logic_error);
-  CHECK_NOTHROW(simulator.prepare(scene, wide_sensor(), lights, Backscatter::lambert, Shadows::off, {}));
-}

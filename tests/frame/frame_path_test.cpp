@@ -27,7 +27,6 @@ struct Form {
 
 // Each with a frame of a ring before a wall that takes it.
 const std::vector<Form> forms{
-    {"moments", &PathForms::moments, 1, Mode::exact, "sum"},
     {"polynomial moments", &PathForms::polynomial_moments, 1, Mode::exact, "sum"},
     {"equal weights", &PathForms::equal_weights, 1, Mode::exact, "sum"},
     {"coplanar sources", &PathForms::coplanar, 1, Mode::exact, "sum"},

@@ -56,16 +56,6 @@ TEST_CASE("square light has its illuminator's phase") {
   }
 }
 
-TEST_CASE("diode by diode a sine has its illuminator's phase") {
-  const WallCase two{.name = "", .lights = two_lights()};
-  for (SimulatorOptions options : all_variants()) {
-    options.allowed.moments = false;
-    const Errors errors = errors_of(two, options);
-    CHECK(errors.distance_m <= 2e-6);
-    CHECK(errors.amplitude <= 1e-5);
-  }
-}
-
 TEST_CASE("a whole turn of phase is none, to the bit") {
   WallCase none{.name = "", .lights = two_lights()}, whole = none;
   none.lights[1].illuminator.modulation_phase_rad = 0;

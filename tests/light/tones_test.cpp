@@ -29,7 +29,7 @@ double turns_per_m(const shader::Tone &tone) {
 TEST_CASE("a sine takes a plane and a tone of each frequency, summed by moments") {
   const Signal signal = signal_of(sensor_with(sine, 5, {20e6, 60e6}), {});
   CHECK(signal.waveform == shader::waveform_sine);
-  CHECK(signal.by_moments);
+  CHECK(signal.by_moments());
   CHECK(signal.sum_planes() == 2);
   const auto tones = signal.all_tones();
   REQUIRE(tones.size() == 2);
@@ -60,16 +60,9 @@ TEST_CASE("square light takes half a plane of each tap that no other gives, one 
       {{3, 3, 2}, {4, 2, 1}, {5, 5, 3}, {6, 3, 2}, {16, 8, 4}}));
   const Signal signal = signal_of(sensor_with(square, taps, {20e6, 30e6, 40e6}), {});
   CHECK(signal.waveform == shader::waveform_square);
-  CHECK_FALSE(signal.by_moments);
+  CHECK_FALSE(signal.by_moments());
   CHECK(signal.distinct_taps == distinct);
   CHECK(signal.planes == planes);
   CHECK(signal.sum_planes() == 3 * planes);
   CHECK(signal.all_tones().size() == 3);
-}
-
-TEST_CASE("only a sine's sum is a matter of choice") {
-  const SimulatorOptions direct{.device = {}, .allowed = {.moments = false}};
-  CHECK_FALSE(signal_of(sensor_with(sine, 4, {20e6}), direct).by_moments);
-  CHECK(signal_of(sensor_with(three_harmonics, 4, {20e6}), direct).by_moments);
-  CHECK_FALSE(signal_of(sensor_with(square, 4, {20e6}), direct).by_moments);
 }

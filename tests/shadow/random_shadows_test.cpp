@@ -94,7 +94,7 @@ Sensor random_sensor(Random &random, std::uint32_t seed) {
 SimulatorOptions random_options(Random &random) {
   SimulatorOptions options = options_of(variants[random.flip() ? 0 : 1]);
   options.keep_taps = true;
-  options.allowed.moments = random.flip();
+  options.allowed.polynomial_moments = random.flip();
   options.max_strip_samples = random.flip() ? 0 : static_cast<std::uint32_t>(random.uniform(1, 9'000));
   return options;
 }

@@ -143,7 +143,7 @@ const std::vector<Case> everything{
      }},
 };
 
-// What this device is given, what other devices are, and the sum without moments.
+// What this device is given, and what other devices are with the sum of moments as such.
 const std::vector<SimulatorOptions> variants{
     {.device = {}, .keep_sample_tags = true, .keep_taps = true},
     {.device = {},
@@ -151,7 +151,7 @@ const std::vector<SimulatorOptions> variants{
      .keep_taps = true,
      .precision = SamplePrecision::double_float,
      .loop = DiodeLoop::looped,
-     .allowed = {.moments = false}},
+     .allowed = {.polynomial_moments = false}},
 };
 
 // A room whose camera sees all of the image filled, on a chip of 24 x 16 mm behind a lens of 30 mm.
@@ -168,7 +168,7 @@ void check_case(const Case &changed, const Setup &setup, Sensor sensor) {
   const auto expected =
       reference::simulate(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   for (const SimulatorOptions &options : variants) {
-    const bool plain = options.allowed.moments;
+    const bool plain = options.allowed.polynomial_moments;
     const std::string name =
         fmt::format("{}, S = {}{}", changed.name, sensor.samples, plain ? "" : ", others'");
     INFO(name);
