@@ -19,7 +19,7 @@ namespace {
 constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Signal &signal, const SumScope &scope) {
-  return scope.depth_records                  ? "accumulate_plain"
+  return scope.depth_records                  ? "accumulate_depths"
          : !signal.by_moments()               ? "accumulate_per_diode"
          : scope.precision == Precision::fp64 ? "accumulate_precise"
                                               : "accumulate";

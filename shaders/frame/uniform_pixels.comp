@@ -3,9 +3,6 @@
 // face, so that few diodes may stand in for all and one place, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/sampling/chip.glsl"
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/view/points.glsl"

@@ -3,11 +3,12 @@
 // As a straight line one dispatch is one unrolled run, without a branch, so that lavapipe reads the diodes once for all lanes;
 // else a loop over the blocks, which suits GPUs.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
+#ifdef RECORD_DEPTH
+#include "shaders/light/accumulate_depths.glsl"
+#else
 #include "shaders/light/accumulate.glsl"
 #define REACHED_OF_BLOCK(i, block) reached_of_block(i, block)
+#endif
 #include "shaders/light/moments.glsl"
 
 void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run, float backscatter) {
@@ -25,7 +26,7 @@ void main() {
   float moment[moments];
   sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
 
-  float backscatter = Floats(constants.backscatter).at[i];
+  float backscatter = load_backscatter(i);
   add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)

@@ -1,4 +1,4 @@
-// What both forms of the accumulate pass share: which samples they sum, and how a run's terms join the sum.
+// Which samples the accumulate pass sums, where their points are, and how a run's terms join the sum.
 #ifndef PMDSIM_ACCUMULATE_GLSL
 #define PMDSIM_ACCUMULATE_GLSL
 
@@ -32,6 +32,8 @@ uint reached_of_block(uint i, uint block) {
 ReferencePath load_point(uint i, LightRun run, out Point point) {
   return see_point(load_position(constants.position, i), load_vec4(constants.surface, i), run, point);
 }
+
+float load_backscatter(uint i) { return Floats(constants.backscatter).at[i]; }
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
 void add_terms(uint i, float backscatter, float terms) {

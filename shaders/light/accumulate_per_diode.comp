@@ -3,9 +3,6 @@
 // moments cannot serve. With rho = |P - G| and e = r_nm - rho each diode adds w_m C(phase of (rho + r_n) + kappa e) to
 // each tap; kappa |e| is at most 1/2 (source_groups.cpp), so no phase has to be wrapped inside the loop.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/light/accumulate.glsl"
 
 layout(constant_id = constant_taps) const uint taps = 4;
@@ -70,7 +67,7 @@ void main() {
       add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
   }
 
-  float backscatter = Floats(constants.backscatter).at[i];
+  float backscatter = load_backscatter(i);
   add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
   add_taps(i, total, backscatter);
 }

@@ -2,9 +2,6 @@
 // How many workgroups the passes after the short way take for each list.
 // It has no Real.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/sampling/pixel_list.glsl"
 
 layout(local_size_x = 1) in;

@@ -2,9 +2,6 @@
 // Looks from each sample of a part with too many candidates towards all diodes of the bundle at once: most see nothing in
 // between. Of the others the part keeps a bit each, in the place of its candidates.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_decide.glsl"
 #include "shaders/shadow/lit_walk.glsl"
 

@@ -2,9 +2,6 @@
 // Counts the diodes of a window that reach each sample.
 // It has no Real.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/shadow/lit_interface.h"

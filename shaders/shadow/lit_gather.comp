@@ -2,9 +2,6 @@
 // For each open part of a tile and each bundle of diodes: the occluders that may stand between them. Where there are few, they
 // will be tried one by one; where there are many, or such as have holes, rays will be traced.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_gather.glsl"
 
 layout(constant_id = constant_tiled) const uint tiled = 0;

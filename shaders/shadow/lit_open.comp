@@ -3,9 +3,6 @@
 // their surface. For all others nothing has to be done.
 // It has no Real.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_gather.glsl"
 
 void append_open(uint part) {

@@ -1,9 +1,6 @@
 #version 460
 // Cuts each tile's samples into a near and a far part and finds the box around the points of each.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit.glsl"
 
 layout(local_size_x = workgroup_size) in;

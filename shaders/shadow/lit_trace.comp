@@ -3,9 +3,6 @@
 // a part and a diode. The first walk begins at the tree's root and may be too long; the parts of such rays are walked again, so
 // many nodes at a time that no walk is.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_decide.glsl"
 #include "shaders/shadow/lit_walk.glsl"
 #include "shaders/view/surface_appearance.glsl"

@@ -2,9 +2,6 @@
 // Tries all candidates of a part on each of its samples and all diodes of the bundle: three planes through the sample and one
 // of the candidate's own decide about a diode.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shadow/lit_decide.glsl"
 
 layout(local_size_x_id = constant_lanes) in;

@@ -426,26 +426,6 @@ struct ShortWayWork {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(RasterVertex) == 16);
-static_assert(sizeof(TrianglePlane) == 48);
-static_assert(sizeof(GroupDiode) == 80 && sizeof(PreciseDiode) == 128);
-static_assert(sizeof(Strip) == 32);
-static_assert(sizeof(TriangleCorners) == 112);
-static_assert(sizeof(ChipPlace) == 160);
-static_assert(sizeof(LensModel) == 224);
-static_assert(sizeof(RasterView) == 64);
-static_assert(sizeof(ShapePaint) == 176 && sizeof(SurfacePaint) == 64 && sizeof(BlockPlane) == 96);
-static_assert(sizeof(VisibilityConstants) == 112 && offsetof(VisibilityConstants, slope) == 80);
-static_assert(sizeof(PlainSumConstants) == 112 && sizeof(PlainResolveConstants) == 120);
-static_assert(sizeof(SampleGrid) == 32 && sizeof(TagsConstants) == 64);
-static_assert(sizeof(PointsConstants) == 120 && offsetof(PointsConstants, slope) == 32);
-static_assert(sizeof(SearchConstants) == 120 && offsetof(SearchConstants, lens) == 32);
-static_assert(sizeof(Tone) == 16);
-static_assert(sizeof(LightRun) == 512 && sizeof(Frequency) == 64 && sizeof(ShortWayLight) == 384);
-static_assert(sizeof(PixelList) == 32 && sizeof(BrokenPromise) == 16 && sizeof(ShortWayWork) == 32);
-static_assert(sizeof(AccumulateConstants) == 104);
-static_assert(sizeof(ResolveConstants) == 116);
-static_assert(sizeof(ShortWayConstants) == 128 && offsetof(ShortWayConstants, slope) == 32);
 } // namespace pmdsim::shader
 #endif
 

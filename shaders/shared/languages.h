@@ -15,6 +15,9 @@ using glm::vec4;
 } // namespace pmdsim::shader
 #define PMDSIM_CONSTANT inline constexpr uint
 #else
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_control_flow_attributes : require
 #define PMDSIM_CONSTANT const uint
 #endif
 

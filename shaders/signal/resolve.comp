@@ -1,9 +1,6 @@
 #version 460
 // The channels of each pixel from the sums of its samples, in a fixed order; of one modulation frequency.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/sampling/position.glsl"
 #include "shaders/shared/real_elementary.glsl"

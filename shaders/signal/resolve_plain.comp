@@ -2,9 +2,6 @@
 // resolve.comp of samples that were summed the plain way. Without a branch around it all, so that lavapipe reads what all
 // pixels share once for all lanes; beyond the last pixel is room for what only pads.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/sampling/grid.glsl"
 #include "shaders/view/meet.glsl"
 #include "shaders/view/points.glsl"

@@ -2,8 +2,6 @@
 // Tags a visible fragment with its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
 // holes, what is not there where the fragment's ray meets it leaves no tag.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
 #include "shaders/sampling/pixel_id.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/view/surface_appearance.glsl"

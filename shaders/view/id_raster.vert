@@ -4,8 +4,6 @@
 // TAG_DEPTH: with what its fragments need for their depths.
 #extension GL_GOOGLE_include_directive : require
 #ifdef TAG_DEPTH
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
 #define VERTEX_STAGE
 #include "shaders/shared/buffers.glsl"
 #include "shaders/view/sight.glsl"

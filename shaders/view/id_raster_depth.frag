@@ -2,8 +2,6 @@
 // As id_raster.frag, where samples are an even grid: leaves the depth beside the tag at which the sample's own exact ray meets
 // the triangle's plane.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
 #include "shaders/sampling/chip.glsl"
 #include "shaders/view/meet.glsl"
 #include "shaders/sampling/pixel_id.glsl"

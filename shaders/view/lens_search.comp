@@ -2,9 +2,6 @@
 // The point of the scene that each sample sees through a lens with distortion: its ray follows from the inverse lens model,
 // and meets the nearest of the surfaces that the fragment that it falls in and the eight around it see.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/buffers.glsl"
 #include "shaders/sampling/chip.glsl"
 #include "shaders/view/lens.glsl"

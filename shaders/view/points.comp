@@ -2,8 +2,6 @@
 // The point of the scene that each sample sees, recomputed from its triangle's plane and the sample's own exact ray:
 // the raster's depth is off by up to 20 micrometres on grazing facets.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
 #include "shaders/shared/buffers.glsl"
 #include "shaders/sampling/chip.glsl"
 #include "shaders/sampling/pixel_list.glsl"

@@ -1,8 +1,6 @@
 #version 460
 // Adds the depths to records of samples that are an even grid: where their rays meet their triangles' planes.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference_uvec2 : require
 #include "shaders/sampling/grid.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/view/meet.glsl"

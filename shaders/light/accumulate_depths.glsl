@@ -1,0 +1,49 @@
+// The same as in accumulate.glsl where all samples are summed, each of one record: its point follows from its depth, and the
+// backscatter joins in the resolve pass. Of lit walls that face all diodes one load and, of a frame's only run, one store a
+// sample, which lavapipe does lane by lane.
+#ifndef PMDSIM_ACCUMULATE_DEPTHS_GLSL
+#define PMDSIM_ACCUMULATE_DEPTHS_GLSL
+
+#include "shaders/sampling/grid.glsl"
+#include "shaders/shared/compensated.glsl"
+#include "shaders/shared/constants.h"
+#include "shaders/view/meet.glsl"
+
+layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
+layout(constant_id = constant_is_only) const uint is_only = 0;
+layout(constant_id = constant_general_chip) const uint general_chip = 0;
+
+#define DIAGRAM_VALUES constants.diagrams
+#include "shaders/light/sum.glsl"
+
+uint sample_of_invocation() { return gl_GlobalInvocationID.x; }
+
+ReferencePath load_point(uint i, LightRun run, out Point point) {
+  uvec2 at = row_by_row(i, constants.grid.columns, constants.grid.inverse_columns);
+  Real3 ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
+  Real3 position = point_at_depth(ray, load_record_depth(constants.records, i));
+  vec4 surface = vec4(0.0);
+  if (backscatter_model != backscatter_flat) {
+    // What only pads has no record.
+    uint triangle = load_record_tag(constants.records, min(i, constants.samples - 1)).y;
+    surface = load_vec4(constants.planes, 3 * triangle) * vec4(1.0, 1.0, 1.0, -1.0);
+  }
+  return see_point(position, surface, run, point);
+}
+
+float load_backscatter(uint i) { return 1.0; }
+
+void add_terms(uint i, float backscatter, float terms) {}
+
+void add_to_plane(uint plane, uint i, float backscatter, vec2 value) {
+  uint at = plane * constants.plane + i;
+  if (is_only != 0) {
+    store_tag(constants.sum, at, floatBitsToUint(value));
+  } else {
+    // One pipeline for all runs: long ones take their time to compile.
+    vec4 before = mix(load_vec4(constants.sum, at), vec4(0.0), bvec4(constants.is_first != 0));
+    store_vec4(constants.sum, at, compensated_add(before, value));
+  }
+}
+
+#endif
