@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -52,16 +53,15 @@ public:
            Backscatter backscatter, const Options &options)
       : scene_(scene), sensor_(sensor), pixels_(options.pixels), backscatter_(backscatter), lens_(sensor),
         lights_(lights_in_camera(illuminators, sensor)),
-        caster_(
-            triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
-            [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); }),
+        caster_(triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
+                std::bind_front(is_there, std::cref(scene))),
         every_diode_(all_of(diode_count(illuminators))),
         frame_(dark_frame(with_pixels(sensor, options.pixels))) {
     if (options.shadows == Shadows::off)
       return;
-    shadows_.emplace(
-        caster_.triangles(), caster_.discs(), lights_, glm::length(sensor.world_from_camera.translation_m),
-        [&scene](std::uint32_t id, const glm::dvec3 &weights) { return is_there(scene, id, weights); });
+    shadows_.emplace(caster_.triangles(), caster_.discs(), lights_,
+                     glm::length(sensor.world_from_camera.translation_m),
+                     std::bind_front(is_there, std::cref(scene)));
     frame_.lit = frame_.coverage; // 0
     if (options.keep_reached)
       frame_.sample_reached.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);

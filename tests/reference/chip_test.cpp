@@ -1,7 +1,6 @@
 // Where the chip stands: eq. 1's rotations and translation.
 
 #include "engine/reference/reference.h"
-#include "engine/reference/view/camera_frame.h"
 #include "engine/reference/view/lens_model.h"
 #include "tests/support/scenes.h"
 
@@ -26,7 +25,7 @@ Sensor three_by_three(const Chip &chip) {
 
 // The ray of the pixel whose centre lies at pitch_m * (x, y) on the chip.
 glm::dvec3 ray_of(const Sensor &sensor, int x, int y) {
-  return reference::sample_ray(sensor, glm::uvec2(x + 1, y + 1));
+  return *reference::LensModel(sensor).sample_ray(glm::uvec2(x + 1, y + 1));
 }
 
 void check_parallel(const glm::dvec3 &ray, const glm::dvec3 &expected) {
@@ -42,7 +41,7 @@ TEST_CASE("a chip in its nominal place changes no bit") {
   for (glm::uvec2 pixel(0); pixel.y < 5; ++pixel.y)
     for (pixel.x = 0; pixel.x < 7; ++pixel.x) {
       const glm::dvec2 centre_m = (glm::dvec2(pixel) + 0.5 - 0.5 * glm::dvec2(7, 5)) * sensor.pixel_pitch_m;
-      CHECK(reference::sample_ray(sensor, pixel) ==
+      CHECK(reference::LensModel(sensor).sample_ray(pixel) ==
             glm::normalize(glm::dvec3(centre_m, sensor.focal_length_m)));
     }
 }

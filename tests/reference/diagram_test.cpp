@@ -1,6 +1,6 @@
 // Diodes with measured diagrams: what a table says at its nodes, between them and beyond.
 
-#include "engine/reference/light/diagram.h"
+#include "engine/reference/light/radiation_laws.h"
 #include "engine/reference/reference.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
@@ -38,7 +38,7 @@ glm::dvec3 direction(double theta_deg, double phi_deg) {
 }
 
 double gain(const Diode &diode, double theta_deg, double phi_deg = 0) {
-  return reference::diagram_gain(diode, direction(theta_deg, phi_deg));
+  return reference::radiation(diode, -direction(theta_deg, phi_deg), 1);
 }
 
 } // namespace
@@ -70,8 +70,8 @@ TEST_CASE("a diagram to 180 degrees ends behind the diode, whatever the rounding
   for (int i = 0; i < 1000; ++i) {
     diode.axis = random.unit_vector();
     diode.across = glm::normalize(glm::cross(diode.axis, random.unit_vector()));
-    REQUIRE(reference::diagram_gain(diode, -random.uniform(0.01, 100) * diode.axis) ==
-            Approx(0.25).epsilon(1e-12));
+    const double range_m = random.uniform(0.01, 100);
+    REQUIRE(reference::radiation(diode, range_m * diode.axis, range_m) == Approx(0.25).epsilon(1e-12));
   }
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("phi goes on from the last to the first through 360 degrees") {
 TEST_CASE("just before a full turn there is no step") {
   const Diode diode = diode_with({10, 80}, {0, 180}, {0.2, 0.8, 0.2, 0.8});
   for (const double y : {-1e-300, -1e-20, -1e-16, -0.0, 0.0, 1e-16, 1e-300})
-    CHECK(reference::diagram_gain(diode, {1, y, 1}) == Approx(0.2).epsilon(1e-13));
+    CHECK(reference::radiation(diode, {-1, -y, -1}, std::sqrt(2)) == Approx(0.2).epsilon(1e-13));
 }
 
 TEST_CASE("a diagram rolls about the axis with `across`") {

@@ -1,6 +1,5 @@
 // Sums, and what becomes of a frame when it is rounded to float.
 
-#include "engine/reference/light/compensated_sum.h"
 #include "engine/reference/signal/channels.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"

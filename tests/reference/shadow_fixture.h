@@ -3,6 +3,7 @@
 
 #include "engine/reference/reference.h"
 #include "engine/reference/view/camera_frame.h"
+#include "engine/reference/view/lens_model.h"
 #include "tests/support/scenes.h"
 
 namespace pmdsim::test {
@@ -37,7 +38,7 @@ inline Sensor wide_sensor(const glm::uvec2 &resolution, double view_per_depth,
 // The place that the only sample of a pixel sees.
 inline glm::dvec3 point_seen(const Sensor &sensor, const reference::Frame &frame, std::uint32_t pixel) {
   const std::uint32_t columns = sensor.resolution.x;
-  return frame.range_m[pixel] * reference::sample_ray(sensor, {pixel % columns, pixel / columns});
+  return frame.range_m[pixel] * *reference::LensModel(sensor).sample_ray({pixel % columns, pixel / columns});
 }
 
 inline glm::dvec3 front_towards_lens(const reference::CameraTriangle &triangle, const glm::dvec3 &point_m) {

@@ -1,6 +1,6 @@
 // Shadows in scenes of many shapes, against a search over all triangles.
 
-#include "engine/reference/light/diode_set.h"
+#include "engine/reference/light/light_paths.h"
 #include "tests/reference/shadow_fixture.h"
 #include "tests/support/random_scenes.h"
 
@@ -51,7 +51,7 @@ BruteForce compare_with_brute_force(const Scene &scene, const Sensor &sensor, co
   const Frame frame = frame_of(scene, sensor, {light});
   const auto triangles = reference::triangles_in_camera(scene, sensor);
   const auto diodes = reference::diodes_in_camera(light, sensor);
-  const std::size_t words = DiodeSet::word_count(diodes.size());
+  const std::size_t words = (diodes.size() + 31) / 32;
   BruteForce result;
   for (std::uint32_t sample = 0; sample < frame.sample_triangle_id.size(); ++sample) {
     const std::uint32_t id = frame.sample_triangle_id[sample];

@@ -1,6 +1,6 @@
 // Textures, nearest and linear, by hand: a sampler's rules are glTF's, which are Vulkan's.
 
-#include "engine/reference/view/texture_lookup.h"
+#include "engine/reference/view/surface_colours.h"
 #include "tests/support/random_scenes.h"
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 #include "tests/comparison/planes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/units.h"
-#include "tests/view/opencv_formula.h"
+#include "tests/support/opencv_formula.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

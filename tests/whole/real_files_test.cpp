@@ -2,7 +2,7 @@
 // files that gltfpack packed. scenes/blender/expected.py and scenes/make_packed.py say where the numbers come
 // from.
 
-#include "engine/reference/view/camera_frame.h"
+#include "engine/reference/view/lens_model.h"
 #include "host/input/setup/setup.h"
 #include "tests/support/simulator.h"
 
@@ -248,7 +248,7 @@ struct Difference {
 double incidence(const Measurement &measured, const Instant &instant, std::size_t pixel) {
   const Sensor &sensor = instant.sensors[0];
   const glm::uvec2 at(pixel % sensor.resolution.x, pixel / sensor.resolution.x);
-  const glm::dvec3 ray = sensor.world_from_camera.direction(reference::sample_ray(sensor, at));
+  const glm::dvec3 ray = sensor.world_from_camera.direction(*reference::LensModel(sensor).sample_ray(at));
   const auto &[a, b, c] = instant.scene.triangles[measured.triangle_id[pixel]].vertices;
   const auto &positions_m = instant.scene.positions_m;
   return std::abs(glm::dot(

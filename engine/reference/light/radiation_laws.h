@@ -1,5 +1,6 @@
 #pragma once
-// Radiation laws, J of the paper's eq. 5, as they are defined.
+// Radiation laws, J of the paper's eq. 5, as they are defined; of diagrams, linear between the directions of
+// the table.
 
 #include "engine/model/illuminator.h"
 

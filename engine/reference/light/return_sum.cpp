@@ -1,7 +1,5 @@
 #include "engine/reference/light/return_sum.h"
 
-#include <cmath>
-
 namespace pmdsim::reference {
 
 namespace {

@@ -3,15 +3,42 @@
 // samples of another waveform.
 
 #include "engine/model/sensor.h"
-#include "engine/reference/light/compensated_sum.h"
-#include "engine/reference/light/diagram.h"
 #include "engine/reference/light/light_paths.h"
 
+#include <cmath>
 #include <complex>
 #include <cstdint>
 #include <vector>
 
 namespace pmdsim::reference {
+
+// A sum whose rounding error does not grow with the number of terms: A. Neumaier, "Rundungsfehleranalyse
+// einiger Verfahren zur Summation endlicher Summen", ZAMM 54 (1974).
+class CompensatedSum {
+public:
+  void add(double term) {
+    const double sum = sum_ + term;
+    lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
+    sum_ = sum;
+  }
+  double value() const { return sum_ + lost_; }
+
+private:
+  double sum_ = 0.0;
+  double lost_ = 0.0;
+};
+
+class ComplexSum {
+public:
+  void add(const std::complex<double> &term) {
+    real_.add(term.real());
+    imaginary_.add(term.imag());
+  }
+  std::complex<double> value() const { return {real_.value(), imaginary_.value()}; }
+
+private:
+  CompensatedSum real_, imaginary_;
+};
 
 // The correlation function C (docs/theory.md, "The measurement") at the phase 2 pi `turns`.
 double correlation(const Waveform &waveform, double turns);

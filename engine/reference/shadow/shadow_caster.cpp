@@ -1,7 +1,5 @@
 #include "engine/reference/shadow/shadow_caster.h"
 
-#include "engine/reference/view/seen_triangle.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>

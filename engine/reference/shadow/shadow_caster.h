@@ -2,7 +2,6 @@
 // Which diodes nothing hides from a point that the lens sees. Of the shapes near the way, whether one blocks
 // it is decided in double from the exact places of shape, point and diode.
 
-#include "engine/reference/light/diode_set.h"
 #include "engine/reference/light/light_paths.h"
 #include "engine/reference/view/shape_tree.h"
 

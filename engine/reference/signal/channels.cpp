@@ -1,7 +1,5 @@
 #include "engine/reference/signal/channels.h"
 
-#include "engine/reference/light/return_sum.h"
-
 #include <limits>
 
 namespace pmdsim::reference {
@@ -72,10 +70,9 @@ Frame dark_frame(const Sensor &sensor) {
     frame.returns.push_back({sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown,
                              unknown, std::vector(sensor.taps, dark), unknown});
   frame.coverage = dark;
-  for (auto *channel : {&frame.range_m, &frame.z_m})
-    *channel = unknown;
-  for (auto *ids : {&frame.triangle_id, &frame.object_id})
-    ids->assign(pixels, no_id);
+  frame.range_m = frame.z_m = unknown;
+  frame.triangle_id.assign(pixels, no_id);
+  frame.object_id.assign(pixels, no_id);
   frame.sample_triangle_id.assign(samples, no_id);
   return frame;
 }

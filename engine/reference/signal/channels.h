@@ -1,7 +1,6 @@
 #pragma once
 // From a pixel's sums to its channels.
 
-#include "engine/reference/light/compensated_sum.h"
 #include "engine/reference/light/return_sum.h"
 #include "engine/reference/reference.h"
 

@@ -1,7 +1,5 @@
 #include "engine/reference/view/camera_frame.h"
 
-#include "engine/reference/view/lens_model.h"
-
 namespace pmdsim::reference {
 
 namespace {
@@ -57,10 +55,6 @@ std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor
     diode.across = camera_from_world * world_from_illuminator.direction(diode.across);
   }
   return diodes;
-}
-
-glm::dvec3 sample_ray(const Sensor &sensor, const glm::uvec2 &sample) {
-  return LensModel(sensor).sample_ray(sample).value();
 }
 
 } // namespace pmdsim::reference

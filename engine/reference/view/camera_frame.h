@@ -1,6 +1,5 @@
 #pragma once
-// Scene, light and sample rays in the camera's frame (x right, y down, z forward, origin at the lens centre),
-// in double.
+// Scene and light in the camera's frame (x right, y down, z forward, origin at the lens centre), in double.
 
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
@@ -40,9 +39,5 @@ std::vector<CameraDisc> discs_in_camera(const Scene &scene, const Sensor &sensor
 
 // The illuminator's diodes with position, axis and `across` in the camera's frame.
 std::vector<Diode> diodes_in_camera(const Illuminator &illuminator, const Sensor &sensor);
-
-// The ray of one sample, as LensModel gives it; throws std::bad_optional_access where the sample sees
-// nothing.
-glm::dvec3 sample_ray(const Sensor &sensor, const glm::uvec2 &sample);
 
 } // namespace pmdsim::reference

@@ -3,12 +3,10 @@
 // double.
 
 #include "engine/model/sensor.h"
-#include "engine/reference/view/distortion.h"
 
-#include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
-#include <variant>
 
 namespace pmdsim::reference {
 
@@ -20,26 +18,16 @@ public:
   // where the sample sees nothing because its place lies behind the lens or beyond the distortion's fold.
   std::optional<glm::dvec3> sample_ray(const glm::uvec2 &sample) const;
 
-  // Chip coordinates x', y' of a sample.
-  glm::dvec2 sample_on_chip_m(const glm::uvec2 &sample) const;
-  // Where a place x', y' of the chip, seen in front of the lens, lies in the camera's frame.
-  glm::dvec3 place_m(const glm::dvec2 &chip_m) const {
-    return origin_m_ + chip_rotation_ * glm::dvec3(chip_m, 0.0);
-  }
-  // The slopes under which a ray meets the chip: the inverse of sample_ray(), which is x/z and y/z of the
-  // place where it does.
-  std::optional<glm::dvec2> slopes(const glm::dvec3 &ray) const;
-
   // What a ray (unit length) counts.
   double vignetting_gain(const glm::dvec3 &ray) const;
 
 private:
-  glm::dvec2 resolution_, pitch_m_, fill_factor_;
-  std::uint32_t samples_;
+  Sensor sensor_;
   glm::dmat3 chip_rotation_;
   glm::dvec3 origin_m_; // of the chip's frame
-  std::variant<PinholeLens, BrownConradyLens, FisheyeLens> lens_;
-  Vignetting vignetting_;
+  // The ray, not normalised, to a place in front of the lens (z > 0), on the branch that begins at the
+  // optical axis; nothing where that branch folds before it.
+  std::function<std::optional<glm::dvec3>(const glm::dvec3 &place_m)> ray_to_;
 };
 
 } // namespace pmdsim::reference

@@ -1,7 +1,5 @@
 #include "engine/reference/view/ray_caster.h"
 
-#include "engine/reference/view/seen_triangle.h"
-
 #include <limits>
 #include <utility>
 

@@ -9,6 +9,10 @@
 
 namespace pmdsim::reference {
 
+// RGBA of the paint's texture (which must be there) at the texture coordinates (u, v), finite, by the rules
+// of glTF's samplers, which are Vulkan's.
+glm::dvec4 texture_colour(const Paint &paint, const glm::dvec2 &coordinates);
+
 bool is_there(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights);
 double painted_reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights); // rho
 
