@@ -2,8 +2,7 @@
 
 #include "engine/frame/frame.h"
 #include "engine/model/error.h"
-#include "engine/vulkan/device_choice.h"
-#include "engine/vulkan/pass_recorder.h"
+#include "engine/vulkan/commands.h"
 
 #include <algorithm>
 #include <mutex>
@@ -12,16 +11,6 @@
 #include <string>
 
 namespace pmdsim {
-namespace {
-
-DeviceInfo choose(const vulkan::Instance &instance, const std::string &wanted) {
-  std::vector<DeviceInfo> devices;
-  for (const auto &device : instance.devices())
-    devices.push_back(vulkan::describe(static_cast<std::uint32_t>(devices.size()), device));
-  return devices[vulkan::choose_device(devices, wanted)];
-}
-
-} // namespace
 
 struct Simulator::State {
   // What a frame is to be made of; made again where the first plan does not keep the error asked for.
@@ -35,7 +24,7 @@ struct Simulator::State {
   };
 
   explicit State(const SimulatorOptions &wanted)
-      : options(wanted), instance(wanted.validate), info(choose(instance, wanted.device)),
+      : options(wanted), instance(wanted.validate), info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();

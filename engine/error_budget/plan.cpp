@@ -6,6 +6,7 @@
 #include "engine/reduction/reduced_set.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -188,21 +189,10 @@ void claim_within_limits(const LitView &view, const Promise &bound, FramePlan &p
     plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
 }
 
-// All diodes for themselves.
-ReducedLight whole_light(const LitView &view) {
-  ReducedLight light{view.lights, {glm::dvec3(std::numeric_limits<double>::infinity()), {}}};
-  light.lights.high_m = -light.lights.low_m;
-  for (const CameraIlluminator &illuminator : view.lights)
-    for (const Diode &diode : illuminator.diodes)
-      light.lights = {glm::min(light.lights.low_m, diode.position_m),
-                      glm::max(light.lights.high_m, diode.position_m)};
-  return light;
-}
-
 ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const RoundingBound &rounding,
                           double share) {
   if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
-    return whole_light(view);
+    return whole_light(view.lights);
   return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.signal),
                        share * (accuracy.max_error_m - rounding.distance_m(1.0)),
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
@@ -239,7 +229,7 @@ FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   FramePlan plan;
   plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
   plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
-  const ReducedLight light = whole_light(view);
+  const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   if (const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples)) {
     const Promise bound = promise_of(accuracy, *rounding, light);
@@ -256,6 +246,18 @@ FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   return plan;
 }
 
+// The amplitude only where it is asked for.
+std::string errors_text(double distance_m, double amplitude, const Accuracy &asked_for) {
+  const std::string distance = fmt::format("{:.6g} mm", 1e3 * distance_m);
+  return std::isfinite(asked_for.max_amplitude_error)
+             ? fmt::format("{} and {:.3g} of the amplitude", distance, amplitude)
+             : distance;
+}
+
+std::string limits_text(const Accuracy &asked_for) {
+  return errors_text(asked_for.max_error_m, asked_for.max_amplitude_error, asked_for);
+}
+
 } // namespace
 
 FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
@@ -269,7 +271,7 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
   plan.stand_ins = groups_of(view, light.illuminators, plan.precision);
   plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
-  plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view));
+  plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view.lights));
   const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
   plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
   plan_short_way(view, accuracy, light, plan);
@@ -278,6 +280,24 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
     worst = worse_of(worst, *plan.promise_of_all);
   claim_within_limits(view, worst, plan);
   return plan;
+}
+
+std::optional<std::string> promise_breach(const shader::BrokenPromise &broken, const AccuracyReport &found,
+                                          const Accuracy &asked_for, double ambiguity_m) {
+  if (broken.returns > 0)
+    return fmt::format("{} returns of pixels cancel in part, or are weak beside what rounding does to them, "
+                       "and may be off by up to {}; expected at most {}",
+                       broken.returns,
+                       errors_text(static_cast<double>(std::bit_cast<float>(broken.worst_m)),
+                                   static_cast<double>(std::bit_cast<float>(broken.amplitude)), asked_for),
+                       limits_text(asked_for));
+  const double found_m = found.found_m.value_or(0.0), amplitude = found.found_amplitude.value_or(0.0);
+  // What is compared is rounded to float itself.
+  const double rounding_m = 0x1p-24 * ambiguity_m;
+  if (found_m > asked_for.max_error_m + rounding_m || amplitude > asked_for.max_amplitude_error + 0x1p-23)
+    return fmt::format("pixels evaluated exactly are off by up to {}; expected at most {}",
+                       errors_text(found_m, amplitude, asked_for), limits_text(asked_for));
+  return std::nullopt;
 }
 
 } // namespace pmdsim

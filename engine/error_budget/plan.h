@@ -1,15 +1,14 @@
 #pragma once
 // How a frame is summed within the error asked for: which diodes stand in for all, in which precision, and
-// what can be promised of it.
+// what can be promised of it; and whether that was kept.
 
-#include "engine/error_budget/quadrature_bound.h"
 #include "engine/light/source_groups.h"
 #include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
-#include "engine/model/error_bound.h"
 #include "engine/model/simulator_options.h"
 
 #include <optional>
+#include <string>
 
 namespace pmdsim {
 
@@ -24,6 +23,15 @@ struct LitView {
   bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
   PathForms allowed = {};
 };
+
+// What the short way has to know of the light.
+struct LightExtent {
+  VisibleBox box;             // holds all diodes, camera frame
+  double pattern_slope = 0.0; // radiation_laws.h
+};
+
+// Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
+inline constexpr double place_spread_m = 0.1;
 
 struct FramePlan {
   Precision precision = Precision::fp32;
@@ -49,5 +57,10 @@ inline constexpr std::uint32_t frame_plans = 3;
 
 // The `attempt`-th of them. Throws Error (accuracy) where none can promise what is asked for.
 FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
+
+// Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it
+// (`broken`) and none that was checked is (`found`). The ambiguity range is that of the distances.
+std::optional<std::string> promise_breach(const shader::BrokenPromise &broken, const AccuracyReport &found,
+                                          const Accuracy &asked_for, double ambiguity_m);
 
 } // namespace pmdsim

@@ -49,13 +49,6 @@ std::vector<glm::dvec3> lit_places(const DiodeGroups &groups) {
   return places_m;
 }
 
-VisibleBox box_around(const std::vector<glm::dvec3> &places_m) {
-  VisibleBox box{places_m.front(), places_m.front()};
-  for (const glm::dvec3 &place_m : places_m)
-    box = {glm::min(box.low_m, place_m), glm::max(box.high_m, place_m)};
-  return box;
-}
-
 Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                    const RoundingScope &scope) {
   Lengths result;
@@ -69,7 +62,9 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
     references_m.push_back(run.reference_m);
   result.detour_m = excess_of(glm::dvec3(0.0), references_m, visible).excess_m;
   const std::vector<glm::dvec3> places_m = lit_places(groups);
-  const VisibleBox box = box_around(places_m);
+  VisibleBox box;
+  for (const glm::dvec3 &place_m : places_m)
+    box.add(place_m);
   const double about_middle_m = excess_of(0.5 * (box.low_m + box.high_m), places_m, visible).excess_m;
   const double about_lens_m = excess_of(glm::dvec3(0.0), places_m, visible).excess_m;
   const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
@@ -280,12 +275,12 @@ double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const Visibl
 std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t most) {
   const std::size_t each = (boxes.size() + most - 1) / most;
   std::vector<VisibleBox> result;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (i % each == 0)
-      result.push_back(boxes[i]);
-    else
-      result.back() = {glm::min(result.back().low_m, boxes[i].low_m),
-                       glm::max(result.back().high_m, boxes[i].high_m)};
+      result.emplace_back();
+    result.back().add(boxes[i].low_m);
+    result.back().add(boxes[i].high_m);
+  }
   return result;
 }
 
@@ -301,14 +296,11 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
   RoundingBound largest{};
   for (const double frequency_hz : signal.modulation_hz) {
     const RoundingBound of_frequency = bound.of(frequency_hz);
-    largest.fixed_m = std::max(largest.fixed_m, of_frequency.fixed_m);
-    largest.per_condition_m = std::max(largest.per_condition_m, of_frequency.per_condition_m);
-    largest.amplitude_fixed = std::max(largest.amplitude_fixed, of_frequency.amplitude_fixed);
-    largest.amplitude_per_condition =
-        std::max(largest.amplitude_per_condition, of_frequency.amplitude_per_condition);
-    largest.per_weight_m = std::max(largest.per_weight_m, of_frequency.per_weight_m);
-    largest.amplitude_per_weight = std::max(largest.amplitude_per_weight, of_frequency.amplitude_per_weight);
-    largest.rim_error = of_frequency.rim_error;
+    using Bound = RoundingBound;
+    for (const auto part :
+         {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
+          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::rim_error})
+      largest.*part = std::max(largest.*part, of_frequency.*part);
   }
   return largest;
 }
@@ -323,26 +315,6 @@ double least_emission_cosine(const DiodeGroups &groups, const std::vector<Visibl
       continue;
     for (const VisibleBox &box : boxes)
       least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));
-  }
-  return std::max(least, grazing_cosine);
-}
-
-double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
-                              const std::vector<VisibleBox> &visible) {
-  const VisibleBox diodes = box_around(lit_places(groups));
-  double farthest = 0.0;
-  for (const VisibleBox &box : visible)
-    farthest = std::max(farthest, farthest_m(box));
-  farthest += farthest_m(diodes);
-  double least = 1.0;
-  for (std::size_t i = 0; i < camera.triangles.size() && least > grazing_cosine; ++i) {
-    const Plane &plane = camera.planes[i];
-    const glm::dvec3 along_m = glm::min(plane.normal * diodes.low_m, plane.normal * diodes.high_m);
-    double range_m = 0.0; // of its corners from the diodes, at most
-    for (const glm::dvec3 &corner_m : camera.triangles[i].corners_m)
-      range_m = std::max(range_m, farthest_m({diodes.low_m - corner_m, diodes.high_m - corner_m}));
-    least =
-        std::min(least, (along_m.x + along_m.y + along_m.z - plane.offset_m) / std::min(range_m, farthest));
   }
   return std::max(least, grazing_cosine);
 }

@@ -55,10 +55,8 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope);
 
-// For RoundingScope: bounds from below over all that is visible, at least grazing_cosine; where that is more
+// For RoundingScope: a bound from below over all that is visible, at least grazing_cosine; where that is more
 // than is true, pixels in grazing light have no bound.
 double least_emission_cosine(const DiodeGroups &groups, const std::vector<VisibleBox> &visible);
-double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
-                              const std::vector<VisibleBox> &visible);
 
 } // namespace pmdsim

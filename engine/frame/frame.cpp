@@ -1,6 +1,6 @@
 #include "engine/frame/frame.h"
 
-#include "engine/error_budget/budget.h"
+#include "engine/error_budget/plan.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/read_back.h"
 

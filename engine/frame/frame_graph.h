@@ -3,7 +3,7 @@
 // the cutting into submissions and the warm-up follow from it.
 
 #include "engine/sampling/pass.h"
-#include "engine/vulkan/pass_recorder.h"
+#include "engine/vulkan/commands.h"
 
 #include <vector>
 

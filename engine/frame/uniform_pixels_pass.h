@@ -2,7 +2,7 @@
 // The uniform-pixel pass: pixels of one surface that every diode lights, from their tags to their channels at
 // once, at one point or, in a pass of its own, at four. The others are listed (pixel_lists.h).
 
-#include "engine/error_budget/quadrature_bound.h"
+#include "engine/error_budget/plan.h"
 #include "engine/light/accumulate_pass.h"
 #include "engine/sampling/pixel_lists.h"
 

@@ -6,7 +6,7 @@
 #include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
 #include "engine/light/tones.h"
-#include "engine/model/error_bound.h"
+#include "engine/model/accuracy.h"
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/pass.h"
 #include "engine/sampling/sample_grid.h"

@@ -1,7 +1,7 @@
 #pragma once
 // How much longer the paths of some diodes may be than a reference point's, over all that is visible.
 
-#include "engine/view/view_bounds.h"
+#include "engine/view/camera_scene.h"
 
 #include <limits>
 #include <span>

@@ -5,7 +5,6 @@
 
 #include "engine/light/camera_light.h"
 #include "engine/light/diagram_tables.h"
-#include "engine/view/view_bounds.h"
 #include "shaders/shared/interface.h"
 
 #include <optional>

@@ -6,7 +6,6 @@
 #include "engine/light/moment_polynomials.h"
 #include "engine/light/path_difference.h"
 #include "engine/model/accuracy.h"
-#include "engine/view/view_bounds.h"
 #include "shaders/shared/interface.h"
 
 #include <algorithm>

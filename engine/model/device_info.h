@@ -1,5 +1,5 @@
 #pragma once
-// The devices that Vulkan offers, as a user sees them.
+// The devices that Vulkan offers, as a user sees them, and what they took.
 
 #include <cstdint>
 #include <string>
@@ -18,5 +18,11 @@ struct DeviceInfo {
 
 // Every device that Vulkan offers, in Vulkan's order. Empty where there is no Vulkan at all.
 std::vector<DeviceInfo> list_devices();
+
+// What one pass of a frame took on the device.
+struct PassTime {
+  std::string name;
+  double ms = 0.0;
+};
 
 } // namespace pmdsim

@@ -2,7 +2,7 @@
 // What the camera measures of one frame. Every channel is row-major, row 0 at the top, rows * columns values.
 
 #include "engine/model/accuracy.h"
-#include "engine/model/pass_time.h"
+#include "engine/model/device_info.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -12,12 +12,12 @@ constexpr std::size_t pieces_at_most = 4096;
 constexpr double sights_per_octave = 2.0;
 
 void cut(const VisibleBox &box, const VisibleBox &around, int cuts_left, std::vector<VisibleBox> &pieces) {
-  const glm::dvec3 size_m = box.high_m - box.low_m;
-  if (cuts_left == 0 || glm::length(size_m) <= largest_size_over_distance * least_distance_m(box, around)) {
+  if (cuts_left == 0 ||
+      glm::distance(box.low_m, box.high_m) <= largest_size_over_distance * least_distance_m(box, around)) {
     pieces.push_back(box);
     return;
   }
-  const int axis = size_m.x >= size_m.y ? (size_m.x >= size_m.z ? 0 : 2) : (size_m.y >= size_m.z ? 1 : 2);
+  const int axis = box.longest_side();
   VisibleBox low = box, high = box;
   low.high_m[axis] = high.low_m[axis] = 0.5 * (box.low_m[axis] + box.high_m[axis]);
   cut(low, around, cuts_left - 1, pieces);

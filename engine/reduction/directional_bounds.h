@@ -1,7 +1,7 @@
 #pragma once
 // What is visible, as seen from a place: how near, and how far to its sides.
 
-#include "engine/view/view_bounds.h"
+#include "engine/view/camera_scene.h"
 
 #include <vector>
 

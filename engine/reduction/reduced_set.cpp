@@ -23,28 +23,6 @@ constexpr std::size_t most_candidates = 512;
 constexpr std::size_t most_looks = 4096, most_attempts = 64;
 constexpr std::size_t fewest_diodes = 6; // of a cluster: fewer are not worth a look
 
-VisibleBox box_of(std::span<const Diode> diodes) {
-  VisibleBox box{diodes.front().position_m, diodes.front().position_m};
-  for (const Diode &diode : diodes) {
-    box.low_m = glm::min(box.low_m, diode.position_m);
-    box.high_m = glm::max(box.high_m, diode.position_m);
-  }
-  return box;
-}
-
-void widen(VisibleBox &box, const glm::dvec3 &p) {
-  box.low_m = glm::min(box.low_m, p);
-  box.high_m = glm::max(box.high_m, p);
-}
-
-VisibleBox box_of(const std::vector<CameraIlluminator> &illuminators) {
-  VisibleBox all = box_of(illuminators.front().diodes);
-  for (const CameraIlluminator &illuminator : illuminators)
-    for (const Diode &diode : illuminator.diodes)
-      widen(all, diode.position_m);
-  return all;
-}
-
 // The diodes of a cluster that may stand in for all: evenly spread, the first of each part, with the part's
 // share.
 struct Candidates {
@@ -117,11 +95,10 @@ std::optional<Reduction> fewest(const DiodeCluster &cluster, const MomentBounds 
 // Brings half of the diodes to the front so that a plane across the longest side of their box parts them from
 // the rest.
 void part_in_two(const std::vector<Diode> &diodes, std::span<std::size_t> members) {
-  VisibleBox box{diodes[members.front()].position_m, diodes[members.front()].position_m};
+  VisibleBox box;
   for (const std::size_t member : members)
-    widen(box, diodes[member].position_m);
-  const glm::dvec3 spread = box.high_m - box.low_m;
-  const int axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
+    box.add(diodes[member].position_m);
+  const int axis = box.longest_side();
   const auto middle = members.begin() + static_cast<std::ptrdiff_t>(members.size() / 2);
   std::ranges::nth_element(members, middle, [&](std::size_t a, std::size_t b) {
     return std::tuple(diodes[a].position_m[axis], a) < std::tuple(diodes[b].position_m[axis], b);
@@ -204,8 +181,7 @@ private:
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0})
         for (const double z : {-1.0, 1.0})
-          widen(result_.lights,
-                cluster.centre_m + cluster.axes * (glm::dvec3(x, y, z) * cluster.clearance_m));
+          result_.lights.add(cluster.centre_m + cluster.axes * (glm::dvec3(x, y, z) * cluster.clearance_m));
     result_.error_per_condition_m = std::max(result_.error_per_condition_m, reduction.error.distance_m);
     result_.amplitude_error_per_condition =
         std::max(result_.amplitude_error_per_condition, reduction.error.amplitude);
@@ -243,11 +219,19 @@ double distance_per_re_m(const std::vector<CameraIlluminator> &illuminators, dou
 
 } // namespace
 
+ReducedLight whole_light(const std::vector<CameraIlluminator> &illuminators) {
+  ReducedLight light{illuminators, {}};
+  for (const CameraIlluminator &illuminator : illuminators)
+    for (const Diode &diode : illuminator.diodes)
+      light.lights.add(diode.position_m);
+  return light;
+}
+
 ReducedLight reduce_diodes(const std::vector<CameraIlluminator> &illuminators,
                            const std::vector<VisibleBox> &visible, Backscatter backscatter,
                            std::vector<double> wavenumbers_rad_m, double max_error_m,
                            double max_amplitude_error) {
-  ReducedLight result{illuminators, box_of(illuminators)};
+  ReducedLight result = whole_light(illuminators);
   if (visible.empty() || !(max_error_m > 0.0) || !(max_amplitude_error > 0.0))
     return result;
   std::vector<VisibleBox> pieces = pieces_of(visible, result.lights);

@@ -2,8 +2,6 @@
 // Few diodes with other intensities in place of many, within an error that follows from theory.
 
 #include "engine/light/camera_light.h"
-#include "engine/model/accuracy.h"
-#include "engine/view/view_bounds.h"
 
 #include <vector>
 
@@ -19,6 +17,9 @@ struct ReducedLight {
   double error_per_condition_m = 0.0;
   double amplitude_error_per_condition = 0.0;
 };
+
+// All diodes for themselves.
+ReducedLight whole_light(const std::vector<CameraIlluminator> &illuminators);
 
 // As few diodes as keep the errors within the two at condition 1 (amplitude also within 10^-3, so that
 // `relative` is small). Diodes stay as they are where that gains nothing or visible points are too near.

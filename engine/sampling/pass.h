@@ -3,7 +3,7 @@
 // name each other.
 
 #include "engine/model/measurement.h"
-#include "engine/sampling/strips.h"
+#include "engine/sampling/raster_blocks.h"
 #include "engine/vulkan/buffer.h"
 
 #include <cstdint>

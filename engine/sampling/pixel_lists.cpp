@@ -14,17 +14,16 @@ vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixel
 
 namespace {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 // Before and after a list is written from here.
 void barrier_before(const vk::raii::CommandBuffer &commands) {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
                          Stage::eTransfer, Access::eTransferWrite);
 }
 
 void barrier_after(const vk::raii::CommandBuffer &commands) {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(
       commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
       Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);

@@ -2,7 +2,6 @@
 // Pixels that the short way leaves to the passes that go sample by sample, in lists that the device fills.
 
 #include "engine/sampling/strip_memory.h"
-#include "engine/sampling/strips.h"
 #include "engine/vulkan/compute_pipeline.h"
 #include "shaders/shared/interface.h"
 

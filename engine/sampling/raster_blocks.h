@@ -1,8 +1,10 @@
 #pragma once
 // The frame cut into blocks that are rasterised on a plane each: the chip's own plane, whose fragments are
-// the samples, or with distortion planes across the view, in whose fragments the samples search.
+// the samples, or with distortion planes across the view, in whose fragments the samples search. And these
+// cut into strips that fit the device's buffers.
 
 #include "engine/model/sensor.h"
+#include "shaders/shared/interface.h"
 
 #include <glm/glm.hpp>
 #include <vector>
@@ -39,5 +41,21 @@ std::vector<RasterBlock> chip_blocks(const Sensor &sensor, std::uint32_t block_f
 // than samples, and there is at least one more around every sample's. lens_fault() of the sensor is empty.
 // They do not depend on strips, so that no bit does.
 std::vector<RasterBlock> distorted_blocks(const Sensor &sensor, std::uint32_t block_fragments);
+
+struct PlannedStrip {
+  shader::Strip strip;
+  std::uint32_t block; // index into Projection::blocks
+};
+
+// Whole rows of the blocks, each strip of at most `max_samples` samples but at least one row of a block.
+std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<RasterBlock> &blocks,
+                                      std::uint32_t max_samples);
+
+// Columns and rows of fragments that are rasterised for a strip of `block`, all tiles together.
+glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block);
+
+// Invocations for `pixels` pixels: whole workgroups, of which the last is spare: what fills up the last
+// workgroup of a list of pixels works on its places.
+std::uint32_t padded(std::uint32_t pixels);
 
 } // namespace pmdsim

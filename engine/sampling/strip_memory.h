@@ -2,7 +2,7 @@
 // The device's buffers for one strip, made once for the largest and used for all.
 
 #include "engine/model/simulator_options.h"
-#include "engine/sampling/strips.h"
+#include "engine/sampling/raster_blocks.h"
 #include "engine/vulkan/buffer.h"
 
 #include <cstddef>

@@ -3,8 +3,8 @@
 // engine/model/channels.h, and what the resolve pass is told of each modulation frequency.
 
 #include "engine/light/tones.h"
+#include "engine/model/accuracy.h"
 #include "engine/model/channels.h"
-#include "engine/model/error_bound.h"
 
 #include <optional>
 #include <vector>

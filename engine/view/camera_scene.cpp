@@ -60,25 +60,16 @@ std::array<glm::dvec3, 3> around_disc(const glm::dvec3 &centre_m, double radius_
           centre_m + reach_m * (0.5 * std::numbers::sqrt3 * u - 0.5 * v)};
 }
 
-class Viewpoint {
-public:
-  explicit Viewpoint(const Pose &world_from_camera)
-      : camera_from_world_(glm::transpose(world_from_camera.rotation)),
-        lens_m_(world_from_camera.translation_m) {}
+// The lens is taken off first: what is left is small, wherever in the world the scene stands.
+glm::dvec3 in_camera(const glm::dvec3 &world_m, const Pose &world_from_camera) {
+  return glm::transpose(world_from_camera.rotation) * (world_m - world_from_camera.translation_m);
+}
 
-  // The lens is taken off first: what is left is small, wherever in the world the scene stands.
-  glm::dvec3 operator()(const glm::dvec3 &world_m) const { return camera_from_world_ * (world_m - lens_m_); }
-
-private:
-  glm::dmat3 camera_from_world_;
-  glm::dvec3 lens_m_;
-};
-
-void add_triangle(CameraScene &camera, const Scene &scene, std::uint32_t id, const Viewpoint &in_camera) {
+void add_triangle(CameraScene &camera, const Scene &scene, std::uint32_t id, const Pose &world_from_camera) {
   const Triangle &triangle = scene.triangles[id];
   CameraTriangle seen{{}, id};
   for (std::size_t k = 0; k < 3; ++k)
-    seen.corners_m[k] = in_camera(scene.positions_m[triangle.vertices[k]]);
+    seen.corners_m[k] = in_camera(scene.positions_m[triangle.vertices[k]], world_from_camera);
   const auto front = front_plane(seen.corners_m);
   if (!front)
     return;
@@ -90,9 +81,9 @@ void add_triangle(CameraScene &camera, const Scene &scene, std::uint32_t id, con
   }
 }
 
-void add_disc(CameraScene &camera, const Scene &scene, std::size_t index, const Viewpoint &in_camera) {
+void add_disc(CameraScene &camera, const Scene &scene, std::size_t index, const Pose &world_from_camera) {
   const Disc &disc = scene.discs[index];
-  const glm::dvec3 centre_m = in_camera(scene.positions_m[disc.vertex]);
+  const glm::dvec3 centre_m = in_camera(scene.positions_m[disc.vertex], world_from_camera);
   const double range_m = glm::length(centre_m);
   if (!(range_m > 0.0))
     return;
@@ -113,16 +104,15 @@ std::optional<Plane> front_plane(const std::array<glm::dvec3, 3> &corners_m) {
 }
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor) {
-  const Viewpoint in_camera(sensor.world_from_camera);
   CameraScene camera;
   camera.world_rounding_m =
       8.0 * std::numeric_limits<double>::epsilon() * glm::length(sensor.world_from_camera.translation_m);
   camera.triangles.reserve(scene.shape_count());
   camera.planes.reserve(scene.shape_count());
   for (std::uint32_t id = 0; id < scene.triangles.size(); ++id)
-    add_triangle(camera, scene, id, in_camera);
+    add_triangle(camera, scene, id, sensor.world_from_camera);
   for (std::size_t i = 0; i < scene.discs.size(); ++i)
-    add_disc(camera, scene, i, in_camera);
+    add_disc(camera, scene, i, sensor.world_from_camera);
   return camera;
 }
 

@@ -7,6 +7,7 @@
 #include "shaders/shared/interface.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,21 @@ struct CameraScene {
   // Those that it cannot see and that stand in the light all the same; not those of no area.
   std::vector<CameraTriangle> hidden;
   double world_rounding_m = 0.0; // what places in the world, in double, may be off by
+};
+
+// Holds what is visible of some consecutive triangles, before one hides another, or lights; at first nothing.
+struct VisibleBox {
+  glm::dvec3 low_m{std::numeric_limits<double>::infinity()}; // camera frame
+  glm::dvec3 high_m{-std::numeric_limits<double>::infinity()};
+
+  void add(const glm::dvec3 &p_m) {
+    low_m = glm::min(low_m, p_m);
+    high_m = glm::max(high_m, p_m);
+  }
+  int longest_side() const {
+    const glm::dvec3 size_m = high_m - low_m;
+    return size_m.x >= size_m.y ? (size_m.x >= size_m.z ? 0 : 2) : (size_m.y >= size_m.z ? 1 : 2);
+  }
 };
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);

@@ -3,7 +3,6 @@
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/errors.h"
 #include "engine/vulkan/float_pair.h"
-#include "engine/vulkan/shader_stage.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace pmdsim {
 namespace {
@@ -41,8 +40,7 @@ std::vector<WeldedEdge> welded_edges(const Scene &scene, std::span<const std::ui
       edges.push_back({low, high, id, side});
     }
   }
-  std::ranges::sort(edges, {},
-                    [](const WeldedEdge &e) { return std::tuple(e.low, e.high, e.triangle, e.side); });
+  std::ranges::sort(edges);
   return edges;
 }
 

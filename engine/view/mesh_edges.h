@@ -24,6 +24,8 @@ struct WeldedEdge {
   std::uint32_t low, high; // first vertices at its ends
   std::uint32_t triangle;  // id
   std::uint32_t side;      // 0: ab, 1: bc, 2: ca
+
+  auto operator<=>(const WeldedEdge &) const = default;
 };
 
 // Of the triangles `ids`, those that share an edge side by side, in the order of their ids; `first` as

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace pmdsim {
 namespace {
@@ -65,15 +64,11 @@ void clip(Polygon &polygon, Polygon &scratch, const HalfSpace &half_space) {
 class BoxBuilder {
 public:
   explicit BoxBuilder(std::size_t triangles)
-      : triangles_per_box_(triangles / boxes_at_most + 1),
-        boxes_(triangles / triangles_per_box_ + 1, {glm::dvec3(infinity), glm::dvec3(-infinity)}) {}
+      : triangles_per_box_(triangles / boxes_at_most + 1), boxes_(triangles / triangles_per_box_ + 1) {}
 
   void add(std::size_t triangle, const Polygon &polygon) {
-    VisibleBox &box = boxes_[triangle / triangles_per_box_];
-    for (const glm::dvec3 &p : polygon) {
-      box.low_m = glm::min(box.low_m, p);
-      box.high_m = glm::max(box.high_m, p);
-    }
+    for (const glm::dvec3 &p : polygon)
+      boxes_[triangle / triangles_per_box_].add(p);
   }
 
   std::vector<VisibleBox> take() {
@@ -82,8 +77,6 @@ public:
   }
 
 private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   std::size_t triangles_per_box_;
   std::vector<VisibleBox> boxes_; // low above high: nothing visible
 };

@@ -5,7 +5,6 @@
 
 #include "engine/sampling/raster_blocks.h"
 #include "engine/view/camera_scene.h"
-#include "engine/view/view_bounds.h"
 #include "shaders/shared/interface.h"
 
 #include <vector>

@@ -92,6 +92,15 @@ shader::ShapePaint shape_paint(const CameraTriangle &shape, const Scene &scene) 
   return record;
 }
 
+// By the shapes' ids.
+std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene) {
+  std::vector<shader::ShapePaint> records(scene.shape_count());
+  for (const auto *shapes : {&camera.triangles, &camera.hidden})
+    for (const CameraTriangle &shape : *shapes)
+      records[shape.id] = shape_paint(shape, scene);
+  return records;
+}
+
 shader::uint wrap_of(Wrap wrap) {
   return wrap == Wrap::repeat            ? shader::wrap_repeat
          : wrap == Wrap::mirrored_repeat ? shader::wrap_mirrored_repeat
@@ -127,14 +136,6 @@ shader::SurfacePaint surface_paint(const Surface &surface, const Texture &textur
 }
 
 } // namespace
-
-std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene) {
-  std::vector<shader::ShapePaint> records(scene.shape_count());
-  for (const auto *shapes : {&camera.triangles, &camera.hidden})
-    for (const CameraTriangle &shape : *shapes)
-      records[shape.id] = shape_paint(shape, scene);
-  return records;
-}
 
 std::shared_ptr<const vulkan::Buffer> TextureCache::buffer_of(const std::shared_ptr<const Texture> &texture) {
   std::shared_ptr<const vulkan::Buffer> &buffer = buffers_[texture];

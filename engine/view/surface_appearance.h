@@ -47,9 +47,6 @@ PaintUse paint_use(const CameraScene &camera, const Scene &scene);
 PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, const CameraScene &camera,
                           const Scene &scene, Backscatter backscatter, TextureCache &textures);
 
-// ShapePaint::origin of each shape and the affine functions, by the shape's id.
-std::vector<shader::ShapePaint> shape_paints(const CameraScene &camera, const Scene &scene);
-
 struct SceneBuffers {
   vulkan::Buffer planes; // TrianglePlane of each of the scene's shapes
   PaintBuffers paint;

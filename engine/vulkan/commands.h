@@ -1,8 +1,13 @@
 #pragma once
-// Recording work, sending it to the queue and waiting for it.
+// Recording work, sending it to the queue, waiting for it, and what passes took.
 
+#include "engine/model/device_info.h"
 #include "engine/vulkan/device.h"
 
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim::vulkan {
@@ -32,5 +37,44 @@ void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFl
 // Between two compute passes of which the second uses what the first wrote, as data or to know how much to
 // do.
 void compute_barrier(const vk::raii::CommandBuffer &commands);
+
+double milliseconds_since(std::chrono::steady_clock::time_point start);
+
+// Records a strip's passes, sends them to the device and adds up what each took.
+// On GPUs the passes of one submission are told apart by timestamps. A CPU device (lavapipe) takes its
+// timestamps when the rasteriser is flushed, not when compute work ends: there every pass is a submission of
+// its own, by the clock.
+class PassRecorder {
+public:
+  explicit PassRecorder(const Device &device);
+
+  // Forgets all times but those given: a new frame begins, or goes on.
+  void reset(std::vector<PassTime> times = {}) { times_ = std::move(times); }
+  // Opens the command buffer that the passes are recorded to.
+  void begin();
+  const vk::raii::CommandBuffer &commands() const { return commands_.get(); }
+  // What was recorded since begin() or the last end_pass() is the pass `name`.
+  void end_pass(const std::string &name);
+  // What the host did of the pass `name`.
+  void add(const std::string &name, double ms);
+  // Returns when the device is done with all passes recorded. Throws as Commands::submit_and_wait().
+  void finish();
+
+  // By name, in the order of first appearance, since reset().
+  const std::vector<PassTime> &times() const { return times_; }
+
+private:
+  static constexpr std::uint32_t capacity = 16;
+
+  void open();
+  void collect_timestamps();
+
+  const Device *device_;
+  Commands commands_;
+  vk::raii::QueryPool pool_;
+  std::vector<std::string> marks_; // of the timestamps in the open command buffer
+  std::chrono::steady_clock::time_point opened_;
+  std::vector<PassTime> times_;
+};
 
 } // namespace pmdsim::vulkan

@@ -1,5 +1,6 @@
 #pragma once
-// A compute shader, specialised, whose whole interface is its push constants (buffers go by address).
+// Shaders, specialised: as a stage of any pipeline, and compute shaders, whose whole interface is their push
+// constants (buffers go by address).
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
@@ -8,9 +9,29 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim::vulkan {
+
+// A shader with the values of its constants, as a pipeline is made of it; to be kept until then.
+class ShaderStage {
+public:
+  // `constants`: the module's, as declared_part() tells.
+  ShaderStage(const Device &device, vk::ShaderStageFlagBits stage, const ShaderModule &module,
+              const Specialization &constants);
+  ShaderStage(const ShaderStage &) = delete;
+  ShaderStage &operator=(const ShaderStage &) = delete;
+
+  const vk::PipelineShaderStageCreateInfo &info() const { return info_; }
+
+private:
+  vk::raii::ShaderModule module_;
+  std::vector<vk::SpecializationMapEntry> entries_;
+  std::vector<std::uint32_t> values_;
+  vk::SpecializationInfo specialization_;
+  vk::PipelineShaderStageCreateInfo info_;
+};
 
 class ComputePipeline {
 public:

@@ -9,6 +9,9 @@
 namespace pmdsim::vulkan {
 namespace {
 
+// Constants follow the scene, so a scene in motion asks for other pipelines now and then.
+constexpr std::size_t most_pipelines = 64;
+
 constexpr auto queue_work = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
 
 std::optional<std::uint32_t> find_queue_family(const vk::raii::PhysicalDevice &device) {
@@ -68,6 +71,15 @@ std::string what_is_lacking(const vk::raii::PhysicalDevice &device) {
   if (!find_queue_family(device))
     return "a queue with graphics, compute and timestamps";
   return "";
+}
+
+std::shared_ptr<const Pipeline> PipelineCache::get(const PipelineKey &key,
+                                                   const std::function<Pipeline()> &make) {
+  if (const auto known = pipelines_.find(key); known != pipelines_.end())
+    return known->second;
+  if (pipelines_.size() >= most_pipelines)
+    std::erase_if(pipelines_, [](const auto &entry) { return entry.second.use_count() == 1; });
+  return pipelines_[key] = std::make_shared<const Pipeline>(make());
 }
 
 Device::Device(const Instance &instance, vk::raii::PhysicalDevice physical)

@@ -1,10 +1,15 @@
 #pragma once
-// One Vulkan device, its one queue (graphics and compute) and what the passes must know of its limits.
+// One Vulkan device, its one queue (graphics and compute), what the passes must know of its limits, and the
+// pipelines that it has compiled.
 
+#include "engine/model/device_info.h"
 #include "engine/vulkan/instance.h"
-#include "engine/vulkan/pipeline_cache.h"
+#include "engine/vulkan/shader_module.h"
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -16,6 +21,34 @@ struct Limits {
   std::uint32_t viewport_samples = 0; // width and height of a viewport, at most
   double timestamp_ns = 1.0;          // of one tick
 };
+
+struct Pipeline {
+  vk::raii::PipelineLayout layout = nullptr;
+  vk::raii::Pipeline pipeline = nullptr;
+};
+
+struct PipelineKey {
+  const std::uint32_t *spirv; // lives as long as the program
+  Specialization constants;
+  vk::Format drawn{}; // of graphics pipelines
+
+  auto operator<=>(const PipelineKey &) const = default;
+};
+
+// The pipelines that a device has compiled. Drivers take tens to hundreds of milliseconds for a frame's, and
+// the next frame asks for the same ones.
+class PipelineCache {
+public:
+  // The pipeline of such a shader; `make` compiles it where it is not known yet.
+  std::shared_ptr<const Pipeline> get(const PipelineKey &key, const std::function<Pipeline()> &make);
+
+private:
+  std::map<PipelineKey, std::shared_ptr<const Pipeline>> pipelines_;
+};
+
+// The usable device that `wanted` names: its index or a part of its name, upper or lower case alike; empty: a
+// discrete GPU, else an integrated or virtual one, else whatever there is. Throws Error (no_device).
+DeviceInfo choose_device(const Instance &instance, const std::string &wanted);
 
 // The empty string where the device can run the simulator, else what it lacks.
 std::string what_is_lacking(const vk::raii::PhysicalDevice &device);

@@ -1,6 +1,5 @@
-#include "engine/vulkan/device_choice.h"
-
 #include "engine/model/error.h"
+#include "engine/vulkan/device.h"
 
 #include <algorithm>
 #include <array>
@@ -47,13 +46,11 @@ std::optional<std::uint32_t> as_index(const std::string &text) {
   throw Error(ExitCode::no_device, "no Vulkan device: " + why);
 }
 
-std::uint32_t require_usable(const DeviceInfo &device) {
+const DeviceInfo &require_usable(const DeviceInfo &device) {
   if (!device.usable)
     fail(device.name + " lacks " + device.lacks);
-  return device.index;
+  return device;
 }
-
-} // namespace
 
 DeviceInfo describe(std::uint32_t index, const vk::raii::PhysicalDevice &device) {
   const auto chain =
@@ -69,7 +66,17 @@ DeviceInfo describe(std::uint32_t index, const vk::raii::PhysicalDevice &device)
           lacks};
 }
 
-std::uint32_t choose_device(const std::vector<DeviceInfo> &devices, const std::string &wanted) {
+std::vector<DeviceInfo> devices_of(const Instance &instance) {
+  std::vector<DeviceInfo> devices;
+  for (const auto &device : instance.devices())
+    devices.push_back(describe(static_cast<std::uint32_t>(devices.size()), device));
+  return devices;
+}
+
+} // namespace
+
+DeviceInfo choose_device(const Instance &instance, const std::string &wanted) {
+  const std::vector<DeviceInfo> devices = devices_of(instance);
   if (devices.empty())
     fail("Vulkan offers none; expected a driver for Vulkan 1.3, e.g. Mesa's lavapipe");
   if (const auto index = as_index(wanted)) {
@@ -78,13 +85,11 @@ std::uint32_t choose_device(const std::vector<DeviceInfo> &devices, const std::s
     return require_usable(devices[*index]);
   }
   const DeviceInfo *best = nullptr;
-  for (const DeviceInfo &device : devices) {
-    if (lower_case(device.name).find(lower_case(wanted)) == std::string::npos)
-      continue;
-    if (best == nullptr ||
-        std::pair(!device.usable, preference(device)) < std::pair(!best->usable, preference(*best)))
+  for (const DeviceInfo &device : devices)
+    if (lower_case(device.name).find(lower_case(wanted)) != std::string::npos &&
+        (best == nullptr ||
+         std::pair(!device.usable, preference(device)) < std::pair(!best->usable, preference(*best))))
       best = &device;
-  }
   if (best == nullptr)
     fail("none has '" + wanted + "' in its name; see `pmdsim devices`");
   return require_usable(*best);
@@ -96,11 +101,7 @@ namespace pmdsim {
 
 std::vector<DeviceInfo> list_devices() {
   try {
-    const vulkan::Instance instance(false);
-    std::vector<DeviceInfo> devices;
-    for (const auto &device : instance.devices())
-      devices.push_back(vulkan::describe(static_cast<std::uint32_t>(devices.size()), device));
-    return devices;
+    return vulkan::devices_of(vulkan::Instance(false));
   } catch (const Error &error) {
     if (error.code() == ExitCode::no_device)
       return {};

@@ -1,14 +1,17 @@
 #pragma once
 // All compiled shaders, each with what it is called, which arithmetic it is compiled for and which
-// specialization constants it declares. The table is made by shaders/CMakeLists.txt.
+// specialization constants it declares, and the values of these. The table is made by shaders/CMakeLists.txt.
 
 #include "engine/model/simulator_options.h"
-#include "engine/vulkan/specialization.h"
 
 #include <cstdint>
+#include <initializer_list>
+#include <map>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pmdsim::vulkan {
@@ -29,6 +32,33 @@ std::span<const ShaderModule> shader_modules();
 bool uses_fp64(const Device &device, SamplePrecision wanted);
 // The form of a shader that the device runs. Throws std::logic_error where there is none of that name.
 const ShaderModule &shader_module(const Device &device, SamplePrecision wanted, std::string_view name);
+
+// Values of specialization constants, by their numbers.
+class Specialization {
+public:
+  Specialization() = default;
+  Specialization(std::initializer_list<std::pair<const std::uint32_t, std::uint32_t>> values)
+      : values_(values) {}
+
+  // Of a float the bits.
+  Specialization &set(std::uint32_t constant, std::uint32_t value) {
+    values_[constant] = value;
+    return *this;
+  }
+  // Takes the other's values, too. Throws std::logic_error where both have one and these differ.
+  Specialization &merge(const Specialization &other) {
+    for (const auto &[constant, value] : other.values_)
+      if (values_.emplace(constant, value).first->second != value)
+        throw std::logic_error("specialization constant " + std::to_string(constant) + " has two values");
+    return *this;
+  }
+
+  const std::map<std::uint32_t, std::uint32_t> &values() const { return values_; }
+  auto operator<=>(const Specialization &) const = default;
+
+private:
+  std::map<std::uint32_t, std::uint32_t> values_;
+};
 
 // The specialization constants that SPIR-V declares, in the order of their numbers.
 struct DeclaredConstant {

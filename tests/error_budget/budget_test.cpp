@@ -1,4 +1,4 @@
-#include "engine/error_budget/budget.h"
+#include "engine/error_budget/plan.h"
 
 #include <bit>
 #include <catch2/catch.hpp>

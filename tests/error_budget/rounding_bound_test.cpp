@@ -1,4 +1,5 @@
 #include "engine/error_budget/rounding_bound.h"
+#include "tests/error_budget/least_incidence.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -149,9 +150,9 @@ TEST_CASE("least cosines of a wall") {
   CameraScene camera;
   camera.triangles.push_back({{glm::dvec3{-2, 0, 2}, {2, 0, 2}, {0, 1, 2}}, 0});
   camera.planes.push_back({{0.0, 0.0, -1.0}, -2.0});
-  CHECK(least_incidence_cosine(camera, groups, wall) == Approx(2.0 / std::hypot(2.0, 2.1)));
+  CHECK(test::least_incidence_cosine(camera, groups, wall) == Approx(2.0 / std::hypot(2.0, 2.1)));
   // A plane between the diodes.
   camera.triangles.push_back({{glm::dvec3{0, 0, 1}, {0, 0, 2}, {0, 1, 2}}, 1});
   camera.planes.push_back({{-1.0, 0.0, 0.0}, 0.0});
-  CHECK(least_incidence_cosine(camera, groups, wall) == grazing_cosine);
+  CHECK(test::least_incidence_cosine(camera, groups, wall) == grazing_cosine);
 }

@@ -8,6 +8,7 @@
 #include "tests/comparison/grazing_light.h"
 #include "tests/comparison/light_formula.h"
 #include "tests/comparison/variants.h"
+#include "tests/error_budget/least_incidence.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/simulator.h"
 

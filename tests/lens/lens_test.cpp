@@ -1,7 +1,6 @@
 // The lens that raster and search are planned with: rays and places on the chip, and where it folds over.
 
 #include "engine/lens/lens.h"
-#include "engine/lens/lens_fault.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/units.h"
 

@@ -3,7 +3,6 @@
 #include "engine/sampling/raster_blocks.h"
 
 #include "engine/lens/lens.h"
-#include "engine/lens/lens_fault.h"
 #include "engine/model/error.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/units.h"

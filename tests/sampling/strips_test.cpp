@@ -1,4 +1,4 @@
-#include "engine/sampling/strips.h"
+#include "engine/sampling/raster_blocks.h"
 
 #include <catch2/catch.hpp>
 #include <vector>

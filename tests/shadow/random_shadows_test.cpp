@@ -1,6 +1,6 @@
 // Which diodes light which point, on the Vulkan device against the reference, pair by pair.
 
-#include "engine/lens/lens_fault.h"
+#include "engine/lens/lens.h"
 #include "host/input/setup/setup.h"
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/grazing_light.h"

@@ -1,6 +1,6 @@
 #include "tests/support/random_setups.h"
 
-#include "engine/lens/lens_fault.h"
+#include "engine/lens/lens.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_diagrams.h"
 #include "tests/support/random_scenes.h"

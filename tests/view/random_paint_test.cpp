@@ -1,6 +1,6 @@
 // Textures, vertex colours, alpha masks and points, at random: the device against the reference.
 
-#include "engine/lens/lens_fault.h"
+#include "engine/lens/lens.h"
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/grazing_light.h"
 #include "tests/support/painted_scenes.h"

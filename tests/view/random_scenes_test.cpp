@@ -1,7 +1,6 @@
 // Scenes, lights, poses and cameras that nobody thought of: random, with seeds that never change.
 
 #include "engine/lens/lens.h"
-#include "engine/lens/lens_fault.h"
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/grazing_light.h"
 #include "tests/comparison/random_options.h"

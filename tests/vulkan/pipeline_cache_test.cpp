@@ -1,6 +1,6 @@
 // What is compiled once is not compiled again while there is room.
 
-#include "engine/vulkan/pipeline_cache.h"
+#include "engine/vulkan/device.h"
 
 #include <catch2/catch.hpp>
 

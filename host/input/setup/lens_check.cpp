@@ -1,7 +1,6 @@
 #include "host/input/setup/lens_check.h"
 
 #include "engine/lens/lens.h"
-#include "engine/lens/lens_fault.h"
 
 #include <algorithm>
 #include <fmt/format.h>

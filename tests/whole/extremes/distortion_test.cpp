@@ -1,6 +1,6 @@
 // What a lens with distortion makes hard: triangles smaller than pixels, and images one pixel wide.
 
-#include "engine/lens/lens_fault.h"
+#include "engine/lens/lens.h"
 #include "tests/comparison/comparison.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
