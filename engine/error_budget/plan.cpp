@@ -71,15 +71,12 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
 }
 
 // Of pixels of which some keep the one and some the other.
-Promise worse_of(const Promise &a, const Promise &b) {
-  return {a.limit_m,
-          std::max(a.fixed_m, b.fixed_m),
-          std::max(a.per_condition_m, b.per_condition_m),
-          a.amplitude_limit,
-          std::max(a.amplitude_fixed, b.amplitude_fixed),
-          std::max(a.amplitude_per_condition, b.amplitude_per_condition),
-          std::max(a.terms_per_weight_error, b.terms_per_weight_error),
-          std::max(a.terms_of_rims, b.terms_of_rims)};
+Promise worse_of(Promise a, const Promise &b) {
+  for (const auto part :
+       {&Promise::fixed_m, &Promise::per_condition_m, &Promise::amplitude_fixed,
+        &Promise::amplitude_per_condition, &Promise::terms_per_weight_error, &Promise::terms_of_rims})
+    a.*part = std::max(a.*part, b.*part);
+  return a;
 }
 
 DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,

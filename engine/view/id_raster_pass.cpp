@@ -34,13 +34,6 @@ std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
   return extents;
 }
 
-vk::raii::PipelineLayout make_layout(const vulkan::Device &device) {
-  return vulkan::checked([&] {
-    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
-    return vk::raii::PipelineLayout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
-  });
-}
-
 // Rays of the blocks' fragments, for what has to know them.
 vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
   std::vector<shader::BlockPlane> records;
@@ -60,9 +53,10 @@ struct Raster {
   vk::Format format;
 };
 
-vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::PipelineLayout &layout,
-                                 const Raster &raster) {
+vulkan::Pipeline make_pipeline(const vulkan::Device &device, const Raster &raster) {
   return vulkan::checked([&] {
+    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
+    vk::raii::PipelineLayout layout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
     using ShaderBit = vk::ShaderStageFlagBits;
     const vulkan::ShaderStage vertex(device, ShaderBit::eVertex, raster.vertex, raster.of_vertex);
     const vulkan::ShaderStage fragment(device, ShaderBit::eFragment, raster.fragment, raster.of_fragment);
@@ -88,20 +82,18 @@ vk::raii::Pipeline make_pipeline(const vulkan::Device &device, const vk::raii::P
     const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(0, raster.format, RasterImages::depth_format);
-    return vk::raii::Pipeline(device.get(), nullptr,
-                              vk::GraphicsPipelineCreateInfo(
-                                  {}, stages, &input, &assembly, nullptr, &viewport, &filled, &multisample,
-                                  &depth, &blend, &dynamic_state, *layout, {}, 0, {}, 0, &rendering));
+    const vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &viewport, &filled,
+                                              &multisample, &depth, &blend, &dynamic_state, *layout, {}, 0,
+                                              {}, 0, &rendering);
+    vk::raii::Pipeline pipeline(device.get(), nullptr, info);
+    return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
   });
 }
 
 // A device has one viewport, and each fragment shader one vertex shader.
 std::shared_ptr<const vulkan::Pipeline> compiled(const vulkan::Device &device, const Raster &raster) {
-  return device.pipelines().get({raster.fragment.spirv.data(), raster.of_fragment, raster.format}, [&] {
-    vk::raii::PipelineLayout layout = make_layout(device);
-    vk::raii::Pipeline pipeline = make_pipeline(device, layout, raster);
-    return vulkan::Pipeline{std::move(layout), std::move(pipeline)};
-  });
+  return device.pipelines().get({raster.fragment.spirv.data(), raster.of_fragment, raster.format},
+                                [&] { return make_pipeline(device, raster); });
 }
 
 // A triangle's vertices take some 30 times as long to fetch its plane, for its fragments, as a sample takes

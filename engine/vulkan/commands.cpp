@@ -11,11 +11,6 @@ namespace {
 
 constexpr auto when_all_is_done = vk::PipelineStageFlagBits2::eAllCommands;
 
-vk::raii::CommandBuffer allocate(const Device &device, const vk::raii::CommandPool &pool) {
-  vk::raii::CommandBuffers buffers(device.get(), {*pool, vk::CommandBufferLevel::ePrimary, 1});
-  return std::move(buffers.front());
-}
-
 } // namespace
 
 Commands::Commands(const Device &device)
@@ -23,7 +18,10 @@ Commands::Commands(const Device &device)
         return vk::raii::CommandPool(device.get(),
                                      {vk::CommandPoolCreateFlagBits::eTransient, device.queue_family()});
       })),
-      buffer_(checked([&] { return allocate(device, pool_); })),
+      buffer_(checked([&] {
+        return std::move(
+            vk::raii::CommandBuffers(device.get(), {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
+      })),
       fence_(checked([&] { return vk::raii::Fence(device.get(), vk::FenceCreateInfo()); })) {}
 
 const vk::raii::CommandBuffer &Commands::begin() {

@@ -3,21 +3,6 @@
 #include "engine/vulkan/errors.h"
 
 namespace pmdsim::vulkan {
-namespace {
-
-Pipeline compile(const Device &device, const ShaderModule &module, std::uint32_t push_constant_bytes,
-                 const Specialization &constants) {
-  return checked([&] {
-    const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_constant_bytes);
-    vk::raii::PipelineLayout layout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
-    const ShaderStage stage(device, vk::ShaderStageFlagBits::eCompute, module, constants);
-    vk::raii::Pipeline pipeline(device.get(), nullptr,
-                                vk::ComputePipelineCreateInfo({}, stage.info(), *layout));
-    return Pipeline{std::move(layout), std::move(pipeline)};
-  });
-}
-
-} // namespace
 
 ShaderStage::ShaderStage(const Device &device, vk::ShaderStageFlagBits stage, const ShaderModule &module,
                          const Specialization &constants)
@@ -39,8 +24,15 @@ ComputePipeline::ComputePipeline(const Device &device, const ShaderModule &modul
   if (push_constant_bytes > 128)
     throw std::logic_error("more push constants than every device has");
   const Specialization own = declared_part(module, constants);
-  compiled_ = device.pipelines().get({module.spirv.data(), own},
-                                     [&] { return compile(device, module, push_constant_bytes_, own); });
+  const auto compile = [&] {
+    const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_constant_bytes_);
+    vk::raii::PipelineLayout layout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
+    const ShaderStage stage(device, vk::ShaderStageFlagBits::eCompute, module, own);
+    vk::raii::Pipeline pipeline(device.get(), nullptr,
+                                vk::ComputePipelineCreateInfo({}, stage.info(), *layout));
+    return Pipeline{std::move(layout), std::move(pipeline)};
+  };
+  compiled_ = device.pipelines().get({module.spirv.data(), own}, [&] { return checked(compile); });
 }
 
 } // namespace pmdsim::vulkan

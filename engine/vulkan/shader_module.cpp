@@ -35,32 +35,28 @@ const ShaderModule &shader_module(const Device &device, SamplePrecision wanted, 
   return *found;
 }
 
-std::vector<DeclaredConstant> declared_constants(std::span<const std::uint32_t> spirv) {
-  std::map<std::uint32_t, std::string> names; // of results
-  std::map<std::uint32_t, std::string>
-      numbers; // of constants; a workgroup's size may repeat one without a name
+std::map<std::uint32_t, std::string> declared_constants(std::span<const std::uint32_t> spirv) {
+  std::map<std::uint32_t, std::string> names;     // of results
+  std::map<std::uint32_t, std::string> constants; // a workgroup's size may repeat one without a name
   for (std::size_t at = header_words; at < spirv.size(); at += spirv[at] >> 16) {
     const std::uint32_t operation = spirv[at] & 0xffffu;
     if (operation == op_name) // names come before decorations
       names[spirv[at + 1]] = reinterpret_cast<const char *>(&spirv[at + 2]);
     if (operation == op_decorate && spirv[at + 2] == spec_id)
-      if (std::string &name = numbers[spirv[at + 3]]; name.empty())
+      if (std::string &name = constants[spirv[at + 3]]; name.empty())
         name = names[spirv[at + 1]];
   }
-  std::vector<DeclaredConstant> declared;
-  for (const auto &[number, name] : numbers)
-    declared.push_back({number, name});
-  return declared;
+  return constants;
 }
 
 Specialization declared_part(const ShaderModule &module, const Specialization &constants) {
   Specialization part;
-  for (const DeclaredConstant &constant : declared_constants(module.spirv)) {
-    const auto value = constants.values().find(constant.number);
+  for (const auto &[number, name] : declared_constants(module.spirv)) {
+    const auto value = constants.values().find(number);
     if (value == constants.values().end())
-      throw std::logic_error("the shader " + label(module) + " declares the constant " + constant.name +
+      throw std::logic_error("the shader " + label(module) + " declares the constant " + name +
                              ", which has no value");
-    part.set(constant.number, value->second);
+    part.set(number, value->second);
   }
   return part;
 }

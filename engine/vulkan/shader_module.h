@@ -12,7 +12,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace pmdsim::vulkan {
 
@@ -60,14 +59,8 @@ private:
   std::map<std::uint32_t, std::uint32_t> values_;
 };
 
-// The specialization constants that SPIR-V declares, in the order of their numbers.
-struct DeclaredConstant {
-  std::uint32_t number;
-  std::string name;
-
-  bool operator==(const DeclaredConstant &) const = default;
-};
-std::vector<DeclaredConstant> declared_constants(std::span<const std::uint32_t> spirv);
+// The names of the specialization constants that SPIR-V declares, by their numbers.
+std::map<std::uint32_t, std::string> declared_constants(std::span<const std::uint32_t> spirv);
 
 // Of `constants` those that the module declares. Throws std::logic_error, which names both, where one of them
 // was not given a value.

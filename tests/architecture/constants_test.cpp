@@ -13,10 +13,10 @@ using namespace pmdsim::vulkan;
 
 namespace {
 
-// Of the header, in its order.
-std::vector<DeclaredConstant> read_constants() {
+// Numbers and names of the header, in its order.
+std::vector<std::pair<std::uint32_t, std::string>> read_constants() {
   static const std::regex row(R"(^PMDSIM_CONSTANT constant_(\w+) = (\d+); // .+)");
-  std::vector<DeclaredConstant> constants;
+  std::vector<std::pair<std::uint32_t, std::string>> constants;
   std::ifstream header(PMDSIM_SOURCE_DIR "/shaders/shared/constants.h");
   std::smatch match;
   for (std::string line; std::getline(header, line);)
@@ -32,26 +32,26 @@ const char *form_of(const ShaderModule &module) {
 } // namespace
 
 TEST_CASE("constants are numbered one by one and named once") {
-  std::uint32_t number = 0;
+  std::uint32_t count = 0;
   std::set<std::string> names;
-  for (const DeclaredConstant &constant : read_constants()) {
-    CHECK(constant.number == number++);
-    CHECK(names.insert(constant.name).second);
+  for (const auto &[number, name] : read_constants()) {
+    CHECK(number == count++);
+    CHECK(names.insert(name).second);
   }
-  CHECK(number > 0);
+  CHECK(count > 0);
 }
 
 TEST_CASE("every module's constants have the numbers and names of the header, and each is some module's") {
-  const std::vector<DeclaredConstant> constants = read_constants();
+  const auto constants = read_constants();
   std::set<std::string> used;
   for (const ShaderModule &module : shader_modules()) {
     std::cout << module.name << form_of(module) << ":";
-    for (const DeclaredConstant &constant : declared_constants(module.spirv)) {
-      INFO(module.name << form_of(module) << " declares " << constant.name << " as " << constant.number);
-      REQUIRE(constant.number < constants.size());
-      CHECK(constant == constants[constant.number]);
-      used.insert(constant.name);
-      std::cout << ' ' << constant.name;
+    for (const auto &[number, name] : declared_constants(module.spirv)) {
+      INFO(module.name << form_of(module) << " declares " << name << " as " << number);
+      REQUIRE(number < constants.size());
+      CHECK(constants[number] == std::pair(number, name));
+      used.insert(name);
+      std::cout << ' ' << name;
     }
     std::cout << '\n';
   }

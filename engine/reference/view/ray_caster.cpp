@@ -8,14 +8,9 @@ namespace pmdsim::reference {
 namespace {
 
 // A ray from the lens: corners are from its origin as they are.
-SeenTriangle seen_triangle(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  return {direction, triangle.corners_m};
-}
-
 glm::dvec3 weights_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  return seen_triangle(direction, triangle).weights();
+  return SeenTriangle(direction, triangle.corners_m).weights();
 }
-
 glm::dvec3 weights_along(const glm::dvec3 &, const CameraDisc &) { return disc_weights; }
 
 struct Query {
@@ -91,15 +86,13 @@ glm::dvec3 RayCaster::normal(const glm::dvec3 &direction, std::uint32_t id) cons
 }
 
 std::optional<double> range_along(const glm::dvec3 &direction, const CameraTriangle &triangle) {
-  if (!seen_triangle(direction, triangle).holds_ray())
+  if (!SeenTriangle(direction, triangle.corners_m).holds_ray())
     return std::nullopt;
-
   const glm::dvec3 front = triangle.front();
   const double along_front = glm::dot(front, direction);
   const bool back_seen = along_front > 0;
   if (along_front == 0 || (back_seen && !triangle.double_sided))
     return std::nullopt;
-
   const double range_m = glm::dot(front, triangle.corners_m[0]) / along_front;
   return range_m > 0 ? std::optional(range_m) : std::nullopt;
 }

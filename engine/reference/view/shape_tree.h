@@ -53,9 +53,8 @@ public:
     const auto seen_along_ray = [&](const glm::dvec3 &vertex_m) {
       return glm::dvec2(vertex_m[u], vertex_m[v]) - slope * vertex_m[along];
     };
-    const glm::dvec2 a = seen_along_ray(corners_m[0]);
-    const glm::dvec2 b = seen_along_ray(corners_m[1]);
-    const glm::dvec2 c = seen_along_ray(corners_m[2]);
+    const glm::dvec2 a = seen_along_ray(corners_m[0]), b = seen_along_ray(corners_m[1]),
+                     c = seen_along_ray(corners_m[2]);
     ab_ = cross(a, b), bc_ = cross(b, c), ca_ = cross(c, a);
   }
 
