@@ -1,9 +1,9 @@
 // Pixels that stand where OpenCV's formulas put a chosen ray measure along that ray.
 
 #include "tests/comparison/planes.h"
+#include "tests/support/opencv_formula.h"
 #include "tests/support/scenes.h"
 #include "tests/support/units.h"
-#include "tests/support/opencv_formula.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
