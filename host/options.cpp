@@ -17,30 +17,22 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Command> command_names{
-    {"render", Command::render},     {"deform", Command::deform},
-    {"check", Command::check},       {"bench", Command::bench},
-    {"tradeoff", Command::tradeoff}, {"import-calibration", Command::import_calibration},
-    {"devices", Command::devices}};
 const std::map<std::string, Format> format_names{
     {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
+// Of the commands that write frames.
+const std::map<std::string, std::vector<std::string>> default_formats{{"render", {"exr", "png"}},
+                                                                      {"deform", {"exr", "png", "csv"}}};
 
-// The command line before it is checked; what comes later is kept to be refused.
+// The command line before it is checked, and what of it is no more than taken over.
 struct Written {
-  std::string setup, output_directory, device, calibration, sensor_name;
+  Options options;
   WrittenAccuracy accuracy;
   std::optional<std::string> samples, frames;
-  std::optional<double> pixel_pitch_m;
   std::vector<std::string> formats;
-  bool json = false;
 };
 
 void add_setup(CLI::App &command, Written &written) {
-  command.add_option("SETUP", written.setup, "setup file (JSON)")->required();
-}
-
-void add_json(CLI::App &command, Written &written) {
-  command.add_flag("--json", written.json, "print one JSON object on stdout and nothing else there");
+  command.add_option("SETUP", written.options.capture.setup, "setup file (JSON)")->required();
 }
 
 void add_samples(CLI::App &command, Written &written) {
@@ -50,7 +42,7 @@ void add_samples(CLI::App &command, Written &written) {
 
 void add_measuring(CLI::App &command, Written &written) {
   add_samples(command, written);
-  command.add_option("--device", written.device,
+  command.add_option("--device", written.options.capture.device,
                      "part of a device's name, its index (see `pmdsim devices`), or `reference`");
   add_accuracy(command, written.accuracy);
   command.add_flag("--no-wide-vectors")
@@ -60,15 +52,16 @@ void add_measuring(CLI::App &command, Written &written) {
 
 void add_output(CLI::App &command, Written &written) {
   command.add_option(
-      "-o,--output", written.output_directory,
+      "-o,--output", written.options.capture.output_directory,
       fmt::format("output directory [out/SETUP/{}, SETUP without its ending]", command.get_name()));
 }
 
-void add_writing(CLI::App &command, Written &written, const std::string &default_formats) {
+void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
       .add_option("--format", written.formats,
-                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]", default_formats))
+                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]",
+                              fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
       ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
   command.add_option("--frames", written.frames,
@@ -77,13 +70,13 @@ void add_writing(CLI::App &command, Written &written, const std::string &default
 
 void add_importing(CLI::App &command, Written &written) {
   command
-      .add_option("FILE", written.calibration,
+      .add_option("FILE", written.options.calibration,
                   "calibration: OpenCV's FileStorage (YAML or JSON) or ROS's camera_info (YAML)")
       ->required();
-  command.add_option("--pixel-pitch-m", written.pixel_pitch_m,
+  command.add_option("--pixel-pitch-m", written.options.pixel_pitch_m,
                      fmt::format("distance from pixel to pixel along the columns, metres, 1e-9 to 1000 [{}]",
                                  default_pixel_pitch_m));
-  command.add_option("--name", written.sensor_name, "the sensor's name, instead of the file's");
+  command.add_option("--name", written.options.sensor_name, "the sensor's name, instead of the file's");
 }
 
 // What `render` writes.
@@ -101,14 +94,14 @@ void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
   add_setup(*render, written);
-  add_writing(*render, written, "exr,png");
+  add_writing(*render, written);
   add_measuring(*render, written);
   render->footer(channel_list());
 
   CLI::App *deform =
       app.add_subcommand("deform", "bistatic minus monostatic distance: map, profile, statistics");
   add_setup(*deform, written);
-  add_writing(*deform, written, "exr,png,csv");
+  add_writing(*deform, written);
   add_measuring(*deform, written);
 
   CLI::App *check = app.add_subcommand("check", "validate a setup and print what follows from it");
@@ -117,7 +110,7 @@ void add_commands(CLI::App &app, Written &written) {
   CLI::App *bench =
       app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");
   bench->add_option(
-      "SETUP", written.setup,
+      "SETUP", written.options.capture.setup,
       "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
       "and frequencies: some minutes]");
   add_measuring(*bench, written);
@@ -129,7 +122,7 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*tradeoff, written);
   add_output(*tradeoff, written);
   add_samples(*tradeoff, written);
-  tradeoff->add_option("--device", written.device,
+  tradeoff->add_option("--device", written.options.capture.device,
                        "part of a device's name, or its index (see `pmdsim devices`)");
 
   CLI::App *import_calibration = app.add_subcommand(
@@ -138,25 +131,20 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
   for (CLI::App *command : {render, deform, check, bench, tradeoff, import_calibration, devices})
-    add_json(*command, written);
+    command->add_flag("--json", written.options.json,
+                      "print one JSON object on stdout and nothing else there");
 }
 
-std::filesystem::path output_directory(const Written &written, const std::string &command) {
-  if (!written.output_directory.empty())
-    return written.output_directory;
-  return std::filesystem::path("out") / std::filesystem::path(written.setup).stem() / command;
-}
-
-void check_importing(const Written &written) {
-  const double pitch_m = written.pixel_pitch_m.value_or(default_pixel_pitch_m);
+void check_importing(const Options &options) {
+  const double pitch_m = options.pixel_pitch_m.value_or(default_pixel_pitch_m);
   if (!(pitch_m >= min_length_m && pitch_m <= max_length_m))
     throw Error(ExitCode::usage, fmt::format("--pixel-pitch-m: expected a number from {} to {}, found {}",
                                              min_length_m, max_length_m, pitch_m));
-  if (!written.sensor_name.empty() && !is_sensor_name(written.sensor_name))
+  if (!options.sensor_name.empty() && !is_sensor_name(options.sensor_name))
     throw Error(ExitCode::usage,
                 "--name: expected up to 64 letters, digits, dots, dashes and underscores, the "
                 "first a letter or digit, found " +
-                    in_quotes(written.sensor_name));
+                    in_quotes(options.sensor_name));
 }
 
 // Text that is a whole number and nothing else.
@@ -186,43 +174,39 @@ SampleChoice sample_choice_of(const std::string &text) {
   return {.samples = *samples};
 }
 
-void check_sweeping(const Written &written) {
-  if (names_the_reference(written.device))
+// Of commands that compare a device with the reference.
+void check_comparing(const Written &written) {
+  const Options &options = written.options;
+  const bool swept = options.command == "bench" && options.capture.setup.empty();
+  const bool on_reference = names_the_reference(options.capture.device);
+  if (swept && on_reference)
     throw Error(ExitCode::usage, "--device reference: bench without a setup compares a device with it; "
                                  "expected a device, or a setup");
-  if (written.samples)
+  if (swept && written.samples)
     throw Error(ExitCode::usage,
                 "--samples: bench without a setup sweeps them itself; expected a setup beside it");
+  if (options.command == "tradeoff" && on_reference)
+    throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
 }
 
-Options checked(const Written &written, const std::string &command) {
-  if (command == "bench" && written.setup.empty())
-    check_sweeping(written);
-  check_importing(written);
-  if (command == "tradeoff" && names_the_reference(written.device))
-    throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
-  Options options;
-  options.command = command_names.at(command);
+Options checked(Written written, const std::string &command) {
+  Options &options = written.options;
   CaptureRequest &capture = options.capture;
-  capture.setup = written.setup;
-  options.calibration = written.calibration;
-  options.pixel_pitch_m = written.pixel_pitch_m;
-  options.sensor_name = written.sensor_name;
-  capture.device = written.device;
-  options.json = written.json;
-  capture.accuracy = accuracy_of(written.accuracy, names_the_reference(written.device));
+  options.command = command;
+  check_importing(options);
+  check_comparing(written);
+  capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
   options.mode_written = written.accuracy.mode.has_value();
   if (written.samples)
     capture.samples = sample_choice_of(*written.samples);
   if (written.frames)
     capture.frames = frame_range_of(*written.frames);
-  capture.output_directory = output_directory(written, command);
+  if (capture.output_directory.empty())
+    capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
+  if (written.formats.empty() && default_formats.contains(command))
+    written.formats = default_formats.at(command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_names.at(format));
-  if (capture.formats.empty() && options.command == Command::render)
-    capture.formats = {Format::exr, Format::png};
-  if (capture.formats.empty() && options.command == Command::deform)
-    capture.formats = {Format::exr, Format::png, Format::csv};
   return options;
 }
 

@@ -9,10 +9,8 @@
 
 namespace pmdsim {
 
-enum class Command { render, deform, check, bench, tradeoff, import_calibration, devices };
-
 struct Options {
-  Command command = Command::devices;
+  std::string command;                 // its name: "render"
   CaptureRequest capture;              // all but import-calibration and devices; directories are filled in
   bool mode_written = false;           // bench: one mode instead of all
   std::filesystem::path calibration;   // import-calibration, and the two below

@@ -2,8 +2,8 @@
 
 #include "engine/model/error.h"
 #include "host/capture/camera.h"
-#include "host/capture/progress_bar.h"
-#include "host/report/field_of_view.h"
+#include "host/capture/progress.h"
+#include "host/report/findings.h"
 #include "host/report/report.h"
 
 #include <algorithm>

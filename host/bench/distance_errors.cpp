@@ -1,5 +1,6 @@
 #include "host/bench/distance_errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -19,23 +20,13 @@ void for_each_triangle(const std::vector<std::uint32_t> &sample_triangle_id, std
     visit(sample_triangle_id[(row + k / samples) * columns * samples + column + k % samples]);
 }
 
-class ErrorSum {
-public:
-  void add(double error_m) {
-    ++pixels_;
-    max_m_ = std::max(max_m_, error_m);
-    square_sum_m2_ += error_m * error_m;
-  }
-  DistanceErrors errors() const {
-    if (pixels_ == 0)
-      return {};
-    return {pixels_, max_m_, std::sqrt(square_sum_m2_ / static_cast<double>(pixels_))};
-  }
-
-private:
-  std::size_t pixels_ = 0;
-  double max_m_ = 0.0, square_sum_m2_ = 0.0;
-};
+DistanceErrors errors_of(const std::vector<double> &errors_m) {
+  if (errors_m.empty())
+    return {};
+  const double square_sum_m2 = std::inner_product(errors_m.begin(), errors_m.end(), errors_m.begin(), 0.0);
+  return {errors_m.size(), std::ranges::max(errors_m),
+          std::sqrt(square_sum_m2 / static_cast<double>(errors_m.size()))};
+}
 
 } // namespace
 
@@ -73,7 +64,7 @@ ErrorsByPlace distance_errors(const TruePixels &truth, const std::vector<bool> &
                               const Measurement &found) {
   const reference::FrameReturn &expected = truth.frame.returns.front();
   const std::vector<float> &distance_m = found.returns.front().distance_m;
-  ErrorSum beside, on;
+  std::vector<double> beside_m, on_m;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     if (std::isnan(expected.distance_m[i]))
       continue;
@@ -82,9 +73,9 @@ ErrorsByPlace distance_errors(const TruePixels &truth, const std::vector<bool> &
         std::isfinite(found_m)
             ? std::abs(std::remainder(found_m - expected.distance_m[i], expected.ambiguity_m))
             : 0.5 * expected.ambiguity_m;
-    (edges[i] ? on : beside).add(error_m);
+    (edges[i] ? on_m : beside_m).push_back(error_m);
   }
-  return {beside.errors(), on.errors()};
+  return {errors_of(beside_m), errors_of(on_m)};
 }
 
 } // namespace pmdsim

@@ -1,4 +1,3 @@
-#include "host/bench/modes.h"
 #include "host/bench/results.h"
 #include "host/output/files/manifest.h"
 
@@ -13,8 +12,6 @@ using nlohmann::ordered_json;
 ordered_json spread_json(const Spread &spread) {
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
 }
-
-ordered_json or_null(const auto &value) { return value ? ordered_json(*value) : ordered_json(); }
 
 // The largest of all sensors and frequencies; NaN where nothing could be compared.
 double largest_error_m(const std::vector<AccuracyCheck> &checks) {
@@ -59,7 +56,7 @@ ordered_json mode_json(const SetupBench &bench, const ModeBench &mode) {
 ordered_json swept_json(const SweepRow &row, Mode mode) {
   ordered_json json =
       row_json(row.point.name(), mode, row.frames, interactions_per_s(row, mode), row.error_m);
-  json["sweep"] = quantity_name(row.point.quantity);
+  json["sweep"] = row_of(row.point.quantity).name;
   json["value"] = row.point.value;
   json["checked_pixels"] = row.checked_pixels;
   json["first_frame_ms"] = row.first_frame_ms;
@@ -78,7 +75,7 @@ ordered_json results_json(const BenchReport &report) {
 }
 
 ordered_json growth_json(const Growth &growth) {
-  ordered_json points = ordered_json::array();
+  ordered_json points;
   for (std::size_t i = 0; i < growth.points.size(); ++i) {
     const auto &[size, ms] = growth.points[i];
     points.push_back({{"size", size},
@@ -86,36 +83,28 @@ ordered_json growth_json(const Growth &growth) {
                       {"marginal_ms", growth.marginal_ms[i]},
                       {"over_line", ms / growth.line.at_ms(size)}});
   }
-  return {{"sweep", quantity_name(growth.quantity)},
-          {"unit", unit_name(growth.quantity)},
+  return {{"sweep", row_of(growth.quantity).name},
+          {"unit", row_of(growth.quantity).unit},
           {"fixed_ms", growth.line.fixed_ms},
           {"slope_ms", growth.line.slope_ms},
           {"points", points}};
 }
 
 ordered_json native_json(const NativeBench &native) {
-  const CheckedKernel &checked = native.checked();
-  const NativeKernel &kernel = checked.kernel;
-  ordered_json json = {{"interactions_per_s", spread_json(spread_of(native.moments_per_s()))},
-                       {"error_max_m", checked.moments_error_m},
-                       {"instructions", kernel.instructions()},
+  const NativeKernel &kernel = native.kernel;
+  ordered_json json = {{"interactions_per_s", spread_json(spread_of(native.moments_per_s))},
+                       {"error_max_m", native.moments_error_m},
+                       {"instructions", kernel.sums().instructions},
                        {"threads", kernel.threads()},
                        {"points", kernel.points()},
                        {"diodes", kernel.diodes()},
-                       {"what", checked.points},
+                       {"what", native.points},
                        {"series", nullptr}};
-  if (checked.series_error_m)
-    json["series"] = {{"interactions_per_s", spread_json(spread_of(native.series_per_s()))},
-                      {"error_max_m", *checked.series_error_m},
-                      {"powers", kernel.series_powers()}};
+  if (native.series)
+    json["series"] = {{"interactions_per_s", spread_json(spread_of(native.series_per_s))},
+                      {"error_max_m", native.series_error_m},
+                      {"powers", native.series->powers}};
   return json;
-}
-
-ordered_json sequence_json(const SequenceRate &rate) {
-  return {{"frames", rate.frames},
-          {"measured_per_s", rate.measured_per_s},
-          {"npy_per_s", rate.npy_per_s},
-          {"exr_per_s", rate.exr_per_s}};
 }
 
 ordered_json knobs_json(const BenchReport &report) {
@@ -136,9 +125,6 @@ ordered_json bench_json(const BenchReport &report) {
     ratios[ratio.name] = ratio.value;
     spreads[ratio.name] = spread_json(ratio.of_rounds);
   }
-  ordered_json growths = ordered_json::array();
-  for (const Growth &growth : growths_of(report.sweep))
-    growths.push_back(growth_json(growth));
   ordered_json json = {
       {"device", machine.device},
       {"driver", machine.driver},
@@ -154,10 +140,13 @@ ordered_json bench_json(const BenchReport &report) {
       {"ratios_of_rounds", spreads},
       {"native", report.setup.native ? native_json(*report.setup.native) : nullptr},
       {"peak_memory_bytes", or_null(report.setup.peak_memory_bytes)}};
-  if (report.sequence)
-    json["sequence"] = sequence_json(*report.sequence);
+  if (const std::optional<SequenceRate> &rate = report.sequence)
+    json["sequence"] = {{"frames", rate->frames},
+                        {"measured_per_s", rate->measured_per_s},
+                        {"npy_per_s", rate->npy_per_s},
+                        {"exr_per_s", rate->exr_per_s}};
   if (!report.sweep.empty())
-    json["linearity"] = growths;
+    json["linearity"] = array_of(growths_of(report.sweep), growth_json);
   return json;
 }
 

@@ -1,5 +1,5 @@
 #include "host/bench/results.h"
-#include "host/output/files/accuracy_record.h"
+#include "host/output/files/manifest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "engine/model/error.h"
 #include "host/bench/machine.h"
 #include "host/capture/exposure.h"
-#include "host/capture/progress_bar.h"
-#include "host/output/files/accuracy_record.h"
+#include "host/capture/progress.h"
+#include "host/output/files/manifest.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,11 +17,11 @@ namespace {
 
 constexpr int prepared_times = 3;
 
-// Measures one setup in several modes.
+// Measures one setup in several modes, which it adds to `bench`.
 class ModesInTurn {
 public:
-  ModesInTurn(const Setup &setup, const BenchRequest &request)
-      : setup_(setup), request_(request),
+  ModesInTurn(const Setup &setup, const BenchRequest &request, SetupBench &bench)
+      : setup_(setup), request_(request), bench_(bench),
         bar_((1 + (several_sensors() ? 2 : 1) * bench_rounds) * 3.0 * samples_of_frame(setup)) {}
 
   // With its first frame taken and its results checked.
@@ -39,24 +39,19 @@ public:
       require_plausible(check, fmt::format("{}, mode {}", exposures->camera().device(), mode_name(mode)));
     if (!exposures->camera().is_reference())
       bench.prepare_ms = prepare_ms(accuracy);
-    modes_.push_back(std::move(bench));
+    bench_.modes.push_back(std::move(bench));
     exposures_.push_back(std::move(exposures));
   }
 
   void time_round(int round) {
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-      modes_[i].frames.push_back(
-          take(*exposures_[i], modes_[i].mode, fmt::format("timing {}/{}", round, bench_rounds)));
-      if (i == 0 && native_)
-        native_->run();
+    for (std::size_t i = 0; i < exposures_.size(); ++i) {
+      ModeBench &mode = bench_.modes[i];
+      mode.frames.push_back(
+          take(*exposures_[i], mode.mode, fmt::format("timing {}/{}", round, bench_rounds)));
+      if (i == 0 && bench_.native)
+        bench_.native->run();
     }
   }
-
-  // From now on beside the first mode, which is exact.
-  void add_native() { native_.emplace(setup_, request_.device); }
-
-  std::vector<ModeBench> modes() { return std::move(modes_); }
-  std::optional<NativeBench> native() { return std::move(native_); }
 
 private:
   bool several_sensors() const { return setup_.start.sensors.size() > 1; }
@@ -107,10 +102,9 @@ private:
 
   const Setup &setup_;
   const BenchRequest &request_;
+  SetupBench &bench_;
   ProgressBar bar_;
-  std::vector<ModeBench> modes_;
-  std::vector<std::unique_ptr<Exposures>> exposures_; // beside the modes
-  std::optional<NativeBench> native_;
+  std::vector<std::unique_ptr<Exposures>> exposures_; // beside the bench's modes
 };
 
 // The one that is asked for, else all that there are.
@@ -119,24 +113,6 @@ std::vector<Mode> modes_of(const BenchRequest &request, const Setup &setup) {
     return {request.accuracy.mode};
   const bool only_exact = names_the_reference(request.device) || exposes_any_tap_by_tap(setup);
   return only_exact ? std::vector{Mode::exact} : std::vector{Mode::exact, Mode::reduced, Mode::automatic};
-}
-
-bool has_adaptive_samples(const Setup &setup) {
-  return std::ranges::any_of(setup.start.sensors, &Sensor::adaptive_samples);
-}
-
-void open_modes(ModesInTurn &modes, const Setup &setup, const BenchRequest &request) {
-  const std::vector<ReferenceFrame> truth =
-      names_the_reference(request.device) ? std::vector<ReferenceFrame>() : reference_frames(setup);
-  for (const Mode mode : modes_of(request, setup)) {
-    try {
-      modes.open(mode, truth);
-    } catch (const Error &error) {
-      if (request.one_mode || error.code() != ExitCode::accuracy)
-        throw;
-      fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
-    }
-  }
 }
 
 // `over` / `under`, both of the same rounds.
@@ -157,20 +133,30 @@ std::vector<double> frames_ms(const ModeBench &mode) {
 } // namespace
 
 SetupBench bench_setup(const Setup &setup, const BenchRequest &request, const std::string &name) {
+  const std::vector<Sensor> &sensors = setup.start.sensors;
+  const bool on_reference = names_the_reference(request.device);
   SetupBench bench;
   bench.name = name;
   bench.interactions = samples_of_frame(setup) * static_cast<double>(diode_count(setup.start.illuminators));
-  bench.adaptive = has_adaptive_samples(setup);
-  bench.sensors = static_cast<std::uint32_t>(setup.start.sensors.size());
-  ModesInTurn modes(setup, request);
-  open_modes(modes, setup, request);
-  if (modes_of(request, setup).front() == Mode::exact && !bench.adaptive &&
-      !names_the_reference(request.device))
-    modes.add_native();
+  bench.adaptive = std::ranges::any_of(sensors, &Sensor::adaptive_samples);
+  bench.sensors = static_cast<std::uint32_t>(sensors.size());
+  ModesInTurn turns(setup, request, bench);
+  const std::vector<ReferenceFrame> truth =
+      on_reference ? std::vector<ReferenceFrame>() : reference_frames(setup);
+  const std::vector<Mode> modes = modes_of(request, setup);
+  for (const Mode mode : modes) {
+    try {
+      turns.open(mode, truth);
+    } catch (const Error &error) {
+      if (request.one_mode || error.code() != ExitCode::accuracy)
+        throw;
+      fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
+    }
+  }
+  if (modes.front() == Mode::exact && !bench.adaptive && !on_reference)
+    bench.native = native_bench(setup, request.device); // beside the first mode
   for (int round = 1; round <= bench_rounds; ++round)
-    modes.time_round(round);
-  bench.modes = modes.modes();
-  bench.native = modes.native();
+    turns.time_round(round);
   bench.peak_memory_bytes = peak_memory_bytes();
   return bench;
 }
@@ -191,9 +177,9 @@ std::vector<Ratio> ratios_of(const SetupBench &bench) {
   const ModeBench &exact = bench.modes.front();
   const std::vector<double> accumulate = interactions_per_s(bench, exact);
   if (bench.native && !accumulate.empty()) {
-    ratios.push_back(ratio("accumulate_over_native", accumulate, bench.native->moments_per_s()));
-    if (!bench.native->series_per_s().empty())
-      ratios.push_back(ratio("accumulate_over_native_series", accumulate, bench.native->series_per_s()));
+    ratios.push_back(ratio("accumulate_over_native", accumulate, bench.native->moments_per_s));
+    if (!bench.native->series_per_s.empty())
+      ratios.push_back(ratio("accumulate_over_native_series", accumulate, bench.native->series_per_s));
   }
   for (const ModeBench &mode : bench.modes)
     if (mode.mode != Mode::exact)

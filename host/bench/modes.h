@@ -2,7 +2,7 @@
 // The modes of one setup, checked against the reference and then timed in turn.
 
 #include "host/bench/accuracy_check.h"
-#include "host/bench/native/race.h"
+#include "host/bench/native/native_bench.h"
 #include "host/bench/timing.h"
 
 #include <cstdint>

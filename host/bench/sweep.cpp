@@ -6,8 +6,7 @@
 #include "host/bench/machine.h"
 #include "host/capture/camera.h"
 #include "host/capture/exposure.h"
-#include "host/capture/interruption.h"
-#include "host/capture/progress_bar.h"
+#include "host/capture/progress.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,20 +16,6 @@
 
 namespace pmdsim {
 namespace {
-
-// The normal equations of fixed / ms + slope * size / ms = 1.
-struct Sums {
-  double aa = 0.0, ab = 0.0, bb = 0.0, a = 0.0, b = 0.0; // a = 1 / ms, b = size / ms
-};
-
-Sums sums_of(std::span<const SizeAndTime> points) {
-  Sums sums;
-  for (const auto &[size, ms] : points) {
-    const double a = 1.0 / ms, b = size / ms;
-    sums.aa += a * a, sums.ab += a * b, sums.bb += b * b, sums.a += a, sums.b += b;
-  }
-  return sums;
-}
 
 constexpr double checked_interactions = 1e7; // a second of the reference
 constexpr std::size_t fewest_checked = 32, most_checked = 1024;
@@ -132,7 +117,13 @@ private:
 } // namespace
 
 StraightLine straight_line(std::span<const SizeAndTime> points) {
-  const auto [aa, ab, bb, a, b] = sums_of(points);
+  // The normal equations of fixed a + slope b = 1 with a = 1 / ms and b = size / ms.
+  double aa = 0.0, ab = 0.0, bb = 0.0, a = 0.0, b = 0.0;
+  for (const auto &[size, ms] : points) {
+    const double weight = 1.0 / ms, weighted_size = size / ms;
+    aa += weight * weight, ab += weight * weighted_size, bb += weighted_size * weighted_size;
+    a += weight, b += weighted_size;
+  }
   const double determinant = aa * bb - ab * ab;
   if (determinant <= 1e-12 * aa * bb) // all of one size
     return {0.0, b / bb};

@@ -1,11 +1,19 @@
 #include "host/bench/sweep_setups.h"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
 namespace pmdsim {
 namespace {
+
+// In the order of SweptQuantity.
+const std::array<SweptRow, 5> swept_rows{{{"resolution", "pixels", true, {160, 320, 640, 1280, 2560, 4096}},
+                                          {"diodes", "diodes", false, {1, 4, 16, 60, 240, 960, 3840, 24000}},
+                                          {"samples", "samples a pixel", true, {1, 2, 4, 8}},
+                                          {"triangles", "triangles", false, {2, 200, 20000, 1000000}},
+                                          {"frequencies", "frequencies", false, {1, 2, 4, 8}}}};
 
 constexpr std::uint32_t paper_columns = 640, paper_diodes = 240;
 constexpr double paper_pitch_m = 45e-6;
@@ -49,57 +57,23 @@ Scene wall(std::uint32_t triangles) {
 
 } // namespace
 
-std::string quantity_name(SweptQuantity quantity) {
-  switch (quantity) {
-  case SweptQuantity::resolution:
-    return "resolution";
-  case SweptQuantity::diodes:
-    return "diodes";
-  case SweptQuantity::samples:
-    return "samples";
-  case SweptQuantity::triangles:
-    return "triangles";
-  case SweptQuantity::frequencies:
-    return "frequencies";
-  }
-  return "";
-}
+const SweptRow &row_of(SweptQuantity quantity) { return swept_rows[static_cast<std::size_t>(quantity)]; }
 
-std::string unit_name(SweptQuantity quantity) {
-  if (quantity == SweptQuantity::resolution)
-    return "pixels";
-  return quantity == SweptQuantity::samples ? "samples a pixel" : quantity_name(quantity);
-}
-
-std::string SweepPoint::name() const { return fmt::format("{} {}", quantity_name(quantity), value); }
+std::string SweepPoint::name() const { return fmt::format("{} {}", row_of(quantity).name, value); }
 
 double SweepPoint::units() const {
   const double n = value;
-  return quantity == SweptQuantity::resolution || quantity == SweptQuantity::samples ? n * n : n;
+  return row_of(quantity).squared ? n * n : n;
 }
 
-std::vector<SweepPoint> sweep_points(SweptQuantity quantity) {
-  std::vector<SweepPoint> points;
-  const auto add = [&](std::initializer_list<std::uint32_t> values) {
-    for (const std::uint32_t value : values)
-      points.push_back({quantity, value});
-  };
-  switch (quantity) {
-  case SweptQuantity::resolution:
-    add({160, 320, 640, 1280, 2560, 4096});
-    break;
-  case SweptQuantity::diodes:
-    add({1, 4, 16, 60, 240, 960, 3840, 24000});
-    break;
-  case SweptQuantity::samples:
-  case SweptQuantity::frequencies:
-    add({1, 2, 4, 8});
-    break;
-  case SweptQuantity::triangles:
-    add({2, 200, 20000, 1000000});
-    break;
+std::vector<std::vector<SweepPoint>> all_sweeps() {
+  std::vector<std::vector<SweepPoint>> sweeps;
+  for (std::size_t i = 0; i < swept_rows.size(); ++i) {
+    std::vector<SweepPoint> &points = sweeps.emplace_back();
+    for (const std::uint32_t value : swept_rows[i].values)
+      points.push_back({static_cast<SweptQuantity>(i), value});
   }
-  return points;
+  return sweeps;
 }
 
 Setup paper_ring() {

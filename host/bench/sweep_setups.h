@@ -4,7 +4,6 @@
 
 #include "host/input/setup/setup.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,24 +11,25 @@
 namespace pmdsim {
 
 enum class SweptQuantity { resolution, diodes, samples, triangles, frequencies };
-inline constexpr std::array swept_quantities{SweptQuantity::resolution, SweptQuantity::diodes,
-                                             SweptQuantity::samples, SweptQuantity::triangles,
-                                             SweptQuantity::frequencies};
 
-std::string quantity_name(SweptQuantity quantity);
-// What the time of a frame may be expected to grow with: "pixels", "diodes", ...
-std::string unit_name(SweptQuantity quantity);
+struct SweptRow {
+  std::string name; // "resolution"
+  std::string unit; // what the time of a frame may be expected to grow with: "pixels", "diodes", ...
+  bool squared;     // whether there are as many of these as the value's square
+  std::vector<std::uint32_t> values; // columns and rows, diodes, S, triangles, frequencies; ascending
+};
+const SweptRow &row_of(SweptQuantity quantity);
 
 struct SweepPoint {
   SweptQuantity quantity;
-  std::uint32_t value; // columns and rows, diodes, S, triangles, frequencies
+  std::uint32_t value;
 
   std::string name() const; // "resolution 160"
-  double units() const;     // as unit_name() says: of resolution and samples the square
+  double units() const;
 };
 
-// Ascending.
-std::vector<SweepPoint> sweep_points(SweptQuantity quantity);
+// The points of each quantity.
+std::vector<std::vector<SweepPoint>> all_sweeps();
 
 // A wall of 0.4 x 0.4 m that fills the view of 640 x 640 pixels at 2 m, lit by 240 isotropic diodes in five
 // rings; constant backscatter, one sample a pixel, 20 MHz.

@@ -1,7 +1,7 @@
 #include "host/capture/camera.h"
 
 #include "engine/reference/reference.h"
-#include "host/capture/interruption.h"
+#include "host/capture/progress.h"
 
 #include <algorithm>
 #include <cctype>

@@ -5,7 +5,7 @@
 #include "host/capture/exposure.h"
 #include "host/capture/frame_sequence.h"
 #include "host/capture/frame_writer.h"
-#include "host/capture/progress_bar.h"
+#include "host/capture/progress.h"
 #include "host/input/setup/sample_choice.h"
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include "engine/model/tap_sequence.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace pmdsim {
@@ -11,15 +12,6 @@ namespace {
 
 std::size_t exposures_of_frame(const Setup &setup, const Sensor &sensor) {
   return exposes_tap_by_tap(setup, sensor) ? sensor.modulation_hz.size() * sensor.taps : 1;
-}
-
-// In the order in which they are taken.
-std::vector<double> exposure_times_s(const Sensor &sensor, double frame_s) {
-  std::vector<double> times_s;
-  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
-    for (std::size_t k = 0; k < sensor.taps; ++k)
-      times_s.push_back(tap_time_s(sensor, frame_s, i, k));
-  return times_s;
 }
 
 } // namespace
@@ -70,10 +62,8 @@ double samples_of_frame(const Setup &setup, const Sensor &sensor) {
 }
 
 double samples_of_frame(const Setup &setup) {
-  double samples = 0.0;
-  for (const Sensor &sensor : setup.start.sensors)
-    samples += samples_of_frame(setup, sensor);
-  return samples;
+  const auto add = [&](double sum, const Sensor &sensor) { return sum + samples_of_frame(setup, sensor); };
+  return std::accumulate(setup.start.sensors.begin(), setup.start.sensors.end(), 0.0, add);
 }
 
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps) {
@@ -164,23 +154,20 @@ std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
 TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, double time_s, Light light,
                                       const Progress &progress, const std::optional<double> &next_s) {
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, Mode::exact};
-  const Sensor &taken = frame.sensor;
-  const std::vector<double> times_s = exposure_times_s(taken, time_s);
+  const std::size_t exposures = exposures_of_frame(setup_, frame.sensor), taps = frame.sensor.taps;
   std::size_t done = 0;
   const auto expose = [&](std::size_t frequency, double exposure_s) {
     prepare({sensor, frequency, exposure_s, light}, {.mode = Mode::exact, .precision = accuracy_.precision});
-    if (done + 1 < times_s.size())
-      instants_.expect(times_s[done + 1]);
+    const std::size_t before = done++;
+    if (done < exposures)
+      instants_.expect(tap_time_s(frame.sensor, time_s, done / taps, done % taps));
     else if (next_s)
       instants_.expect(*next_s);
-    const auto of_exposure = [&](double fraction) {
-      progress((static_cast<double>(done) + fraction) / static_cast<double>(times_s.size()));
-    };
-    Measurement exposure = camera_.measure(of_exposure);
-    ++done;
-    return exposure;
+    return camera_.measure([&](double fraction) {
+      progress((static_cast<double>(before) + fraction) / static_cast<double>(exposures));
+    });
   };
-  frame.measurement = measure_tap_by_tap(taken, time_s, expose);
+  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
   return frame;
 }
 

@@ -1,8 +1,8 @@
 #include "host/capture/frame_sequence.h"
 
 #include "engine/model/error.h"
-#include "host/capture/interruption.h"
 #include "host/capture/pipeline.h"
+#include "host/capture/progress.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -70,10 +70,10 @@ void FrameSequence::write_all(const Measure &measure, std::size_t part_bytes) {
 void FrameSequence::add(WrittenPart part) {
   if (!files_)
     files_ = std::make_unique<OutputSet>(directory_);
-  const std::size_t first_output = files_->names().size();
+  for (const auto &file : part.files)
+    part.record.outputs.push_back(file->path().filename().string());
   files_->add(std::move(part.files));
   run_.frames.push_back(std::move(part.record));
-  run_.frames.back().outputs = files_->names_from(first_output);
 }
 
 void FrameSequence::publish(std::uint32_t frame) {

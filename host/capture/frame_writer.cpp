@@ -1,7 +1,7 @@
 #include "host/capture/frame_writer.h"
 
 #include "engine/model/error.h"
-#include "host/capture/interruption.h"
+#include "host/capture/progress.h"
 #include "host/output/files/exr_writer.h"
 #include "host/output/files/npy_writer.h"
 #include "host/output/pictures/preview.h"
@@ -13,36 +13,25 @@
 namespace pmdsim {
 namespace {
 
-PreviewStyle preview_style(const Channel &channel, const Preview &preview) {
-  const ColourMap &colours = preview.scale == ColourScale::turn           ? twilight
-                             : preview.scale == ColourScale::zero_centred ? blue_white_red
-                                                                          : viridis;
-  return {std::string(preview.quantity), channel.unit, colours, preview.scale};
-}
-
 void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
-  const PreviewStyle style = preview_style(channel, *channel.preview);
-  const std::string title = picture_title(style.quantity, frame, channel.frequency);
+  const Preview &preview = *channel.preview;
+  const std::string title = picture_title(std::string(preview.quantity), frame, channel.frequency);
   const std::scoped_lock alone(drawing_mutex());
-  draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, style, title)
+  draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, preview,
+               channel.unit, title)
       .write_png(file);
-}
-
-void require_name_for_files(const Sensor &sensor) {
-  if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
-    throw Error(ExitCode::input,
-                fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
 }
 
 } // namespace
 
 void require_names_for_files(const std::vector<Sensor> &sensors) {
   for (const Sensor &sensor : sensors)
-    require_name_for_files(sensor);
+    if (sensor.name.empty() || sensor.name.front() == '.' || sensor.name.find('/') != std::string::npos)
+      throw Error(ExitCode::input,
+                  fmt::format("sensor name \"{}\": expected one that can begin a file's name", sensor.name));
 }
 
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame) {
-  require_name_for_files(sensor);
   return fmt::format("{}_{:04}", sensor.name, frame);
 }
 

@@ -20,7 +20,7 @@ enum class Format { exr, npy, png, csv };
 // Throws Error (input) where a sensor's name cannot be part of a file's name; to be asked before measuring.
 void require_names_for_files(const std::vector<Sensor> &sensors);
 
-// "pmd_0000". Throws Error (input) where the name cannot be part of a file's name.
+// "pmd_0000".
 std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame);
 
 struct FrameToWrite {

@@ -3,7 +3,6 @@
 #include "host/commands/commands.h"
 #include "host/report/report.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -17,12 +16,6 @@ std::vector<std::string> samples_of(const Setup &setup) {
     samples.push_back(sensor.adaptive_samples ? "auto"
                                               : fmt::format("{} x {}", sensor.samples, sensor.samples));
   return samples;
-}
-
-std::vector<std::vector<SweepPoint>> all_sweeps() {
-  std::vector<std::vector<SweepPoint>> sweeps(swept_quantities.size());
-  std::ranges::transform(swept_quantities, sweeps.begin(), sweep_points);
-  return sweeps;
 }
 
 } // namespace

@@ -5,8 +5,6 @@
 
 namespace pmdsim {
 
-void run_command(const Options &options);
-
 void run_render(const Options &options);
 void run_deform(const Options &options);
 void run_check(const Options &options);

@@ -1,5 +1,5 @@
 #include "host/capture/capture.h"
-#include "host/capture/interruption.h"
+#include "host/capture/progress.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/output/pictures/profile_plot.h"
@@ -8,6 +8,7 @@
 #include "host/report/report.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <fmt/format.h>
 #include <memory>
@@ -24,28 +25,9 @@ using Maps = std::vector<std::vector<float>>;
 
 // What scripts and people are told of one sensor's frame.
 struct DeformedFrame {
-  std::uint32_t frame;
-  double time_s;
-  std::string sensor;
-  std::vector<double> modulation_hz;
-  std::vector<DeformationStatistics> statistics; // of each frequency
-  Mode mode;
-  AccuracyReport accuracy; // of the deformation
+  FrameRecord record;                              // its accuracy is the deformation's
+  std::vector<DeformationStatistics> statistics{}; // of each frequency
 };
-
-// What is kept of the frame with the light in the lens while the other is measured.
-struct Monostatic {
-  Maps distances_m;
-  AccuracyReport accuracy;
-};
-
-Monostatic take_monostatic(Capture &capture, const SensorFrame &at) {
-  TakenFrame frame = capture.take(at, Light::in_lens, at.time_s, ", monostatic");
-  Monostatic monostatic{{}, frame.measurement.accuracy};
-  for (Return &of_frequency : frame.measurement.returns)
-    monostatic.distances_m.push_back(std::move(of_frequency.distance_m));
-  return monostatic;
-}
 
 // The errors of two distances add up in their difference, at worst. It has no amplitude.
 AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyReport &monostatic) {
@@ -61,21 +43,20 @@ AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyRepor
   return difference;
 }
 
-// Wrapped, a map each frequency.
-Maps deformations_mm(const TakenFrame &bistatic, const Maps &monostatic_m) {
-  Maps deformations;
-  for (std::size_t i = 0; i < monostatic_m.size(); ++i)
-    deformations.push_back(deformation_mm(bistatic.measurement.returns[i].distance_m, monostatic_m[i],
-                                          bistatic.sensor.ambiguity_m(i)));
-  return deformations;
-}
-
 // One sensor's frame, taken both ways.
 struct TakenPair {
   TakenFrame bistatic;
-  Maps monostatic_m;
-  Maps deformations_mm{}; // once it is written
+  Maps monostatic_m, deformations_mm; // the latter once it is written
 };
+
+// Wrapped, a map each frequency.
+Maps deformations_mm(const TakenPair &pair) {
+  Maps deformations;
+  for (std::size_t i = 0; i < pair.monostatic_m.size(); ++i)
+    deformations.push_back(deformation_mm(pair.bistatic.measurement.returns[i].distance_m,
+                                          pair.monostatic_m[i], pair.bistatic.sensor.ambiguity_m(i)));
+  return deformations;
+}
 
 FileToWrite profile_plot(const std::shared_ptr<const FrameToWrite> &frame, const Channel &deformation) {
   const std::string stem = frame_file_stem(frame->sensor, frame->frame);
@@ -114,19 +95,17 @@ std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair
   return files;
 }
 
-// The bistatic frame after the monostatic one, as the next frame's begins.
+// The bistatic frame after the monostatic one, of which the distances stay, as the next frame's begins.
 std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, DeformedFrame &told) {
-  Monostatic monostatic = take_monostatic(capture, at);
-  auto pair = std::make_shared<TakenPair>(TakenPair{
-      capture.take(at, Light::beside_lens, at.next_s, ", bistatic"), std::move(monostatic.distances_m)});
-  const auto &[sensor, measurement, mode] = pair->bistatic;
-  told = {at.frame,
-          at.time_s,
-          sensor.name,
-          sensor.modulation_hz,
-          {},
-          mode,
-          of_difference(measurement.accuracy, monostatic.accuracy)};
+  auto pair = std::make_shared<TakenPair>();
+  pair->bistatic = capture.take(at, Light::in_lens, at.time_s, ", monostatic");
+  for (Return &of_frequency : pair->bistatic.measurement.returns)
+    pair->monostatic_m.push_back(std::move(of_frequency.distance_m));
+  const AccuracyReport monostatic = pair->bistatic.measurement.accuracy;
+  pair->bistatic = {}; // its memory first
+  pair->bistatic = capture.take(at, Light::beside_lens, at.next_s, ", bistatic");
+  told.record = record_of(pair->bistatic, at);
+  told.record.accuracy = of_difference(told.record.accuracy, monostatic);
   return pair;
 }
 
@@ -147,81 +126,88 @@ std::deque<DeformedFrame> deform(Capture &capture) {
     DeformedFrame &told = deformed.emplace_back();
     const std::shared_ptr<TakenPair> pair = take_pair(capture, at, told);
     return {record_of(pair->bistatic, at), [pair, &told, &formats = capture.formats()] {
-              pair->deformations_mm = deformations_mm(pair->bistatic, pair->monostatic_m);
+              pair->deformations_mm = deformations_mm(*pair);
               for (const std::vector<float> &deformation : pair->deformations_mm)
                 told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
-              return deformation_files(pair, told.frame, formats);
+              return deformation_files(pair, told.record.frame, formats);
             }};
   };
   capture.write(measure, bytes_of_pair(capture.setup()));
   return deformed;
 }
 
+const std::array<std::pair<const char *, double DeformationStatistics::*>, 5> figures{
+    {{"mean", &DeformationStatistics::mean_mm},
+     {"min", &DeformationStatistics::min_mm},
+     {"max", &DeformationStatistics::max_mm},
+     {"centre", &DeformationStatistics::centre_mm},
+     {"rms", &DeformationStatistics::rms_mm}}};
+
 ordered_json statistics_json(const DeformationStatistics &statistics) {
-  return {{"mean", statistics.mean_mm},
-          {"min", statistics.min_mm},
-          {"max", statistics.max_mm},
-          {"centre", statistics.centre_mm},
-          {"rms", statistics.rms_mm}};
+  ordered_json json;
+  for (const auto &[name, figure] : figures)
+    json[name] = statistics.*figure;
+  return json;
+}
+
+ordered_json frame_json(const DeformedFrame &frame) {
+  const FrameRecord &record = frame.record;
+  ordered_json json{{"sensor", record.sensor.name},
+                    {"frame", record.frame},
+                    {"time_s", record.time_s},
+                    {"modulation_hz", record.sensor.modulation_hz},
+                    {"deformation_mm", array_of(frame.statistics, statistics_json)}};
+  json.update(accuracy_json(record));
+  return json;
 }
 
 ordered_json report_json(const std::deque<DeformedFrame> &frames, const FrameSequence &sequence) {
-  ordered_json list = ordered_json::array();
-  for (const DeformedFrame &frame : frames) {
-    ordered_json deformations = ordered_json::array();
-    for (const DeformationStatistics &statistics : frame.statistics)
-      deformations.push_back(statistics_json(statistics));
-    list.push_back({{"sensor", frame.sensor},
-                    {"frame", frame.frame},
-                    {"time_s", frame.time_s},
-                    {"modulation_hz", frame.modulation_hz},
-                    {"deformation_mm", deformations},
-                    {"mode", mode_name(frame.mode)}});
-    list.back().update(accuracy_json(frame.accuracy));
-  }
   return {{"deformation_mm", statistics_json(frames.front().statistics.front())},
-          {"frames", list},
+          {"frames", array_of(frames, frame_json)},
           {"outputs", sequence.paths()}};
 }
 
-// Of the first frame, one row a sensor and frequency.
-std::string table_text(const std::deque<DeformedFrame> &frames) {
-  std::size_t width = 0;
-  std::vector<std::pair<std::string, DeformationStatistics>> rows;
+// The first frame's, sensor by sensor.
+std::vector<const DeformedFrame *> first_of(const std::deque<DeformedFrame> &frames) {
+  std::vector<const DeformedFrame *> first;
   for (const DeformedFrame &frame : frames)
-    for (std::size_t i = 0; frame.frame == frames.front().frame && i < frame.statistics.size(); ++i) {
-      rows.emplace_back(fmt::format("{}, {}", frame.sensor, frequency_text(frame.modulation_hz[i])),
-                        frame.statistics[i]);
-      width = std::max(width, rows.back().first.size());
-    }
-  std::string text =
-      fmt::format("{:<{}}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", width, "mean", "min", "max", "centre", "rms");
-  for (const auto &[label, statistics] : rows) {
-    text += fmt::format("{:<{}}", label, width);
-    for (const double value_mm :
-         {statistics.mean_mm, statistics.min_mm, statistics.max_mm, statistics.centre_mm, statistics.rms_mm})
-      text += fmt::format("{:>12}", table_number(value_mm));
-    text += '\n';
-  }
-  return text;
+    if (frame.record.frame == frames.front().record.frame)
+      first.push_back(&frame);
+  return first;
 }
 
-// Of the first frame's deformations, sensor by sensor.
-std::string accuracies_text(const std::deque<DeformedFrame> &frames) {
-  std::string text;
-  for (const DeformedFrame &frame : frames)
-    if (const std::string said = accuracy_text(frame.mode, frame.accuracy);
-        frame.frame == frames.front().frame && !said.empty())
-      text += fmt::format("\n{}\n{}", frame.sensor, said);
-  return text;
+// One row a sensor and frequency.
+std::string table_text(const std::vector<const DeformedFrame *> &frames) {
+  std::size_t width = 0;
+  std::vector<std::pair<std::string, DeformationStatistics>> rows;
+  for (const DeformedFrame *frame : frames)
+    for (std::size_t i = 0; i < frame->statistics.size(); ++i) {
+      const Sensor &sensor = frame->record.sensor;
+      rows.emplace_back(fmt::format("{}, {}", sensor.name, frequency_text(sensor.modulation_hz[i])),
+                        frame->statistics[i]);
+      width = std::max(width, rows.back().first.size());
+    }
+  std::string text(width, ' ');
+  for (const auto &[name, figure] : figures)
+    text += fmt::format("{:>12}", name);
+  for (const auto &[label, statistics] : rows) {
+    text += fmt::format("\n{:<{}}", label, width);
+    for (const auto &[name, figure] : figures)
+      text += fmt::format("{:>12}", table_number(statistics.*figure));
+  }
+  return text + '\n';
 }
 
 std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &capture) {
+  const std::vector<const DeformedFrame *> first = first_of(frames);
   std::string text =
-      capture.device_text() + "deformation (bistatic - monostatic distance), mm\n" + table_text(frames);
-  if (frames.back().frame != frames.front().frame)
-    text += fmt::format("of frame {}; --json tells of all\n", frames.front().frame);
-  return text + accuracies_text(frames) + "\n" + capture.sequence().written_text();
+      capture.device_text() + "deformation (bistatic - monostatic distance), mm\n" + table_text(first);
+  if (first.size() < frames.size())
+    text += fmt::format("of frame {}; --json tells of all\n", first.front()->record.frame);
+  for (const DeformedFrame *frame : first)
+    if (const std::string said = accuracy_text(frame->record.mode, frame->record.accuracy); !said.empty())
+      text += fmt::format("\n{}\n{}", frame->record.sensor.name, said);
+  return text + "\n" + capture.sequence().written_text();
 }
 
 } // namespace

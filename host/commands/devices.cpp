@@ -1,5 +1,6 @@
 #include "engine/simulator.h"
 #include "host/commands/commands.h"
+#include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
 #include <fmt/format.h>
@@ -9,16 +10,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json report_json(const std::vector<DeviceInfo> &devices) {
-  ordered_json list = ordered_json::array();
-  for (const DeviceInfo &device : devices)
-    list.push_back({{"index", device.index},
-                    {"name", device.name},
-                    {"kind", device.kind},
-                    {"driver", device.driver},
-                    {"usable", device.usable},
-                    {"lacks", device.lacks}});
-  return {{"devices", list}, {"reference", true}};
+ordered_json device_json(const DeviceInfo &device) {
+  return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
+          {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};
 }
 
 std::string report_text(const std::vector<DeviceInfo> &devices) {
@@ -36,7 +30,7 @@ std::string report_text(const std::vector<DeviceInfo> &devices) {
 void run_devices(const Options &options) {
   const std::vector<DeviceInfo> devices = list_devices();
   if (options.json)
-    print(report_json(devices));
+    print(ordered_json{{"devices", array_of(devices, device_json)}, {"reference", true}});
   else
     print(report_text(devices));
 }

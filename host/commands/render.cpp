@@ -43,9 +43,7 @@ std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
 
 // Beside its own files a frame names the manifest, which says how to read them.
 ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence) {
-  ordered_json paths = ordered_json::array();
-  for (const std::string &name : frame.outputs)
-    paths.push_back(sequence.path_of(name));
+  ordered_json paths = array_of(frame.outputs, [&](const auto &name) { return sequence.path_of(name); });
   paths.push_back(sequence.path_of(manifest_name));
   ordered_json json{{"sensor", frame.sensor.name},
                     {"frame", frame.frame},
@@ -58,12 +56,11 @@ ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence)
 }
 
 ordered_json report_json(const FrameSequence &sequence) {
-  ordered_json frames = ordered_json::array();
-  for (const FrameRecord &frame : sequence.run().frames)
-    frames.push_back(frame_json(frame, sequence));
-  return {{"device", sequence.run().device},
-          {"mode", mode_name(sequence.run().accuracy.mode)},
-          {"frames", frames}};
+  const RunRecord &run = sequence.run();
+  const auto json_of = [&](const FrameRecord &frame) { return frame_json(frame, sequence); };
+  return {{"device", run.device},
+          {"mode", mode_name(run.accuracy.mode)},
+          {"frames", array_of(run.frames, json_of)}};
 }
 
 // Writes all frames and returns what is to be said of the first.

@@ -4,7 +4,7 @@
 #include "engine/model/error.h"
 #include "host/bench/distance_errors.h"
 #include "host/capture/capture.h"
-#include "host/capture/interruption.h"
+#include "host/capture/progress.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"

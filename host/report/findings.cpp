@@ -1,8 +1,8 @@
 #include "host/report/findings.h"
 
+#include "engine/lens/lens.h"
 #include "engine/model/tap_sequence.h"
 #include "engine/reference/reference.h"
-#include "host/report/field_of_view.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -13,6 +13,50 @@
 
 namespace pmdsim {
 namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Places count columns and rows from the image's top left corner.
+class Image {
+public:
+  explicit Image(const Sensor &sensor) : lens_(sensor), size_(sensor.resolution) {}
+
+  // `part` of the image's width and height.
+  glm::dvec2 place(const glm::dvec2 &part) const { return part * size_; }
+  // Unit length, or NaN.
+  glm::dvec3 ray(const glm::dvec2 &place) const {
+    return lens_.ray(lens_.on_chip_m(place)).value_or(glm::dvec3(nan));
+  }
+  // From `part` over the centre to the place opposite.
+  double angle_across_deg(const glm::dvec2 &part) const {
+    const glm::dvec3 centre = ray(place(glm::dvec2(0.5)));
+    return angle_deg(ray(place(part)), centre) + angle_deg(centre, ray(place(1.0 - part)));
+  }
+
+private:
+  // Precise for small angles too, as an arc cosine is not.
+  static double angle_deg(const glm::dvec3 &a, const glm::dvec3 &b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+  }
+
+  Lens lens_;
+  glm::dvec2 size_;
+};
+
+// Between where the rays through two places meet the plane z = 1 m.
+double distance_at_1m_m(const Image &image, const glm::dvec2 &from, const glm::dvec2 &to) {
+  const glm::dvec3 a = image.ray(from), b = image.ray(to);
+  return a.z > 0.0 && b.z > 0.0 ? glm::distance(a / a.z, b / b.z) : nan;
+}
+
+double darkest_corner(const Image &image, Vignetting vignetting) {
+  if (vignetting == Vignetting::none)
+    return 1.0;
+  double darkest = 1.0;
+  for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)})
+    darkest = std::min(darkest, std::pow(std::max(0.0, image.ray(image.place(corner)).z), 4.0));
+  return darkest;
+}
 
 constexpr double view_columns = 64.0; // rays that look for what is visible, along the frame's longer side
 
@@ -38,19 +82,11 @@ double share_beyond(const std::vector<double> &ranges_m, double ambiguity_m) {
 
 SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor) {
   const std::vector<double> ranges_m = visible_ranges_m(setup, sensor);
-  SensorFindings findings{sensor,
-                          field_of_view(sensor),
-                          {},
-                          {},
-                          common_ambiguity_m(sensor.modulation_hz),
-                          tap_sequence_s(sensor)};
+  SensorFindings findings{sensor, field_of_view(sensor), {}, {}};
   if (!ranges_m.empty())
     findings.visible = {std::ranges::min(ranges_m), std::ranges::max(ranges_m)};
-  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
-    const double ambiguity_m = sensor.ambiguity_m(i);
-    findings.frequencies.push_back(
-        {sensor.modulation_hz[i], ambiguity_m, share_beyond(ranges_m, ambiguity_m)});
-  }
+  for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
+    findings.shares_beyond.push_back(share_beyond(ranges_m, sensor.ambiguity_m(i)));
   return findings;
 }
 
@@ -75,30 +111,29 @@ LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &k
   return light;
 }
 
-void add_warnings(std::vector<std::string> &warnings, const SensorFindings &findings) {
-  const auto &[sensor, view, visible, frequencies, common, sequence_s] = findings;
+void add_view_warnings(std::vector<std::string> &warnings, const SensorFindings &findings) {
+  const auto &[sensor, view, visible, shares_beyond] = findings;
   if (visible.is_empty())
     warnings.push_back(fmt::format("sensor {}: no ray of a coarse frame hits the scene; is the camera turned "
                                    "away, or are the scene's back faces culled?",
                                    sensor.name));
-  for (const auto &[modulation_hz, ambiguity_m, share] : frequencies)
-    if (share > 0.0)
+  for (std::size_t i = 0; i < shares_beyond.size(); ++i)
+    if (shares_beyond[i] > 0.0)
       warnings.push_back(
           fmt::format("sensor {} at {}: what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % "
                       "of it beyond the ambiguity range of {:.6g} m: distances wrap",
-                      sensor.name, frequency_text(modulation_hz), visible.min_m, visible.max_m, 100.0 * share,
-                      ambiguity_m));
+                      sensor.name, frequency_text(sensor.modulation_hz[i]), visible.min_m, visible.max_m,
+                      100.0 * shares_beyond[i], sensor.ambiguity_m(i)));
 }
 
-void add_tap_warning(std::vector<std::string> &warnings, const SensorFindings &findings,
-                     const FrameTimes &frames) {
+void add_tap_warning(std::vector<std::string> &warnings, const Sensor &sensor, const FrameTimes &frames) {
   constexpr double rounding = 1e-9;
-  const double frame_s = 1.0 / frames.rate_hz;
-  if (frames.count > 1 && findings.tap_sequence_s > frame_s * (1.0 + rounding))
+  const double frame_s = 1.0 / frames.rate_hz, taps_s = tap_sequence_s(sensor);
+  if (frames.count > 1 && taps_s > frame_s * (1.0 + rounding))
     warnings.push_back(
         fmt::format("sensor {}: its taps take {:.6g} s, longer than the {:.6g} s from one frame "
                     "to the next: frames overlap",
-                    findings.sensor.name, findings.tap_sequence_s, frame_s));
+                    sensor.name, taps_s, frame_s));
 }
 
 // No shape stands in its own light.
@@ -109,16 +144,29 @@ std::size_t shadow_casters(const Setup &setup) {
 
 } // namespace
 
+FieldOfView field_of_view(const Sensor &sensor) {
+  const Image image(sensor);
+  const glm::dvec2 centre = image.place(glm::dvec2(0.5)), column(0.5, 0.0), row(0.0, 0.5);
+  return {image.angle_across_deg({0.0, 0.5}),
+          image.angle_across_deg({0.5, 0.0}),
+          std::fmax(image.angle_across_deg({0.0, 0.0}), image.angle_across_deg({0.0, 1.0})),
+          {distance_at_1m_m(image, centre - column, centre + column),
+           distance_at_1m_m(image, centre - row, centre + row)},
+          darkest_corner(image, sensor.vignetting)};
+}
+
+Sensor coarser(Sensor sensor, double factor) {
+  if (factor <= 1.0)
+    return sensor;
+  const glm::uvec2 fewest = glm::min(sensor.resolution, glm::uvec2(8));
+  const glm::uvec2 resolution = glm::max(glm::uvec2(glm::dvec2(sensor.resolution) / factor), fewest);
+  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(resolution);
+  sensor.resolution = resolution;
+  return sensor;
+}
+
 Findings findings_of(const Setup &setup) {
-  Findings findings{setup.start.scene.triangles.size(),
-                    setup.start.scene.discs.size(),
-                    setup.shadows,
-                    shadow_casters(setup),
-                    {},
-                    {},
-                    {},
-                    setup.frames,
-                    setup.motion != nullptr};
+  Findings findings{shadow_casters(setup)};
   DiagramAngles known_sr;
   for (const Illuminator &illuminator : setup.start.illuminators) {
     const LightFindings light = findings_of_light(illuminator, known_sr);
@@ -132,13 +180,13 @@ Findings findings_of(const Setup &setup) {
   return findings;
 }
 
-std::vector<std::string> warnings_of(const Findings &findings) {
+std::vector<std::string> warnings_of(const Setup &setup, const Findings &findings) {
   std::vector<std::string> warnings;
-  if (findings.triangles + findings.points > 0)
+  if (setup.start.scene.shape_count() > 0)
     for (const SensorFindings &sensor : findings.sensors)
-      add_warnings(warnings, sensor);
+      add_view_warnings(warnings, sensor);
   for (const SensorFindings &sensor : findings.sensors)
-    add_tap_warning(warnings, sensor, findings.frames);
+    add_tap_warning(warnings, sensor.sensor, setup.frames);
   return warnings;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-// What follows from a setup before anything is measured.
+// What follows from a setup before anything is measured, and the view of a sensor's lens.
 
 #include "host/input/setup/setup.h"
-#include "host/report/field_of_view.h"
 
 #include <cmath>
 #include <limits>
@@ -13,11 +12,22 @@
 
 namespace pmdsim {
 
-// Of one modulation frequency.
-struct AmbiguityFinding {
-  double modulation_hz, ambiguity_m;
-  double share_beyond; // of the rays that see something, those that see it beyond the ambiguity range, 0 to 1
+// What a sensor's lens shows it, by the rays of its image; NaN where the lens has no ray.
+struct FieldOfView {
+  // Full angles between the image's edges along its middle row and column and along its longer diagonal; each
+  // is the sum of two halves about the image's centre, so that a fisheye may see more than 180 degrees.
+  double horizontal_deg, vertical_deg, diagonal_deg;
+  // Width and height of what the pixel in the image's centre covers of the plane z = 1 m.
+  glm::dvec2 footprint_at_1m_m;
+  double darkest_corner; // what vignetting leaves in the darkest corner, 1 without
 };
+
+FieldOfView field_of_view(const Sensor &sensor);
+
+// Columns and rows divided by `factor`, pixels larger in return; a factor up to 1 changes nothing. At least 8
+// of each stay, or all where there are fewer: behind a wide lens the device takes no pixel that sees too
+// much.
+Sensor coarser(Sensor sensor, double factor);
 
 // Distances from the lens; NaN where nothing is visible.
 struct VisibleRange {
@@ -31,9 +41,8 @@ struct SensorFindings {
   Sensor sensor;
   FieldOfView view;
   VisibleRange visible;
-  std::vector<AmbiguityFinding> frequencies;
-  std::optional<double> common_ambiguity_m; // of all frequencies together
-  double tap_sequence_s; // from a frame's first tap to the end of its last; 0 where all are taken at once
+  // Of the rays that see something, those that see it beyond a frequency's ambiguity range, 0 to 1.
+  std::vector<double> shares_beyond;
 };
 
 // Of all diodes of one illuminator together, or of all that there are.
@@ -44,21 +53,17 @@ struct LightFindings {
 };
 
 struct Findings {
-  std::size_t triangles, points;
-  Shadows shadows;
-  std::size_t
-      shadow_casters; // shapes that may stand between a diode and another shape; 0 where shadows are off
-  LightFindings light;
-  std::vector<std::pair<std::string, LightFindings>> illuminators; // with their names
-  std::vector<SensorFindings> sensors;
-  FrameTimes frames;
-  bool moves; // anything does
+  // Shapes that may stand between a diode and another shape; 0 where shadows are off.
+  std::size_t shadow_casters;
+  LightFindings light{};
+  std::vector<std::pair<std::string, LightFindings>> illuminators{}; // with their names
+  std::vector<SensorFindings> sensors{};
 };
 
 Findings findings_of(const Setup &setup);
 
-// Beyond what loading the setup has warned of already, one line each.
-std::vector<std::string> warnings_of(const Findings &findings);
+// Beyond what loading the setup has warned of already, one line each. `findings` are the setup's.
+std::vector<std::string> warnings_of(const Setup &setup, const Findings &findings);
 
 // c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers
 // of hertz.

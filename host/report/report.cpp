@@ -1,7 +1,6 @@
 #include "host/report/report.h"
 
 #include "engine/model/error.h"
-#include "host/output/files/accuracy_record.h"
 #include "host/output/files/manifest.h"
 
 #include <algorithm>

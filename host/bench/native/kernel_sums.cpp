@@ -171,11 +171,9 @@ void sum_by_series(const NativeTile *tiles, std::size_t tile_count, const Native
 } // namespace
 
 extern const NativeSums sums;
-const NativeSums sums{PMDSIM_TEXT(PMDSIM_INSTRUCTION_SET),
-                      sum_by_moments,
-                      sum_by_series<4>,
-                      sum_by_series<6>,
-                      sum_by_series<8>,
-                      sum_by_series<12>};
+const NativeSums sums{
+    PMDSIM_TEXT(PMDSIM_INSTRUCTION_SET),
+    sum_by_moments,
+    {{4, sum_by_series<4>}, {6, sum_by_series<6>}, {8, sum_by_series<8>}, {12, sum_by_series<12>}}};
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -29,12 +29,17 @@ struct NativeDiode {
 using NativeSum = void (*)(const NativeTile *tiles, std::size_t tile_count, const NativeDiode *diodes,
                            std::size_t diode_count, float wavenumber_per_m, float *phase_rad);
 
+// By the sums of I u^k, k below `powers`, of u = (|D|^2 - 2 P.D) / |P|^2, D the diode and P the point: r^2 =
+// |P|^2 (1 + u), so the moments are power series in u and the loop has no root and no division.
+struct NativeSeries {
+  std::size_t powers;
+  NativeSum sum;
+};
+
 struct NativeSums {
   const char *instructions;
-  NativeSum by_moments; // as anyone would write it
-  // By the sums of I u^k, k below 4, 6, 8, 12, of u = (|D|^2 - 2 P.D) / |P|^2, D the diode and P the point:
-  // r^2 = |P|^2 (1 + u), so the moments are power series in u and the loop has no root and no division.
-  NativeSum by_series_4, by_series_6, by_series_8, by_series_12;
+  NativeSum by_moments; // as anyone would write it: root and weight of every way, four moments of the excess
+  NativeSeries by_series[4]; // of ever more powers
 };
 
 } // namespace pmdsim

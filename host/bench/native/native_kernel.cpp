@@ -102,22 +102,12 @@ double NativeKernel::interactions() const {
   return static_cast<double>(points_) * static_cast<double>(diodes_.size());
 }
 
-NativeSum NativeKernel::sum_of(NativeForm form) const {
-  if (form == NativeForm::moments)
-    return sums_->by_moments;
-  return series_powers_ <= 4   ? sums_->by_series_4
-         : series_powers_ <= 6 ? sums_->by_series_6
-         : series_powers_ <= 8 ? sums_->by_series_8
-                               : sums_->by_series_12;
-}
-
 void NativeKernel::sum_tiles(NativeSum sum, std::size_t first, std::size_t end) {
   sum(tiles_.data() + first, end - first, diodes_.data(), diodes_.size(),
       static_cast<float>(wavenumber_per_m_), phases_rad_.data() + first * native_tile_points);
 }
 
-double NativeKernel::run_s(NativeForm form) {
-  const NativeSum sum = sum_of(form);
+double NativeKernel::run_s(NativeSum sum) {
   const auto start = std::chrono::steady_clock::now();
   {
     std::vector<std::jthread> others;

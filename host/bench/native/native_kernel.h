@@ -10,10 +10,6 @@
 
 namespace pmdsim {
 
-// `moments` is the sum as anyone would write it: root and weight of every way, four moments of the excess.
-// `series` is the same by powers of u, without a root or a quotient (NativeSums::by_series_4).
-enum class NativeForm { moments, series };
-
 // As Vulkan on the CPU takes them: LP_NUM_THREADS where it is set, 1 at least; else the hardware's.
 unsigned native_threads();
 
@@ -39,14 +35,10 @@ public:
   std::size_t points() const { return points_; }
   std::size_t diodes() const { return diodes_.size(); }
   unsigned threads() const { return threads_; }
-  const char *instructions() const { return sums_->instructions; }
-  std::size_t series_powers() const { return series_powers_; }
+  const NativeSums &sums() const { return *sums_; }
 
-  // Powers of u in the series, one of 4, 6, 8 and 12.
-  void set_series_powers(std::size_t powers) { series_powers_ = powers; }
-
-  // Sums once and returns the seconds that it took.
-  double run_s(NativeForm form);
+  // Sums once, by one of sums(), and returns the seconds that it took.
+  double run_s(NativeSum sum);
   // The largest distance error of what was summed last, against double, at some thousand points spread
   // evenly.
   double error_max_m() const;
@@ -55,13 +47,11 @@ public:
   double true_phase_rad(std::size_t point) const;
 
 private:
-  NativeSum sum_of(NativeForm form) const;
   void sum_tiles(NativeSum sum, std::size_t first, std::size_t end);
 
   const NativeSums *sums_;
   unsigned threads_;
   double wavenumber_per_m_;
-  std::size_t series_powers_ = 4;
   std::vector<NativeTile> tiles_; // the last one filled up with its last point
   std::vector<NativeDiode> diodes_;
   std::size_t points_;

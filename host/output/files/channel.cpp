@@ -3,13 +3,6 @@
 #include <fmt/format.h>
 
 namespace pmdsim {
-namespace {
-
-std::string quantity_of(const ChannelIndex &of) {
-  return is_of_taps(of.row) ? fmt::format("{}{}", of.row.name, of.tap) : std::string(of.row.name);
-}
-
-} // namespace
 
 std::string channel_name(const std::string &quantity, const std::optional<std::size_t> &frequency) {
   return frequency ? fmt::format("f{}.{}", *frequency, quantity) : quantity;
@@ -22,11 +15,12 @@ std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count) {
 ChannelSet channels_of(const Measurement &measurement) {
   ChannelSet set{measurement.resolution, {}};
   for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
+    const std::string tap = is_of_taps(of.row) ? fmt::format("{}", of.tap) : "";
     const auto frequency =
         is_of_frequency(of.row) ? frequency_of(of.frequency, measurement.returns.size()) : std::nullopt;
     if (!values.empty())
-      set.channels.push_back(
-          {quantity_of(of), std::string(of.row.unit), std::span(values), frequency, of.row.preview});
+      set.channels.push_back({std::string(of.row.name) + tap, std::string(of.row.unit), std::span(values),
+                              frequency, of.row.preview});
   });
   return set;
 }

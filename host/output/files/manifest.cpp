@@ -73,6 +73,20 @@ ordered_json how_to_make_points() {
 
 } // namespace
 
+std::string mode_name(Mode mode) {
+  switch (mode) {
+  case Mode::exact:
+    return "exact";
+  case Mode::reduced:
+    return "reduced";
+  case Mode::automatic:
+    return "auto";
+  }
+  throw std::logic_error("a mode of no kind");
+}
+
+std::string precision_name(Precision precision) { return precision == Precision::fp64 ? "fp64" : "fp32"; }
+
 ordered_json camera_json(const Sensor &sensor) {
   const Intrinsics intrinsics = intrinsics_of(sensor);
   const auto &matrix = intrinsics.camera_matrix;
@@ -109,6 +123,17 @@ std::vector<double> ambiguities_m(const Sensor &sensor) {
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
     ambiguities.push_back(sensor.ambiguity_m(i));
   return ambiguities;
+}
+
+ordered_json accuracy_json(const AccuracyReport &report) {
+  return {{"precision", precision_name(report.precision)},
+          {"diodes", report.diodes},
+          {"error_claimed_m", or_null(report.claimed_m)},
+          {"error_found_m", or_null(report.found_m)},
+          {"amplitude_error_claimed", or_null(report.claimed_amplitude)},
+          {"amplitude_error_found", or_null(report.found_amplitude)},
+          {"checked_pixels", report.checked_pixels},
+          {"check_ms", report.check_ms}};
 }
 
 ordered_json accuracy_json(const FrameRecord &record) {

@@ -1,5 +1,6 @@
 #pragma once
-// manifest.json: what an output directory holds and how it came about.
+// manifest.json: what an output directory holds and how it came about; and the JSON of which it is made,
+// which commands print, too.
 //
 // From distances to points: `distance_m` is radial, from the lens to the point along the pixel's ray, NOT the
 // depth z. With the frame's `camera` (Intrinsics says what its figures mean) and the slopes (x, y) of the
@@ -12,10 +13,10 @@
 
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
-#include "host/output/files/accuracy_record.h"
 #include "host/output/files/output_file.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,23 @@ struct RunRecord {
   std::vector<FrameRecord> frames;
 };
 
+// As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
+std::string mode_name(Mode mode);
+std::string precision_name(Precision precision);
+
+template <class Value>
+nlohmann::ordered_json or_null(const std::optional<Value> &value) {
+  return value ? nlohmann::ordered_json(*value) : nullptr;
+}
+
+// Of what `json_of` makes of each.
+nlohmann::ordered_json array_of(const auto &list, const auto &json_of) {
+  nlohmann::ordered_json array = nlohmann::ordered_json::array();
+  for (const auto &each : list)
+    array.push_back(json_of(each));
+  return array;
+}
+
 // model, fx, fy (null where the chip is turned about z), cx, cy, camera_matrix (3 x 3), distortion,
 // world_from_camera (4 x 4, rows; camera frame x right, y down, z forward; world as in glTF); of a tilted
 // fisheye tilt_rad. Intrinsics says what the figures mean.
@@ -52,7 +70,10 @@ nlohmann::ordered_json waveform_json(const Waveform &waveform);
 // The ambiguity range of every frequency.
 std::vector<double> ambiguities_m(const Sensor &sensor);
 
-// What a frame came to: mode and what accuracy_json() has of it.
+// precision, diodes (as AccuracyReport::diodes), error_claimed_m, error_found_m, amplitude_error_claimed,
+// amplitude_error_found (relative), checked_pixels, check_ms. An error is null where nothing is known of it.
+nlohmann::ordered_json accuracy_json(const AccuracyReport &report);
+// What a frame came to: mode and that.
 nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 
 // {"NAME": milliseconds, ...}

@@ -19,10 +19,9 @@ constexpr std::size_t many_bytes = std::size_t{1} << 18;
 // back, so that the next ones need no new memory.
 constexpr int uncached = 0x80;
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
 Error write_error(const std::filesystem::path &path, int error_number) {
-  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(), reason(error_number))};
+  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
+                                        std::generic_category().message(error_number))};
 }
 
 // Hidden, and random because another run may write to the same directory.
@@ -56,6 +55,12 @@ OutputFile::~OutputFile() {
 
 void OutputFile::fail(int error_number) const { throw write_error(path_, error_number); }
 
+void OutputFile::fail_for_good() {
+  if (first_error_ == 0)
+    first_error_ = errno;
+  fail(first_error_);
+}
+
 void OutputFile::reserve(std::uint64_t bytes) {
   if (::fallocate(::fileno(stream_), 0, 0, static_cast<off_t>(bytes)) == 0)
     return;
@@ -83,19 +88,13 @@ std::size_t OutputFile::write_uncached(std::string_view bytes) {
 void OutputFile::write(std::string_view bytes) {
   if (bytes.size() >= many_bytes)
     bytes.remove_prefix(write_uncached(bytes));
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) == bytes.size())
-    return;
-  if (first_error_ == 0)
-    first_error_ = errno;
-  fail(first_error_);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size())
+    fail_for_good();
 }
 
 void OutputFile::seek(std::uint64_t offset) {
-  if (::fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) == 0)
-    return;
-  if (first_error_ == 0)
-    first_error_ = errno;
-  fail(first_error_);
+  if (::fseeko(stream_, static_cast<off_t>(offset), SEEK_SET) != 0)
+    fail_for_good();
 }
 
 std::uint64_t OutputFile::tell() const {

@@ -45,6 +45,7 @@ public:
 
 private:
   [[noreturn]] void fail(int error_number) const;
+  [[noreturn]] void fail_for_good(); // by errno, or what came before it
   // How many of the first bytes are written then.
   std::size_t write_uncached(std::string_view bytes);
 

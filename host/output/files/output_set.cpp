@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <fmt/format.h>
+#include <iterator>
+#include <ranges>
 #include <system_error>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
-#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -31,8 +32,8 @@ std::vector<fs::path> missing_directories(const fs::path &directory) {
 
 void remove_if_empty(const std::vector<fs::path> &directories) {
   std::error_code ignored;
-  for (auto path = directories.rbegin(); path != directories.rend(); ++path)
-    fs::remove(*path, ignored);
+  for (const fs::path &path : std::views::reverse(directories))
+    fs::remove(path, ignored);
 }
 
 // A trailing slash would make parent_path() name the same directory again.
@@ -40,9 +41,7 @@ fs::path without_trailing_slash(const fs::path &path) {
   return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
 }
 
-} // namespace
-
-std::unique_ptr<OutputFile> write_file(const std::filesystem::path &directory, const FileToWrite &file) {
+std::unique_ptr<OutputFile> write_file(const fs::path &directory, const FileToWrite &file) {
   if (file.name.find('/') != std::string::npos)
     throw Error(ExitCode::output, fmt::format("{}: expected a file name without '/'", file.name));
   auto written = std::make_unique<OutputFile>(directory / file.name);
@@ -51,7 +50,9 @@ std::unique_ptr<OutputFile> write_file(const std::filesystem::path &directory, c
   return written;
 }
 
-WrittenFiles write_files(const std::filesystem::path &directory, const std::vector<FileToWrite> &files) {
+} // namespace
+
+WrittenFiles write_files(const fs::path &directory, const std::vector<FileToWrite> &files) {
   WrittenFiles written(files.size());
   const auto write_one = [&](std::size_t i) { written[i] = write_file(directory, files[i]); };
   // Isolated: a thread that waits for the last of these files takes up no other frame's work meanwhile.
@@ -80,18 +81,15 @@ OutputSet::~OutputSet() {
 
 void OutputSet::add(const std::string &name, const std::function<void(OutputFile &)> &write) {
   files_.push_back(write_file(directory_, {name, write}));
-  names_.push_back(name);
 }
 
-void OutputSet::add(WrittenFiles files) {
-  for (std::unique_ptr<OutputFile> &file : files) {
-    names_.push_back(file->path().filename().string());
-    files_.push_back(std::move(file));
-  }
-}
+void OutputSet::add(WrittenFiles files) { std::ranges::move(files, std::back_inserter(files_)); }
 
-std::vector<std::string> OutputSet::names_from(std::size_t first) const {
-  return {names_.begin() + static_cast<std::ptrdiff_t>(first), names_.end()};
+std::vector<std::string> OutputSet::names() const {
+  std::vector<std::string> names;
+  for (const auto &file : files_)
+    names.push_back(file->path().filename().string());
+  return names;
 }
 
 void OutputSet::publish(const std::vector<std::string> &obsolete) {

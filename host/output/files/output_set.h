@@ -20,11 +20,8 @@ struct FileToWrite {
 // Closed.
 using WrittenFiles = std::vector<std::unique_ptr<OutputFile>>;
 
-// Throws Error (output).
-std::unique_ptr<OutputFile> write_file(const std::filesystem::path &directory, const FileToWrite &file);
-
 // Several at once, on TBB's threads and the calling one; in the order of `files`. Where one fails, its
-// exception comes out, and no file is left.
+// exception, Error (output) among others, comes out, and no file is left.
 WrittenFiles write_files(const std::filesystem::path &directory, const std::vector<FileToWrite> &files);
 
 class OutputSet {
@@ -45,9 +42,7 @@ public:
   void add(WrittenFiles files);
 
   // Names of the files added so far, in order.
-  const std::vector<std::string> &names() const { return names_; }
-  // Those from the one with the index `first` on.
-  std::vector<std::string> names_from(std::size_t first) const;
+  std::vector<std::string> names() const;
 
   // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the
   // set to their names. Throws Error (output): where a directory has one of the names, before
@@ -58,7 +53,6 @@ private:
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> created_; // outermost first
   WrittenFiles files_;
-  std::vector<std::string> names_;
   bool published_ = false;
 };
 

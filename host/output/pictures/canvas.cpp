@@ -101,8 +101,8 @@ void Canvas::line(std::pair<double, double> from, std::pair<double, double> to, 
   cairo_stroke(context());
 }
 
-void Canvas::text(double x, double y, const std::string &text, Anchor anchor, double size) {
-  use_font(context(), size);
+void Canvas::text(double x, double y, const std::string &text, Anchor anchor) {
+  use_font(context(), text_size);
   use_colour(context(), black);
   const double shift = anchor == Anchor::left ? 0.0 : anchor == Anchor::centre ? 0.5 : 1.0;
   cairo_move_to(context(), x - shift * advance(context(), text), y + 0.5 * capital_height(context()));
@@ -162,6 +162,26 @@ void Canvas::right_axis(const Box &box, const Axis &axis) {
   }
 }
 
+void Canvas::grid(const Box &box, const Axis &bottom, const Axis &left, const Colour &at_zero) {
+  for (const Tick &tick : bottom.ticks) {
+    const double x = box.left + along(bottom.range, tick.value, box.width);
+    line({x, box.top}, {x, box.bottom()}, light_grey);
+  }
+  for (const Tick &tick : left.ticks) {
+    const double y = box.bottom() - along(left.range, tick.value, box.height);
+    line({box.left, y}, {box.right(), y}, tick.value == 0.0 ? at_zero : light_grey);
+  }
+}
+
+void Canvas::frame(const Box &box, const Axis &bottom, const Axis &left, const std::string &bottom_title,
+                   const std::string &left_title) {
+  outline(box);
+  bottom_axis(box, bottom);
+  left_axis(box, left);
+  text(box.left + 0.5 * box.width, height() - 22.0, bottom_title, Anchor::centre);
+  vertical_text(22.0, box.top + 0.5 * box.height, left_title);
+}
+
 void Canvas::write_png(OutputFile &file) const {
   PngSink sink{file, {}};
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), &append, &sink);
@@ -183,6 +203,11 @@ double label_width(const Axis &axis) {
   for (const Tick &tick : axis.ticks)
     widest = std::max(widest, text_width(tick.label));
   return widest;
+}
+
+Box plot_box(int width, int height, double top, const Axis &left) {
+  const double room = std::round(52.0 + label_width(left));
+  return {room, top, width - room - 24.0, height - top - 64.0};
 }
 
 double along(const Range &range, double value, double length) {

@@ -48,7 +48,7 @@ public:
   void line(std::pair<double, double> from, std::pair<double, double> to, const Colour &colour,
             double width = 1.0);
   // `y` is the middle of the text's capitals.
-  void text(double x, double y, const std::string &text, Anchor anchor, double size = text_size);
+  void text(double x, double y, const std::string &text, Anchor anchor);
   void title(double x, double y, const std::string &text);
   // Reads from bottom to top; (x, y) is its middle.
   void vertical_text(double x, double y, const std::string &text);
@@ -59,6 +59,11 @@ public:
   void bottom_axis(const Box &box, const Axis &axis);
   void left_axis(const Box &box, const Axis &axis);
   void right_axis(const Box &box, const Axis &axis);
+  // What lies below and around a plot's curves: lines at the ticks, that at 0 of the left axis of a colour of
+  // its own; the outline, the axes and their titles.
+  void grid(const Box &box, const Axis &bottom, const Axis &left, const Colour &at_zero = light_grey);
+  void frame(const Box &box, const Axis &bottom, const Axis &left, const std::string &bottom_title,
+             const std::string &left_title);
 
   // For what the verbs above do not cover.
   cairo_t *context() { return context_.get(); }
@@ -75,6 +80,8 @@ private:
 double text_width(const std::string &text, double size = text_size);
 // The widest label of an axis.
 double label_width(const Axis &axis);
+// Of a plot `top` below the upper edge of a canvas of this size, with room for its axes and their titles.
+Box plot_box(int width, int height, double top, const Axis &left);
 
 // Position of a value along a length, 0 at the axis's minimum.
 double along(const Range &range, double value, double length);

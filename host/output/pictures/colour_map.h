@@ -2,22 +2,18 @@
 // Colours for numbers: perceptually even maps, interpolated between anchors.
 
 #include <array>
-#include <span>
+#include <cstddef>
 
 namespace pmdsim {
 
 using Colour = std::array<double, 3>; // sRGB, 0 to 1
 
-class ColourMap {
-public:
-  // `anchors` are evenly spaced over [0, 1], at least two, and outlive the map.
-  explicit constexpr ColourMap(std::span<const Colour> anchors) : anchors_(anchors) {}
+struct ColourMap {
+  static constexpr std::size_t anchors = 17;
+  std::array<std::array<double, anchors>, 3> levels; // red, green and blue, evenly spaced over [0, 1]
 
   // `position` from 0 to 1; beyond is clamped.
   Colour at(double position) const;
-
-private:
-  std::span<const Colour> anchors_;
 };
 
 // Dark to light, for quantities that grow from a minimum. matplotlib's viridis (CC0).

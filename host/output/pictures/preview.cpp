@@ -51,6 +51,12 @@ Range robust_range(std::span<const float> values) {
   return {min, static_cast<double>(*high)};
 }
 
+const ColourMap &colours_of(ColourScale scale) {
+  return scale == ColourScale::turn           ? twilight
+         : scale == ColourScale::zero_centred ? blue_white_red
+                                              : viridis;
+}
+
 std::uint32_t rgb24(const Colour &colour) {
   const auto byte = [](double level) { return static_cast<std::uint32_t>(std::lround(255.0 * level)); };
   return byte(colour[0]) << 16 | byte(colour[1]) << 8 | byte(colour[2]);
@@ -128,37 +134,37 @@ Layout lay_out(const PreviewImage &image, const Axis &values, const Axis &rows, 
 
 } // namespace
 
-PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &resolution,
-                           PreviewStyle::Scale scale) {
+PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &resolution, ColourScale scale) {
   const std::uint32_t side = std::max(resolution.x, resolution.y);
   const std::uint32_t block = (side + max_side - 1) / max_side;
   PreviewImage image{(resolution + block - 1u) / block, {}, std::max(1u, enlarged_side / side)};
   image.values.reserve(std::size_t{image.resolution.x} * image.resolution.y);
   for (std::uint32_t row = 0; row < resolution.y; row += block)
     for (std::uint32_t column = 0; column < resolution.x; column += block)
-      image.values.push_back(scale == PreviewStyle::Scale::turn
+      image.values.push_back(scale == ColourScale::turn
                                  ? values[std::size_t{row} * resolution.x + column]
                                  : block_mean(values, resolution, {column, row}, block));
   return image;
 }
 
-Range preview_range(std::span<const float> values, PreviewStyle::Scale scale) {
-  if (scale == PreviewStyle::Scale::turn)
+Range preview_range(std::span<const float> values, ColourScale scale) {
+  if (scale == ColourScale::turn)
     return {0.0, 2.0 * std::numbers::pi};
-  if (scale == PreviewStyle::Scale::share)
+  if (scale == ColourScale::share)
     return {0.0, 1.0};
   const Range range = robust_range(values);
-  if (scale == PreviewStyle::Scale::sequential)
+  if (scale == ColourScale::sequential)
     return widened(range);
   const double largest = std::max(std::abs(range.min), std::abs(range.max));
   return largest > 0.0 ? Range{-largest, largest} : Range{-1.0, 1.0};
 }
 
-Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution, const PreviewStyle &style,
-                    const std::string &title) {
-  const PreviewImage image = preview_image(values, resolution, style.scale);
-  const Axis axis = make_axis(preview_range(image.values, style.scale), 8);
-  const std::string bar_title = axis_title(style.quantity, style.unit, axis.exponent);
+Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution, const Preview &preview,
+                    const std::string &unit, const std::string &title) {
+  const ColourMap &colours = colours_of(preview.scale);
+  const PreviewImage image = preview_image(values, resolution, preview.scale);
+  const Axis axis = make_axis(preview_range(image.values, preview.scale), 8);
+  const std::string bar_title = axis_title(std::string(preview.quantity), unit, axis.exponent);
   const Axis rows = pixel_axis(resolution.y, image.resolution.y * image.enlargement);
   const Axis columns = pixel_axis(resolution.x, image.resolution.x * image.enlargement);
   const Layout layout =
@@ -170,7 +176,7 @@ Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution,
   const SurfacePtr pixels = make_image(image.resolution, [&](std::uint32_t column, std::uint32_t row) {
     const float value = image.values[std::size_t{row} * image.resolution.x + column];
     has_gaps |= !std::isfinite(value);
-    return std::isfinite(value) ? style.colours.at(along(axis.range, static_cast<double>(value), 1.0))
+    return std::isfinite(value) ? colours.at(along(axis.range, static_cast<double>(value), 1.0))
                                 : no_value_colour;
   });
   canvas.image(pixels.get(), layout.image);
@@ -181,7 +187,7 @@ Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution,
               Anchor::centre);
   canvas.vertical_text(layout.image.left - label_width(rows) - 24.0,
                        layout.image.top + 0.5 * layout.image.height, "row");
-  draw_colour_bar(canvas, layout.bar, axis, style.colours);
+  draw_colour_bar(canvas, layout.bar, axis, colours);
   canvas.text(layout.bar.left, layout.bar.top - 16.0, bar_title, Anchor::left);
   if (has_gaps)
     draw_no_value_legend(canvas, layout.bar.left, layout.bar.bottom() + 22.0);

@@ -3,23 +3,13 @@
 // value.
 
 #include "engine/model/channels.h"
-#include "host/output/pictures/axis.h"
 #include "host/output/pictures/canvas.h"
-#include "host/output/pictures/colour_map.h"
 
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
 
 namespace pmdsim {
-
-struct PreviewStyle {
-  using Scale = ColourScale;
-  std::string quantity; // "distance", as the colour bar names it
-  std::string unit;
-  ColourMap colours;
-  Scale scale;
-};
 
 // What the picture's image area shows: at most 1024 pixels a side (whole blocks of pixels averaged, for
 // `turn` their first taken, since angles do not average), small frames enlarged by a whole factor.
@@ -29,15 +19,14 @@ struct PreviewImage {
   std::uint32_t enlargement; // picture pixels a value
 };
 
-PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &resolution,
-                           PreviewStyle::Scale scale);
+PreviewImage preview_image(std::span<const float> values, const glm::uvec2 &resolution, ColourScale scale);
 
 // The values that the ends of the colour bar stand for; of positive span, for constant and for empty images
 // too.
-Range preview_range(std::span<const float> values, PreviewStyle::Scale scale);
+Range preview_range(std::span<const float> values, ColourScale scale);
 
 // `values` is row-major, rows * columns values, NaN for none.
-Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution, const PreviewStyle &style,
-                    const std::string &title);
+Canvas draw_preview(std::span<const float> values, const glm::uvec2 &resolution, const Preview &preview,
+                    const std::string &unit, const std::string &title);
 
 } // namespace pmdsim

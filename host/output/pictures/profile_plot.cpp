@@ -26,18 +26,6 @@ Range value_range(std::span<const float> values) {
   return {range.min - room, range.max + room};
 }
 
-void draw_grid(Canvas &canvas, const Box &box, const Axis &columns, const Axis &values) {
-  for (const Tick &tick : columns.ticks) {
-    const double x = box.left + along(columns.range, tick.value, box.width);
-    canvas.line({x, box.top}, {x, box.bottom()}, light_grey);
-  }
-  for (const Tick &tick : values.ticks) {
-    const double y = box.bottom() - along(values.range, tick.value, box.height);
-    const Colour colour = tick.value == 0.0 ? Colour{0.55, 0.55, 0.55} : light_grey;
-    canvas.line({box.left, y}, {box.right(), y}, colour);
-  }
-}
-
 // A pixel whose neighbours hold no value would vanish as a line, so every run starts with a dot.
 void draw_line(Canvas &canvas, const Box &box, const Axis &columns, const Axis &axis,
                std::span<const float> values) {
@@ -72,16 +60,11 @@ Canvas draw_profile(std::span<const float> values, const glm::uvec2 &resolution,
       make_axis({-0.5, resolution.x - 0.5}, std::clamp(static_cast<int>(resolution.x), 2, 11));
 
   Canvas canvas(plot_width, plot_height);
-  const double left = std::round(52.0 + label_width(axis));
-  const Box box{left, 48.0, plot_width - left - 24.0, plot_height - 48.0 - 64.0};
+  const Box box = plot_box(plot_width, plot_height, 48.0, axis);
   canvas.title(box.left, 24.0, title);
-  draw_grid(canvas, box, columns, axis);
+  canvas.grid(box, columns, axis, {0.55, 0.55, 0.55});
   draw_line(canvas, box, columns, axis, row);
-  canvas.outline(box);
-  canvas.bottom_axis(box, columns);
-  canvas.left_axis(box, axis);
-  canvas.text(box.left + 0.5 * box.width, plot_height - 22.0, "column", Anchor::centre);
-  canvas.vertical_text(22.0, box.top + 0.5 * box.height, axis_title(quantity, unit, axis.exponent));
+  canvas.frame(box, columns, axis, "column", axis_title(quantity, unit, axis.exponent));
   if (std::none_of(row.begin(), row.end(), [](float value) { return std::isfinite(value); }))
     canvas.text(box.left + 0.5 * box.width, box.top + 0.5 * box.height, "no value in this row",
                 Anchor::centre);

@@ -57,24 +57,6 @@ Range range_of(const std::vector<const TradeoffPoint *> &points, const Value &va
   return range.max > 0.0 ? Range{0.5 * range.min, 2.0 * range.max} : Range{0.1, 10.0};
 }
 
-void draw_axes(Canvas &canvas, const Plot &plot, const std::string &device) {
-  const Box &box = plot.box;
-  for (const Tick &tick : plot.time_ms.ticks) {
-    const double x = box.left + along(plot.time_ms.range, tick.value, box.width);
-    canvas.line({x, box.top}, {x, box.bottom()}, light_grey);
-  }
-  for (const Tick &tick : plot.error_um.ticks) {
-    const double y = box.bottom() - along(plot.error_um.range, tick.value, box.height);
-    canvas.line({box.left, y}, {box.right(), y}, light_grey);
-  }
-  canvas.outline(box);
-  canvas.bottom_axis(box, plot.time_ms);
-  canvas.left_axis(box, plot.error_um);
-  canvas.text(box.left + 0.5 * box.width, tradeoff_height - 22.0,
-              fmt::format("median time of a frame on {} (ms)", device), Anchor::centre);
-  canvas.vertical_text(22.0, box.top + 0.5 * box.height, "largest distance error beside edges (µm)");
-}
-
 std::vector<Marker> markers_of(const Plot &plot, const std::vector<const TradeoffPoint *> &points) {
   std::vector<Marker> markers;
   for (const TradeoffPoint *point : points) {
@@ -179,15 +161,15 @@ Canvas draw_tradeoff(const Tradeoff &tradeoff) {
   const Axis time_ms =
       make_log_axis(range_of(points, [](const auto &point) { return point.time.median_ms; }));
   const Axis error_um = make_log_axis(range_of(points, shown_um));
-  const double left = std::round(52.0 + label_width(error_um));
-  const Plot plot{
-      {left, 76.0, tradeoff_width - left - 24.0, tradeoff_height - 76.0 - 64.0}, time_ms, error_um};
+  const Plot plot{plot_box(tradeoff_width, tradeoff_height, 76.0, error_um), time_ms, error_um};
 
   Canvas canvas(tradeoff_width, tradeoff_height);
   canvas.title(plot.box.left, 24.0,
                fmt::format("speed against accuracy, {}, {}",
                            std::filesystem::path(tradeoff.setup).filename().string(), tradeoff.sensor));
-  draw_axes(canvas, plot, tradeoff.device);
+  canvas.grid(plot.box, time_ms, error_um);
+  canvas.frame(plot.box, time_ms, error_um, fmt::format("median time of a frame on {} (ms)", tradeoff.device),
+               "largest distance error beside edges (µm)");
   const std::vector<Marker> markers = markers_of(plot, points);
   draw_front(canvas, markers, Sweep::modes, all_series[0].colour);
   draw_front(canvas, markers, Sweep::samples, all_series[3].colour);

@@ -10,18 +10,14 @@ namespace {
 // To (-period/2, +period/2].
 double wrapped(double value, double period) { return value - period * std::ceil(value / period - 0.5); }
 
-class Mean {
-public:
-  void add(double value) {
-    sum_ += value;
-    ++count_;
-  }
-  // NaN for no value at all.
-  double value() const { return sum_ / count_; }
+struct Mean {
+  double sum = 0.0, count = 0.0;
 
-private:
-  double sum_ = 0.0;
-  double count_ = 0.0;
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  double value() const { return sum / count; } // NaN for no value at all
 };
 
 double centre_mm(std::span<const float> deformation_mm, const glm::uvec2 &resolution) {
@@ -49,8 +45,7 @@ std::vector<float> deformation_mm(std::span<const float> bistatic_distance_m,
 
 DeformationStatistics statistics_of(std::span<const float> deformation_mm, const glm::uvec2 &resolution) {
   Mean mean, mean_square;
-  double min_mm = std::numeric_limits<double>::quiet_NaN();
-  double max_mm = min_mm;
+  double min_mm = std::numeric_limits<double>::quiet_NaN(), max_mm = min_mm;
   for (const float pixel_mm : deformation_mm) {
     if (std::isnan(pixel_mm))
       continue;

@@ -1,6 +1,6 @@
 #include "host/output/tables/tradeoff.h"
 
-#include "host/output/files/accuracy_record.h"
+#include "host/output/files/manifest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,39 +19,31 @@ bool is_beaten_by(const TradeoffPoint &point, const TradeoffPoint &other) {
   return other_time <= time && other_error <= error && (other_time < time || other_error < error);
 }
 
-// null where there is nothing.
-ordered_json json_of(bool there, const ordered_json &value) { return there ? value : ordered_json(nullptr); }
-ordered_json json_of(const std::optional<double> &value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-ordered_json samples_json(const TradeoffPoint &point) {
-  return point.adaptive_samples ? ordered_json("auto") : ordered_json(point.samples);
-}
+ordered_json null_unless(bool there, const ordered_json &value) { return there ? value : nullptr; }
 
 ordered_json point_json(const TradeoffPoint &point) {
   const bool measured = point.refusal.empty();
   return {{"sweep", point.sweep == Sweep::modes ? "modes" : "samples"},
           {"mode", mode_name(point.accuracy.mode)},
-          {"max_error_m", json_of(point.accuracy.mode != Mode::exact, point.accuracy.max_error_m)},
-          {"precision", json_of(measured, precision_name(point.report.precision))},
-          {"diodes", json_of(measured, point.report.diodes)},
-          {"samples", samples_json(point)},
+          {"max_error_m", null_unless(point.accuracy.mode != Mode::exact, point.accuracy.max_error_m)},
+          {"precision", null_unless(measured, precision_name(point.report.precision))},
+          {"diodes", null_unless(measured, point.report.diodes)},
+          {"samples", point.adaptive_samples ? ordered_json("auto") : ordered_json(point.samples)},
           {"reference_samples", point.reference_samples},
-          {"frame_ms", json_of(measured, point.time.median_ms)},
-          {"frame_ms_min", json_of(measured, point.time.min_ms)},
-          {"frame_ms_max", json_of(measured, point.time.max_ms)},
+          {"frame_ms", null_unless(measured, point.time.median_ms)},
+          {"frame_ms_min", null_unless(measured, point.time.min_ms)},
+          {"frame_ms_max", null_unless(measured, point.time.max_ms)},
           {"pixels", point.smooth.pixels},
-          {"error_max_m", json_of(point.smooth.max_m)},
-          {"error_rms_m", json_of(point.smooth.rms_m)},
+          {"error_max_m", or_null(point.smooth.max_m)},
+          {"error_rms_m", or_null(point.smooth.rms_m)},
           {"edge_pixels", point.edges.pixels},
-          {"edge_error_max_m", json_of(point.edges.max_m)},
-          {"edge_error_rms_m", json_of(point.edges.rms_m)},
-          {"error_claimed_m", json_of(point.report.claimed_m)},
-          {"error_found_m", json_of(point.report.found_m)},
-          {"check_ms", json_of(point.report.checked_pixels > 0, point.report.check_ms)},
+          {"edge_error_max_m", or_null(point.edges.max_m)},
+          {"edge_error_rms_m", or_null(point.edges.rms_m)},
+          {"error_claimed_m", or_null(point.report.claimed_m)},
+          {"error_found_m", or_null(point.report.found_m)},
+          {"check_ms", null_unless(point.report.checked_pixels > 0, point.report.check_ms)},
           {"pareto", point.pareto},
-          {"refused", json_of(!measured, point.refusal)}};
+          {"refused", null_unless(!measured, point.refusal)}};
 }
 
 std::string csv_field(const ordered_json &value) {
@@ -197,14 +189,11 @@ void mark_pareto(std::vector<TradeoffPoint> &points) {
 }
 
 ordered_json tradeoff_json(const Tradeoff &tradeoff) {
-  ordered_json points = ordered_json::array();
-  for (const TradeoffPoint &point : tradeoff.points)
-    points.push_back(point_json(point));
   return {{"setup", tradeoff.setup},
           {"sensor", tradeoff.sensor},
           {"device", tradeoff.device},
           {"driver", tradeoff.driver},
-          {"points", points}};
+          {"points", array_of(tradeoff.points, point_json)}};
 }
 
 std::string tradeoff_csv(const Tradeoff &tradeoff) {

@@ -1,7 +1,7 @@
 // What is said of how exact frames are.
 
 #include "host/bench/timing.h"
-#include "host/output/files/accuracy_record.h"
+#include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
 #include <catch2/catch.hpp>

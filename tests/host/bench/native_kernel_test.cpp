@@ -1,6 +1,6 @@
 // The yardstick of the benchmark: its sums against double, and what it chooses to sum.
 
-#include "host/bench/native/kernel_work.h"
+#include "host/bench/native/native_bench.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -57,10 +57,9 @@ TEST_CASE("native sums of every instruction set here are those in double") {
         INFO(sums->instructions << ", " << points << " points, " << threads << " threads");
         NativeKernel kernel(random_work(points, 37, 1), *sums, threads);
         CHECK(kernel.interactions() == static_cast<double>(37 * points));
-        kernel.run_s(NativeForm::moments);
+        kernel.run_s(sums->by_moments);
         CHECK(kernel.error_max_m() < 3e-6);
-        kernel.set_series_powers(12);
-        kernel.run_s(NativeForm::series);
+        kernel.run_s(sums->by_series[3].sum);
         CHECK(kernel.error_max_m() < 3e-6);
       }
 }
@@ -71,7 +70,7 @@ TEST_CASE("the native sum's third moment counts") {
   NativeWork work{{{1.0, 0.0, 1.0}}, {{{0.2, 0.0, 0.0}, 1.0}, {{-0.05, 0.0, 0.0}, 4.0}}, 48e6};
   for (const NativeSums *sums : available_native_sums()) {
     NativeKernel kernel(work, *sums, 1);
-    kernel.run_s(NativeForm::moments);
+    kernel.run_s(sums->by_moments);
     CHECK(kernel.error_max_m() < 3e-6);
   }
 }
@@ -79,10 +78,9 @@ TEST_CASE("the native sum's third moment counts") {
 TEST_CASE("each power that the native series takes brings it closer") {
   NativeKernel kernel(random_work(500, 20, 2), *available_native_sums().front(), 2);
   double before_m = 1.0;
-  for (const std::size_t powers : {4u, 6u, 8u, 12u}) {
+  for (const auto &[powers, sum] : kernel.sums().by_series) {
     INFO(powers);
-    kernel.set_series_powers(powers);
-    kernel.run_s(NativeForm::series);
+    kernel.run_s(sum);
     CHECK(kernel.error_max_m() < before_m / 3);
     before_m = kernel.error_max_m();
   }
@@ -99,11 +97,12 @@ TEST_CASE("the native ring and wall are the paper's") {
   CHECK(work.points_m.front().x == Approx(-0.2 + 0.2 / 640));
   CHECK(work.points_m.back().y == Approx(0.2 - 0.2 / 640));
   REQUIRE(work.diodes.size() == 240);
-  const auto kernel = checked_kernel({work, "test"}, *available_native_sums().front(), 2);
-  CHECK(kernel.points == "test");
-  CHECK(kernel.kernel.series_powers() == 4);
-  CHECK(kernel.moments_error_m < 0.5e-6);
-  CHECK(kernel.series_error_m.value() < 1e-6);
+  const auto bench = checked_bench({work, "test"}, *available_native_sums().front(), 2);
+  CHECK(bench.points == "test");
+  REQUIRE(bench.series);
+  CHECK(bench.series->powers == 4);
+  CHECK(bench.moments_error_m < 0.5e-6);
+  CHECK(bench.series_error_m < 1e-6);
 }
 
 TEST_CASE("the native kernel takes the setup's points and diodes where it models the setup") {
@@ -158,7 +157,7 @@ TEST_CASE("where four moments do not do, the native kernel takes the ring and th
   NativeWork wide = random_work(100, 20, 4);
   for (auto &diode : wide.diodes)
     diode.position_m *= 10.0;
-  const auto kernel = checked_kernel({wide, "test"}, *available_native_sums().front(), 1);
-  CHECK(kernel.points == "a ring's diodes and a wall's points, as the setup takes more moments");
-  CHECK(kernel.kernel.points() == 640 * 640);
+  const auto bench = checked_bench({wide, "test"}, *available_native_sums().front(), 1);
+  CHECK(bench.points == "a ring's diodes and a wall's points, as the setup takes more moments");
+  CHECK(bench.kernel.points() == 640 * 640);
 }

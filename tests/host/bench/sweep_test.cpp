@@ -60,13 +60,13 @@ TEST_CASE("the sweep's ring is scenes/paper_ring.json") {
 }
 
 TEST_CASE("a sweep changes its own quantity and nothing else") {
-  for (const SweptQuantity quantity : swept_quantities)
-    for (const SweepPoint &point : sweep_points(quantity)) {
+  for (const std::vector<SweepPoint> &points : all_sweeps())
+    for (const SweepPoint &point : points) {
       INFO(point.name());
       const Setup setup = swept_setup(point);
       const Sensor &sensor = setup.start.sensors.front();
       const auto is = [&](SweptQuantity other, std::uint32_t usual) {
-        return quantity == other ? point.value : usual;
+        return point.quantity == other ? point.value : usual;
       };
       CHECK(sensor.resolution == glm::uvec2(is(SweptQuantity::resolution, 640)));
       CHECK(sensor.pixel_pitch_m.x * sensor.resolution.x == Approx(640 * 45e-6)); // the same view
@@ -92,8 +92,7 @@ TEST_CASE("a wall of many triangles is the wall, once over") {
 }
 
 TEST_CASE("sweeps go up, and their units are what time may grow with") {
-  for (const SweptQuantity quantity : swept_quantities) {
-    const auto points = sweep_points(quantity);
+  for (const std::vector<SweepPoint> &points : all_sweeps()) {
     CHECK(points.size() >= 4);
     CHECK(std::ranges::is_sorted(points, {}, &SweepPoint::value));
   }

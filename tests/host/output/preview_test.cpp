@@ -15,7 +15,7 @@ using pmdsim::test::count_pixels;
 
 namespace {
 
-using Scale = PreviewStyle::Scale;
+using Scale = ColourScale;
 
 int area_of(Canvas &canvas, std::uint32_t colour) {
   return count_pixels(canvas, [=](std::uint32_t pixel) { return pixel == colour; });
@@ -71,30 +71,30 @@ TEST_CASE("constant and empty images have a range of some extent about their val
 }
 
 TEST_CASE("a preview shows its pixels' colours, and grey with a legend where there is no value") {
-  const PreviewStyle style{"deformation", "mm", blue_white_red, Scale::zero_centred};
-  Canvas full = draw_preview(std::vector{-1.0f, 1.0f}, {2, 1}, style, "title");
+  const Preview preview{"deformation", Scale::zero_centred};
+  Canvas full = draw_preview(std::vector{-1.0f, 1.0f}, {2, 1}, preview, "mm", "title");
   constexpr int pixel_area = 256 * 256;
   CHECK(area_of(full, 0x00509b) >= pixel_area);
   CHECK(area_of(full, 0x8e240f) >= pixel_area);
   CHECK(area_of(full, grey) < 100); // of the edges of letters
-  Canvas gap = draw_preview(std::vector{-1.0f, nan_value}, {2, 1}, style, "title");
+  Canvas gap = draw_preview(std::vector{-1.0f, nan_value}, {2, 1}, preview, "mm", "title");
   CHECK(area_of(gap, 0x00509b) >= pixel_area);
   CHECK(area_of(gap, grey) >= pixel_area + 14 * 14);
 }
 
 TEST_CASE("shares have the colours of a scale from 0 to 1, whatever is in the frame") {
-  const PreviewStyle style{"lit", "", viridis, Scale::share};
-  Canvas none = draw_preview(std::vector{0.0f, 0.0f}, {2, 1}, style, "title");
+  const Preview preview{"lit", Scale::share};
+  Canvas none = draw_preview(std::vector{0.0f, 0.0f}, {2, 1}, preview, "", "title");
   CHECK(area_of(none, 0x440154) >= 2 * 256 * 256);
-  Canvas all = draw_preview(std::vector{1.0f, 1.0f}, {2, 1}, style, "title");
+  Canvas all = draw_preview(std::vector{1.0f, 1.0f}, {2, 1}, preview, "", "title");
   CHECK(area_of(all, 0xfde725) >= 2 * 256 * 256);
 }
 
 TEST_CASE("frames of extreme shapes can be drawn") {
-  const PreviewStyle style{"distance", "m", viridis, Scale::sequential};
+  const Preview preview{"distance", Scale::sequential};
   for (const glm::uvec2 resolution : {glm::uvec2(1, 1), glm::uvec2(3000, 1), glm::uvec2(1, 3000)}) {
     const std::vector<float> values(std::size_t{resolution.x} * resolution.y, 2.0f);
-    const Canvas canvas = draw_preview(values, resolution, style, "title");
+    const Canvas canvas = draw_preview(values, resolution, preview, "m", "title");
     CHECK(canvas.width() < 1400);
     CHECK(canvas.height() < 1400);
   }
@@ -103,8 +103,7 @@ TEST_CASE("frames of extreme shapes can be drawn") {
 TEST_CASE("a preview is written as PNG") {
   const pmdsim::test::TemporaryFolder temporary;
   OutputFile file(temporary.path() / "preview.png");
-  draw_preview(std::vector{1.0f}, {1, 1}, {"distance", "m", viridis, Scale::sequential}, "title")
-      .write_png(file);
+  draw_preview(std::vector{1.0f}, {1, 1}, {"distance", Scale::sequential}, "m", "title").write_png(file);
   file.close();
   file.publish();
   const std::string bytes = content_of(file.path());

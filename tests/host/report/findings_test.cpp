@@ -123,14 +123,12 @@ TEST_CASE("check adds up the diodes of each illuminator and of all") {
 
 TEST_CASE("check tells what can cast shadows") {
   Setup setup = setup_of(wide_sensor(), wall_at(2.0));
-  CHECK(findings_of(setup).shadows == Shadows::automatic);
   CHECK(findings_of(setup).shadow_casters == 2);
   setup.start.scene.triangles.pop_back();
   CHECK(findings_of(setup).shadow_casters == 0); // nothing stands in its own light
   setup.start.scene.discs.push_back({0, 0.1, 0, 0});
   CHECK(findings_of(setup).shadow_casters == 2);
   setup.shadows = Shadows::off;
-  CHECK(findings_of(setup).shadows == Shadows::off);
   CHECK(findings_of(setup).shadow_casters == 0);
 }
 
@@ -150,10 +148,10 @@ TEST_CASE("check warns of each frequency whose ambiguity range ends before what 
   const Setup setup = setup_of(sensor, builder.scene());
   const Findings findings = findings_of(setup);
   REQUIRE(findings.sensors.size() == 1);
-  CHECK(findings.sensors[0].frequencies[0].share_beyond == Approx(0.5));
-  CHECK(findings.sensors[0].frequencies[1].share_beyond == 0.0);
+  CHECK(findings.sensors[0].shares_beyond[0] == Approx(0.5));
+  CHECK(findings.sensors[0].shares_beyond[1] == 0.0);
   CHECK(findings.sensors[0].visible.min_m == Approx(0.5).epsilon(1e-3));
-  const std::vector<std::string> warnings = warnings_of(findings);
+  const std::vector<std::string> warnings = warnings_of(setup, findings);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::StartsWith("sensor pmd at 100 MHz: what is visible lies 0.5"));
   CHECK_THAT(warnings[0],
@@ -166,12 +164,11 @@ TEST_CASE("check warns of taps that take longer than the frames leave them") {
   sensor.tap_interval_s = 2.5e-3; // 8 of them are the 20 ms of a frame
   Setup setup = setup_of(sensor, wall_at(2.0));
   setup.frames = {0.0, 50.0, 2};
-  CHECK(warnings_of(findings_of(setup)).empty());
-  CHECK_FALSE(findings_of(setup).moves);
+  CHECK(warnings_of(setup, findings_of(setup)).empty());
   setup.frames.rate_hz = 51.0;
-  const std::vector<std::string> warnings = warnings_of(findings_of(setup));
+  const std::vector<std::string> warnings = warnings_of(setup, findings_of(setup));
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::StartsWith("sensor pmd: its taps take 0.02 s, longer than the 0.0196078 s"));
   setup.frames.count = 1;
-  CHECK(warnings_of(findings_of(setup)).empty());
+  CHECK(warnings_of(setup, findings_of(setup)).empty());
 }

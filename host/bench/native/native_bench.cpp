@@ -1,11 +1,13 @@
-#include "host/bench/native/kernel_work.h"
+#include "host/bench/native/native_bench.h"
 
 #include "engine/lens/lens.h"
 #include "engine/model/error.h"
+#include "host/capture/camera.h"
+#include "host/input/setup/sample_choice.h"
+#include "host/report/findings.h"
 #include "host/report/report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -16,7 +18,8 @@ namespace {
 // What float32 keeps of distances of some tens of metres.
 constexpr double largest_error_m = 10e-6;
 constexpr double largest_series_error_m = 1e-6; // beyond that of the moments
-constexpr std::array<std::size_t, 4> series_powers{4, 6, 8, 12};
+// Enough for every thread, and little enough to be run in every round.
+constexpr double most_interactions = 2e8;
 
 // Why the kernel does not model the setup; empty where it does.
 std::string not_modelled(const Setup &setup, const Sensor &sensor, const Measurement &measurement) {
@@ -69,14 +72,32 @@ ChosenWork ring_and_wall_because(const std::string &reason) {
   return {ring_and_wall(), "a ring's diodes and a wall's points, as " + reason};
 }
 
-std::optional<double> settle_series(NativeKernel &kernel, double moments_error_m) {
-  for (const std::size_t powers : series_powers) {
-    kernel.set_series_powers(powers);
-    kernel.run_s(NativeForm::series);
-    if (const double error_m = kernel.error_max_m(); error_m <= moments_error_m + largest_series_error_m)
-      return error_m;
+ChosenWork work_of(const Setup &setup, const std::string &device) {
+  const auto &[scene, sensors, illuminators] = setup.start;
+  Sensor sensor = sensors.front();
+  set_samples(sensor, {.samples = 1});
+  const double interactions =
+      static_cast<double>(sensor.pixel_count()) * static_cast<double>(diode_count(illuminators));
+  sensor = coarser(sensor, std::sqrt(interactions / most_interactions));
+  Camera camera(device);
+  camera.prepare(scene, sensor, illuminators, setup.backscatter, setup.shadows);
+  return native_work(setup, sensor, camera.measure());
+}
+
+void find_series(NativeBench &bench, const NativeSums &sums) {
+  for (const NativeSeries &series : sums.by_series) {
+    bench.kernel.run_s(series.sum);
+    bench.series_error_m = bench.kernel.error_max_m();
+    if (bench.series_error_m <= bench.moments_error_m + largest_series_error_m) {
+      bench.series = &series;
+      return;
+    }
   }
-  return std::nullopt;
+}
+
+double rate(NativeKernel &kernel, NativeSum sum) {
+  kernel.run_s(sum);
+  return kernel.interactions() / kernel.run_s(sum);
 }
 
 } // namespace
@@ -109,20 +130,30 @@ ChosenWork native_work(const Setup &setup, const Sensor &sensor, const Measureme
   return {work, "the setup's diodes and points"};
 }
 
-CheckedKernel checked_kernel(const ChosenWork &chosen, const NativeSums &sums, unsigned threads) {
-  CheckedKernel checked{NativeKernel(chosen.work, sums, threads), chosen.points, 0.0, std::nullopt};
-  checked.kernel.run_s(NativeForm::moments);
-  checked.moments_error_m = checked.kernel.error_max_m();
-  if (checked.moments_error_m <= largest_error_m) {
-    checked.series_error_m = settle_series(checked.kernel, checked.moments_error_m);
-    return checked;
+NativeBench checked_bench(const ChosenWork &chosen, const NativeSums &sums, unsigned threads) {
+  NativeBench bench{NativeKernel(chosen.work, sums, threads), chosen.points};
+  bench.kernel.run_s(sums.by_moments);
+  bench.moments_error_m = bench.kernel.error_max_m();
+  if (bench.moments_error_m <= largest_error_m) {
+    find_series(bench, sums);
+    return bench;
   }
   const ChosenWork other = ring_and_wall_because("the setup takes more moments");
   if (chosen.points == other.points)
     throw Error(ExitCode::internal,
                 fmt::format("the native kernel is off by {}; expected at most {}",
-                            micrometres_text(checked.moments_error_m), micrometres_text(largest_error_m)));
-  return checked_kernel(other, sums, threads);
+                            micrometres_text(bench.moments_error_m), micrometres_text(largest_error_m)));
+  return checked_bench(other, sums, threads);
+}
+
+NativeBench native_bench(const Setup &setup, const std::string &device) {
+  return checked_bench(work_of(setup, device), *available_native_sums().front(), native_threads());
+}
+
+void NativeBench::run() {
+  moments_per_s.push_back(rate(kernel, kernel.sums().by_moments));
+  if (series)
+    series_per_s.push_back(rate(kernel, series->sum));
 }
 
 } // namespace pmdsim

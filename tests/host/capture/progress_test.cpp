@@ -1,4 +1,4 @@
-#include "host/capture/progress_bar.h"
+#include "host/capture/progress.h"
 
 #include <catch2/catch.hpp>
 

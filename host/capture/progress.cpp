@@ -1,15 +1,22 @@
-#include "host/capture/progress_bar.h"
+#include "host/capture/progress.h"
 
-#include "host/capture/interruption.h"
+#include "engine/model/error.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <csignal>
 #include <fmt/format.h>
 #include <unistd.h>
 #include <utility>
 
 namespace pmdsim {
 namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+void remember(int) { interrupted = true; }
 
 constexpr auto least_interval = std::chrono::milliseconds(100);
 constexpr const char *clear_line = "\r\x1b[K";
@@ -22,6 +29,19 @@ std::string time_text(double time_s) {
 }
 
 } // namespace
+
+void stop_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = remember;
+  action.sa_flags = SA_RESTART; // writes under way go on; the flag is looked at between them
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void throw_if_interrupted() {
+  if (interrupted)
+    throw Error(ExitCode::interrupted, "interrupted");
+}
 
 ProgressBar::ProgressBar(double work) : work_(work), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 

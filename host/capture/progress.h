@@ -1,5 +1,7 @@
 #pragma once
-// A bar on stderr with the time left, only where stderr is a terminal. Debian 12 has no library for it.
+// What a long command says and hears meanwhile: a bar on stderr with the time left, only where stderr is a
+// terminal, and SIGINT and SIGTERM, which become an Error at the next safe point, so that destructors clean
+// up.
 
 #include <chrono>
 #include <functional>
@@ -7,7 +9,14 @@
 
 namespace pmdsim {
 
-// Of a command's steps, one after the other. Shown from the first update on; cleared when it dies.
+// Installs the handlers of the signals; once, at the start.
+void stop_on_signals();
+
+// Throws Error (interrupted) where a signal has come.
+void throw_if_interrupted();
+
+// Of a command's steps, one after the other. Shown from the first update on; cleared when it dies. Debian 12
+// has no library for it.
 class ProgressBar {
 public:
   // `work` is that of all steps together, in any unit.
