@@ -180,16 +180,15 @@ std::vector<ReferenceFrame> reference_frames(const Setup &setup) {
 
 std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::vector<ReferenceFrame> &truth,
                                           const std::string &device, const Accuracy &accuracy) {
-  const auto &[scene, sensors, illuminators] = setup.start;
   Camera camera(device, {.sample_triangles = true, .reached = setup.shadows == Shadows::automatic});
   std::vector<AccuracyCheck> checks;
   ProgressBar bar(static_cast<double>(truth.size()));
   for (const auto &[sensor, frame] : truth) {
-    camera.prepare(scene, sensor, illuminators, setup.backscatter, setup.shadows, accuracy);
+    camera.prepare(setup, sensor, accuracy);
     bar.begin("measuring what is checked", 1.0);
     const Measurement found = camera.measure(interruptible_progress(bar));
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
-      checks.push_back(compare(found, frame, sensor, i, diode_count(illuminators)));
+      checks.push_back(compare(found, frame, sensor, i, diode_count(setup.start.illuminators)));
   }
   return checks;
 }

@@ -18,8 +18,11 @@ namespace pmdsim {
 namespace {
 
 // What Vulkan's loader, Mesa and the program read.
-constexpr std::array always_told{"LP_NATIVE_VECTOR_WIDTH", "LP_NUM_THREADS", "MESA_SHADER_CACHE_DIR"};
-constexpr std::array variables{"MESA_SHADER_CACHE_DISABLE",
+constexpr std::size_t always_told = 3; // the first of them, whether or not they are set
+constexpr std::array variables{"LP_NATIVE_VECTOR_WIDTH",
+                               "LP_NUM_THREADS",
+                               "MESA_SHADER_CACHE_DIR",
+                               "MESA_SHADER_CACHE_DISABLE",
                                "MESA_GLSL_CACHE_DIR",
                                "MESA_GLSL_CACHE_DISABLE",
                                "XDG_CACHE_HOME",
@@ -45,13 +48,12 @@ std::string processor_name() {
 
 nlohmann::ordered_json environment() {
   nlohmann::ordered_json set = nlohmann::ordered_json::object();
-  for (const char *name : always_told) {
-    const char *value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nothing changes it meanwhile
-    set[name] = value ? nlohmann::ordered_json(value) : nullptr;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const char *value =
+        std::getenv(variables[i]); // NOLINT(concurrency-mt-unsafe): nothing changes it meanwhile
+    if (value || i < always_told)
+      set[variables[i]] = value ? nlohmann::ordered_json(value) : nullptr;
   }
-  for (const char *name : variables)
-    if (const char *value = std::getenv(name)) // NOLINT(concurrency-mt-unsafe): nothing changes it meanwhile
-      set[name] = value;
   return set;
 }
 

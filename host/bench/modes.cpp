@@ -84,14 +84,13 @@ private:
   }
 
   double prepare_ms(const Accuracy &accuracy) const {
-    const auto &[scene, sensors, illuminators] = setup_.start;
     Camera camera(request_.device);
     double sum_ms = 0.0;
-    for (const Sensor &sensor : sensors) {
+    for (const Sensor &sensor : setup_.start.sensors) {
       std::vector<double> times_ms;
       for (int i = 0; i <= prepared_times; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        camera.prepare(scene, sensor, illuminators, setup_.backscatter, setup_.shadows, accuracy);
+        camera.prepare(setup_, sensor, accuracy);
         if (i > 0)
           times_ms.push_back(ms_since(start));
       }

@@ -63,9 +63,8 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
   const auto frames_per_s = [&](const std::string &what, const std::set<Format> &formats) {
     const auto start = std::chrono::steady_clock::now();
     const Camera &camera = exposures.camera();
-    FrameSequence sequence(
-        several, {0, frames}, directory.path() / "frames",
-        {"render", camera.device(), camera.driver(), request.accuracy, several.as_used, {}});
+    FrameSequence sequence(several, {0, frames}, directory.path() / "frames",
+                           {"render", camera.device(), camera.driver(), request.accuracy, several.as_used});
     const auto measure = [&](const SensorFrame &at) {
       const std::string label = fmt::format("{}, {}", what, at.label);
       return rendered_frame(exposures.share(take(label, at.sensor, at.time_s, at.next_s)), at, formats);

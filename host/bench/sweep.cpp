@@ -61,9 +61,7 @@ private:
   // The time that it takes.
   double prepare(std::size_t i) {
     const auto start = std::chrono::steady_clock::now();
-    const auto &[scene, sensors, illuminators] = setups_[i].start;
-    camera_->prepare(scene, sensors.front(), illuminators, setups_[i].backscatter, setups_[i].shadows,
-                     request_.accuracy);
+    camera_->prepare(setups_[i], setups_[i].start.sensors.front(), request_.accuracy);
     return ms_since(start);
   }
 
@@ -135,14 +133,6 @@ StraightLine straight_line(std::span<const SizeAndTime> points) {
   return line;
 }
 
-std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points) {
-  std::vector<double> costs_ms;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    costs_ms.push_back(i == 0 ? std::numeric_limits<double>::quiet_NaN()
-                              : (points[i].ms - points[i - 1].ms) / (points[i].size - points[i - 1].size));
-  return costs_ms;
-}
-
 RandomCheck check_at_random(const Setup &setup, const Measurement &found, const std::string &device) {
   const auto &[scene, sensors, illuminators] = setup.start;
   const Sensor &sensor = sensors.front();
@@ -203,9 +193,11 @@ std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
       growths.push_back({row.point.quantity, {}, {}, {}});
     growths.back().points.push_back({row.point.units(), timing_of(row.frames).frame_ms.median});
   }
-  for (Growth &growth : growths) {
-    growth.line = straight_line(growth.points);
-    growth.marginal_ms = marginal_costs_ms(growth.points);
+  for (auto &[quantity, points, line, marginal_ms] : growths) {
+    line = straight_line(points);
+    marginal_ms = {std::numeric_limits<double>::quiet_NaN()};
+    for (std::size_t i = 1; i < points.size(); ++i)
+      marginal_ms.push_back((points[i].ms - points[i - 1].ms) / (points[i].size - points[i - 1].size));
   }
   return growths;
 }

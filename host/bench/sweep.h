@@ -1,8 +1,8 @@
 #pragma once
-// The benchmark's sweep: how the time of a frame grows with each quantity.
+// The benchmark's sweep: how the time of a frame grows with each quantity. Its setups are made in memory: the
+// paper's ring and wall (scenes/paper_ring.json) with one quantity changed at a time.
 
 #include "host/bench/accuracy_check.h"
-#include "host/bench/sweep_setups.h"
 #include "host/bench/timing.h"
 
 #include <cstdint>
@@ -11,6 +11,35 @@
 #include <vector>
 
 namespace pmdsim {
+
+enum class SweptQuantity { resolution, diodes, samples, triangles, frequencies };
+
+struct SweptRow {
+  std::string name; // "resolution"
+  std::string unit; // what the time of a frame may be expected to grow with: "pixels", "diodes", ...
+  bool squared;     // whether there are as many of these as the value's square
+  std::vector<std::uint32_t> values; // columns and rows, diodes, S, triangles, frequencies; ascending
+};
+const SweptRow &row_of(SweptQuantity quantity);
+
+struct SweepPoint {
+  SweptQuantity quantity;
+  std::uint32_t value;
+
+  std::string name() const; // "resolution 160"
+  double units() const;
+};
+
+// The points of each quantity.
+std::vector<std::vector<SweepPoint>> all_sweeps();
+
+// A wall of 0.4 x 0.4 m that fills the view of 640 x 640 pixels at 2 m, lit by 240 isotropic diodes in five
+// rings; constant backscatter, one sample a pixel, 20 MHz.
+Setup paper_ring();
+
+// That with the point's value in place of its own. More pixels are smaller, diodes share the rings' radii,
+// triangles are a grid on the wall (their number even, and a rectangle's), frequencies are 2.5 MHz apart.
+Setup swept_setup(const SweepPoint &point);
 
 struct SizeAndTime {
   double size, ms;
@@ -25,9 +54,6 @@ struct StraightLine {
 
 // Of at least one point of positive size and time; one alone has no fixed part.
 StraightLine straight_line(std::span<const SizeAndTime> points);
-
-// What each point took more than the one before it, a unit of size; NaN of the first.
-std::vector<double> marginal_costs_ms(std::span<const SizeAndTime> points);
 
 struct SweepRow {
   SweepPoint point;
@@ -62,7 +88,8 @@ struct Growth {
   SweptQuantity quantity;
   std::vector<SizeAndTime> points;
   StraightLine line;
-  std::vector<double> marginal_ms; // beside the points
+  std::vector<double>
+      marginal_ms; // beside the points: more than the one before took, a unit of size; NaN first
 };
 std::vector<Growth> growths_of(const std::vector<SweepRow> &rows);
 

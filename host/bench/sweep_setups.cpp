@@ -1,4 +1,4 @@
-#include "host/bench/sweep_setups.h"
+#include "host/bench/sweep.h"
 
 #include <array>
 #include <cmath>

@@ -10,15 +10,6 @@
 #include <utility>
 
 namespace pmdsim {
-namespace {
-
-bool validation_is_asked_for() {
-  // The program never changes its environment.
-  const char *value = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
-  return value && std::string_view(value) == "1";
-}
-
-} // namespace
 
 bool names_the_reference(const std::string &device) {
   return std::ranges::equal(device, std::string_view("reference"), {},
@@ -36,7 +27,9 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.keep_sample_tags = extras.sample_triangles;
   options.keep_reached = extras.reached;
   options.keep_taps = extras.taps;
-  options.validate = validation_is_asked_for();
+  // The program never changes its environment any more.
+  const char *validate = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
+  options.validate = validate && std::string_view(validate) == "1";
   simulator_.emplace(options);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;
@@ -48,6 +41,10 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
   prepared_ = {&scene, sensor, illuminators, backscatter, shadows};
   if (simulator_)
     simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
+}
+
+void Camera::prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy) {
+  prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter, setup.shadows, accuracy);
 }
 
 std::vector<std::pair<std::string, std::string>> Camera::path() const {

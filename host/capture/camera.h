@@ -7,6 +7,7 @@
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
 #include "engine/simulator.h"
+#include "host/input/setup/setup.h"
 
 #include <optional>
 #include <string>
@@ -38,6 +39,8 @@ public:
   // What follows measures this. `scene` must outlive it. The reference is always as exact as it can be.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
+  // The setup, which must outlive it, at its start.
+  void prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy = {});
   // As Simulator::path(); nothing of the reference.
   std::vector<std::pair<std::string, std::string>> path() const;
   // One frame. Throws Error, interrupted among others.

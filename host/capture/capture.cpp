@@ -43,12 +43,8 @@ Capture::Capture(const CaptureRequest &request, const std::string &command, bool
     : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       exposures_(setup_, request.device, keep_taps, request.accuracy),
       sequence_(setup_, frames_, request.output_directory,
-                {command,
-                 exposures_.camera().device(),
-                 exposures_.camera().driver(),
-                 request.accuracy,
-                 setup_.as_used,
-                 {}}),
+                {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
+                 setup_.as_used}),
       exposures_of_sample_(exposures_of_sample) {}
 
 std::string Capture::device_text() const {

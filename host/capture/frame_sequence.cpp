@@ -60,20 +60,18 @@ void FrameSequence::write_all(const Measure &measure, std::size_t part_bytes) {
       [&](std::size_t, const MeasuredPart &measured) {
         return WrittenPart{measured.record, write_files(directory_, measured.files())};
       },
-      [&](std::size_t i, WrittenPart written) {
-        add(std::move(written));
-        if (const SensorFrame at = part(i); at.sensor + 1 == setup_.start.sensors.size())
-          publish(at.frame);
-      });
+      [&](std::size_t i, WrittenPart written) { add(part(i), std::move(written)); });
 }
 
-void FrameSequence::add(WrittenPart part) {
+void FrameSequence::add(const SensorFrame &at, WrittenPart part) {
   if (!files_)
     files_ = std::make_unique<OutputSet>(directory_);
   for (const auto &file : part.files)
     part.record.outputs.push_back(file->path().filename().string());
   files_->add(std::move(part.files));
   run_.frames.push_back(std::move(part.record));
+  if (at.sensor + 1 == setup_.start.sensors.size())
+    publish(at.frame);
 }
 
 void FrameSequence::publish(std::uint32_t frame) {

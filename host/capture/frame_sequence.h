@@ -75,7 +75,7 @@ private:
 
   void write_all(const Measure &measure, std::size_t part_bytes);
   SensorFrame part(std::size_t index) const;
-  void add(WrittenPart part);
+  void add(const SensorFrame &at, WrittenPart part);
   void publish(std::uint32_t frame);
   bool keep_whole_frames() noexcept;
 

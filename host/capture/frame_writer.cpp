@@ -2,8 +2,6 @@
 
 #include "engine/model/error.h"
 #include "host/capture/progress.h"
-#include "host/output/files/exr_writer.h"
-#include "host/output/files/npy_writer.h"
 #include "host/output/pictures/preview.h"
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"

@@ -2,7 +2,7 @@
 #include "host/capture/progress.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
-#include "host/output/pictures/profile_plot.h"
+#include "host/output/pictures/plots.h"
 #include "host/output/tables/deformation.h"
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"

@@ -1,5 +1,5 @@
 #include "host/output/tables/tradeoff.h"
-#include "host/output/pictures/tradeoff_plot.h"
+#include "host/output/pictures/plots.h"
 
 #include "engine/model/error.h"
 #include "host/bench/distance_errors.h"
@@ -30,13 +30,11 @@ constexpr std::array swept_errors_m{1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
 
 TradeoffPoint point(Sweep sweep, const Accuracy &accuracy, const SampleChoice &choice,
                     std::uint32_t reference_samples) {
-  TradeoffPoint point;
-  point.sweep = sweep;
-  point.accuracy = accuracy;
-  point.samples = choice.samples;
-  point.adaptive_samples = choice.adaptive;
-  point.reference_samples = reference_samples;
-  return point;
+  return {.sweep = sweep,
+          .accuracy = accuracy,
+          .samples = choice.samples,
+          .adaptive_samples = choice.adaptive,
+          .reference_samples = reference_samples};
 }
 
 // Nothing of them is measured yet.
@@ -46,12 +44,9 @@ std::vector<TradeoffPoint> planned_points(const Sensor &sensor) {
   for (const Precision precision : {Precision::fp32, Precision::fp64})
     points.push_back(point(Sweep::modes, {.mode = Mode::exact, .precision = precision}, own, own.samples));
   for (const Mode mode : {Mode::reduced, Mode::automatic})
-    for (const double error_m : swept_errors_m) {
-      Accuracy accuracy;
-      accuracy.mode = mode;
-      accuracy.max_error_m = error_m;
-      points.push_back(point(Sweep::modes, accuracy, own, own.samples));
-    }
+    for (const double error_m : swept_errors_m)
+      points.push_back(
+          point(Sweep::modes, {.mode = mode, .precision = {}, .max_error_m = error_m}, own, own.samples));
   for (const SampleChoice &choice : swept_samples)
     points.push_back(point(Sweep::samples, {}, choice, finest_samples));
   return points;
@@ -102,11 +97,6 @@ private:
     return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
   }
 
-  void prepare(Camera &camera, const Sensor &sensor, const Accuracy &accuracy) {
-    camera.prepare(setup_.start.scene, sensor, setup_.start.illuminators, setup_.backscatter, setup_.shadows,
-                   accuracy);
-  }
-
   // What the point is compared with; as it is where the one before has the same.
   void find_truth(const TradeoffPoint &point) {
     if (!truth_ || truth_->sensor.samples != point.reference_samples) {
@@ -116,7 +106,7 @@ private:
     if (edges_of_samples_ == point.samples)
       return;
     const Sensor sensor = with_samples({point.samples});
-    prepare(tagging_camera_, sensor, {});
+    tagging_camera_.prepare(setup_, sensor);
     bar_.begin(fmt::format("looking for edges, S = {}", point.samples), samples_of(sensor));
     edges_ = on_edges(*truth_, tagging_camera_.measure(interruptible_progress(bar_)), point.samples,
                       diode_count(setup_.start.illuminators));
@@ -143,7 +133,7 @@ private:
     find_truth(point);
     const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
     try {
-      prepare(camera_, sensor, point.accuracy);
+      camera_.prepare(setup_, sensor, point.accuracy);
       const Measurement found = frame(point, sensor, "comparing");
       const ErrorsByPlace errors = distance_errors(*truth_, edges_, found);
       point.smooth = errors.smooth;
@@ -163,7 +153,7 @@ private:
         if (point.sweep != sweep || !point.refusal.empty())
           continue;
         const Sensor sensor = with_samples({point.samples, point.adaptive_samples});
-        prepare(camera_, sensor, point.accuracy);
+        camera_.prepare(setup_, sensor, point.accuracy);
         frame(point, sensor, fmt::format("warming up {}/{}", round, rounds));
         const Measurement timed = frame(point, sensor, fmt::format("timing {}/{}", round, rounds));
         frames_ms[i].push_back(timed.frame_ms);
@@ -197,10 +187,7 @@ std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff)
   add("tradeoff.png", [&](OutputFile &file) { draw_tradeoff(tradeoff).write_png(file); });
   throw_if_interrupted();
   files.publish();
-  std::vector<std::string> paths;
-  for (const std::string &name : files.names())
-    paths.push_back((files.directory() / name).string());
-  return paths;
+  return files.paths();
 }
 
 } // namespace

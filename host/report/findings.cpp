@@ -96,10 +96,10 @@ using DiagramAngles = std::map<const Diagram *, double>;
 double known_or_new_sr(const Pattern &pattern, DiagramAngles &known_sr) {
   if (!pattern.diagram)
     return reference::solid_angle_sr(pattern);
-  const auto [known, is_new] = known_sr.try_emplace(pattern.diagram.get(), 0.0);
-  if (is_new)
-    known->second = reference::solid_angle_sr(pattern);
-  return known->second;
+  double &known = known_sr[pattern.diagram.get()];
+  if (known == 0.0)
+    known = reference::solid_angle_sr(pattern);
+  return known;
 }
 
 LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &known_sr) {

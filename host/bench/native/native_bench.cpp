@@ -73,14 +73,13 @@ ChosenWork ring_and_wall_because(const std::string &reason) {
 }
 
 ChosenWork work_of(const Setup &setup, const std::string &device) {
-  const auto &[scene, sensors, illuminators] = setup.start;
-  Sensor sensor = sensors.front();
+  Sensor sensor = setup.start.sensors.front();
   set_samples(sensor, {.samples = 1});
   const double interactions =
-      static_cast<double>(sensor.pixel_count()) * static_cast<double>(diode_count(illuminators));
+      static_cast<double>(sensor.pixel_count()) * static_cast<double>(diode_count(setup.start.illuminators));
   sensor = coarser(sensor, std::sqrt(interactions / most_interactions));
   Camera camera(device);
-  camera.prepare(scene, sensor, illuminators, setup.backscatter, setup.shadows);
+  camera.prepare(setup, sensor);
   return native_work(setup, sensor, camera.measure());
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// The channels of a frame as files name them (README.md, "Outputs").
+// The channels of a frame as files name them (README.md, "Outputs"), and the files of their values.
 
 #include "engine/model/channels.h"
+#include "host/output/files/output_file.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -40,5 +41,15 @@ std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count);
 // The rows of engine/model/channels.h, of every frequency and tap, but for those that are empty. Views into
 // `measurement`.
 ChannelSet channels_of(const Measurement &measurement);
+
+// One OpenEXR file a frame: scan lines, ZIP, floats as FLOAT and ids as UINT, channels under their own names.
+// Reads the channels where they lie; memory beyond them is a few scan lines. May be called from several
+// threads at once. Throws Error (output).
+void write_exr(OutputFile &file, const ChannelSet &channels);
+
+// NumPy's array file, version 1.0: shape (rows, columns), little-endian, C order, '<f4' or '<u4'; the data
+// start at a multiple of 64 bytes, so that they can be mapped. Source: NumPy's documentation,
+// numpy.lib.format. Throws Error (output).
+void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution);
 
 } // namespace pmdsim

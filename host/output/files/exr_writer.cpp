@@ -1,4 +1,4 @@
-#include "host/output/files/exr_writer.h"
+#include "host/output/files/channel.h"
 
 #include "engine/model/error.h"
 
@@ -10,6 +10,7 @@
 #include <ImfOutputFile.h>
 #include <ImfThreading.h>
 #include <fmt/format.h>
+#include <mutex>
 #include <thread>
 
 namespace pmdsim {
@@ -35,11 +36,8 @@ Imf::PixelType pixel_type(std::span<const std::uint32_t>) { return Imf::UINT; }
 // the file that is begun first, so that no more frames than two need be held at once. Its lines come in
 // order, whatever the threads.
 void start_compressing_threads() {
-  static const bool started = [] {
-    Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
-    return true;
-  }();
-  static_cast<void>(started);
+  static std::once_flag started;
+  std::call_once(started, Imf::setGlobalThreadCount, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 // OpenEXR's slices are writable for its reader's sake; its writer only reads them.

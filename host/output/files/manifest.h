@@ -39,7 +39,7 @@ struct RunRecord {
   std::string device, driver;
   Accuracy accuracy;            // asked for
   nlohmann::ordered_json setup; // as used
-  std::vector<FrameRecord> frames;
+  std::vector<FrameRecord> frames{};
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".

@@ -1,4 +1,4 @@
-#include "host/output/files/npy_writer.h"
+#include "host/output/files/channel.h"
 
 #include <bit>
 #include <fmt/format.h>

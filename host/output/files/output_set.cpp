@@ -85,11 +85,11 @@ void OutputSet::add(const std::string &name, const std::function<void(OutputFile
 
 void OutputSet::add(WrittenFiles files) { std::ranges::move(files, std::back_inserter(files_)); }
 
-std::vector<std::string> OutputSet::names() const {
-  std::vector<std::string> names;
+std::vector<std::string> OutputSet::paths() const {
+  std::vector<std::string> paths;
   for (const auto &file : files_)
-    names.push_back(file->path().filename().string());
-  return names;
+    paths.push_back(file->path().string());
+  return paths;
 }
 
 void OutputSet::publish(const std::vector<std::string> &obsolete) {

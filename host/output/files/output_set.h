@@ -41,8 +41,8 @@ public:
   // Files of this directory that are written.
   void add(WrittenFiles files);
 
-  // Names of the files added so far, in order.
-  std::vector<std::string> names() const;
+  // Of the files added so far, in order, with the directory in front.
+  std::vector<std::string> paths() const;
 
   // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the
   // set to their names. Throws Error (output): where a directory has one of the names, before

@@ -37,8 +37,6 @@ int left_out_exponent(const Range &range) {
   return everyday ? 0 : 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0));
 }
 
-int decimals(const Step &step, int left_out) { return std::max(0, left_out - step.exponent); }
-
 std::string superscript(int exponent) {
   constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "⁻" : "";
@@ -57,7 +55,7 @@ Axis make_axis(const Range &range, int max_ticks) {
   for (int tick = 0; tick < count; ++tick) {
     const double value = (first + tick) * step.value() + 0.0; // + 0.0: no "-0"
     const double shown = value / std::pow(10.0, axis.exponent);
-    std::string label = fmt::format("{:.{}f}", shown, decimals(step, axis.exponent));
+    std::string label = fmt::format("{:.{}f}", shown, std::max(0, axis.exponent - step.exponent));
     if (label.front() == '-')
       label.replace(0, 1, "−");
     axis.ticks.push_back({value, std::move(label)});

@@ -98,13 +98,10 @@ void draw_no_value_legend(Canvas &canvas, double left, double y) {
   canvas.text(box.right() + 6.0, y, "no value", Anchor::left);
 }
 
-// Pixel centres lie on whole numbers.
-Range pixel_range(std::uint32_t count) { return {-0.5, count - 0.5}; }
-
-// Whole pixels only: a frame of three columns has no column 0.5.
+// Pixel centres lie on whole numbers, and only these have ticks: a frame of three columns has no column 0.5.
 Axis pixel_axis(std::uint32_t count, double length) {
   const int fitting = std::clamp(static_cast<int>(length / 50.0), 1, 8);
-  return make_axis(pixel_range(count), std::min(fitting, std::max(1, static_cast<int>(count))));
+  return make_axis({-0.5, count - 0.5}, std::min(fitting, std::max(1, static_cast<int>(count))));
 }
 
 // The vertical axis with row 0 at the top.

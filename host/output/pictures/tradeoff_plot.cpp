@@ -1,4 +1,4 @@
-#include "host/output/pictures/tradeoff_plot.h"
+#include "host/output/pictures/plots.h"
 
 #include <algorithm>
 #include <array>

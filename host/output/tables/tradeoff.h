@@ -27,7 +27,7 @@ struct FrameTime {
 
 struct TradeoffPoint {
   Sweep sweep = Sweep::modes;
-  Accuracy accuracy; // asked for
+  Accuracy accuracy{}; // asked for
   std::uint32_t samples = 1;
   bool adaptive_samples = false;
   std::uint32_t reference_samples = 1; // S of the reference that it is compared with

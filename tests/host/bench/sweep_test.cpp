@@ -134,16 +134,25 @@ TEST_CASE("a frame that is off is not timed") {
   CHECK_THROWS_AS(check_at_random(setup, found, "device"), Error);
 }
 
+TEST_CASE("what is more costs the difference, and the first nothing that is known") {
+  std::vector<SweepRow> rows;
+  for (const auto &[diodes, ms] :
+       std::vector<std::pair<std::uint32_t, double>>{{1, 5.5}, {10, 10.0}, {1000, 604.0}})
+    rows.push_back(
+        {.point = {SweptQuantity::diodes, diodes}, .peak_memory_bytes = {}, .frames = {{ms, {}, {}}}});
+  const std::vector<double> marginal_ms = growths_of(rows).front().marginal_ms;
+  REQUIRE(marginal_ms.size() == 3);
+  CHECK(std::isnan(marginal_ms[0]));
+  CHECK(marginal_ms[1] == Approx(0.5));
+  CHECK(marginal_ms[2] == Approx(0.6));
+}
+
 TEST_CASE("a straight line fits points on one, and none goes below zero") {
   const std::vector<SizeAndTime> exact{{1.0, 5.5}, {10.0, 10.0}, {1000.0, 505.0}};
   const StraightLine line = straight_line(exact);
   CHECK(line.fixed_ms == Approx(5.0));
   CHECK(line.slope_ms == Approx(0.5));
   CHECK(line.at_ms(2000.0) == Approx(1005.0));
-  const auto marginal = marginal_costs_ms(exact);
-  CHECK(std::isnan(marginal[0]));
-  CHECK(marginal[1] == Approx(0.5));
-  CHECK(marginal[2] == Approx(0.5));
   const StraightLine steep = straight_line(std::vector<SizeAndTime>{{1.0, 1.0}, {2.0, 3.0}});
   CHECK(steep.fixed_ms == 0.0);
   CHECK(steep.slope_ms > 1.0);

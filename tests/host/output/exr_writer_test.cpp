@@ -1,5 +1,5 @@
 #include "engine/model/scene.h"
-#include "host/output/files/exr_writer.h"
+#include "host/output/files/channel.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "host/output/files/npy_writer.h"
+#include "host/output/files/channel.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/support/temporary_folder.h"
 

@@ -66,7 +66,8 @@ TEST_CASE("published files have their names and nothing else is left") {
   CHECK(names_in(outputs.directory()) == std::set<std::string>{"one.txt", "two.txt"});
   CHECK(content_of(outputs.directory() / "one.txt") == "hello");
   CHECK(content_of(outputs.directory() / "two.txt") == "0123XY6789");
-  CHECK(outputs.names() == std::vector<std::string>{"one.txt", "two.txt"});
+  CHECK(outputs.paths() ==
+        std::vector<std::string>{outputs.directory() / "one.txt", outputs.directory() / "two.txt"});
 }
 
 TEST_CASE("an existing file is replaced by publish and not before") {

@@ -1,4 +1,4 @@
-#include "host/output/pictures/profile_plot.h"
+#include "host/output/pictures/plots.h"
 #include "host/output/tables/profile.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/host/output/nan_value.h"

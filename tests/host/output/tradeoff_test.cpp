@@ -1,6 +1,6 @@
 // Speed against accuracy: the fronts, the tables and the picture.
 
-#include "host/output/pictures/tradeoff_plot.h"
+#include "host/output/pictures/plots.h"
 #include "host/output/tables/tradeoff.h"
 #include "tests/host/output/pixel_of.h"
 

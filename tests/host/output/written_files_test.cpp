@@ -29,10 +29,10 @@ TEST_CASE("files written together keep their order and their content") {
   for (const std::string &name : names_in(temporary.path()))
     CHECK(name.front() == '.');
   outputs.publish();
-  const std::vector<std::string> names = outputs.names();
-  REQUIRE(names.size() == 31);
+  const std::vector<std::string> paths = outputs.paths();
+  REQUIRE(paths.size() == 31);
   for (int i = 0; i < 30; ++i) {
-    CHECK(names[static_cast<std::size_t>(i) + 1] == name_of(i));
+    CHECK(paths[static_cast<std::size_t>(i) + 1] == temporary.path() / name_of(i));
     CHECK(content_of(temporary.path() / name_of(i)) == "content " + std::to_string(i));
   }
   CHECK(names_in(temporary.path()).size() == 31);
