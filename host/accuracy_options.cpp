@@ -1,6 +1,5 @@
 #include "host/accuracy_options.h"
 
-#include "engine/model/error.h"
 #include "host/input/file/input_error.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,6 @@
 
 #include "engine/model/accuracy.h"
 
-#include <optional>
 #include <string>
 #include <string_view>
 

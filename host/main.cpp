@@ -1,5 +1,4 @@
 #include "engine/model/error.h"
-#include "host/capture/progress.h"
 #include "host/commands/commands.h"
 
 #include <cstdlib>

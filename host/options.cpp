@@ -1,7 +1,5 @@
 #include "host/options.h"
 
-#include "engine/model/channels.h"
-#include "engine/model/error.h"
 #include "host/accuracy_options.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
@@ -11,8 +9,6 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
-#include <string_view>
-#include <vector>
 
 namespace pmdsim {
 namespace {

@@ -3,10 +3,6 @@
 
 #include "host/capture/capture.h"
 
-#include <filesystem>
-#include <optional>
-#include <string>
-
 namespace pmdsim {
 
 struct Options {

@@ -1,14 +1,10 @@
 #pragma once
 // A device against the reference, before its speed is believed.
 
-#include "engine/model/measurement.h"
 #include "engine/reference/reference.h"
 #include "host/input/setup/setup.h"
 
-#include <cstddef>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace pmdsim {
 

@@ -1,13 +1,9 @@
 #pragma once
 // Distances of a device against the reference, on pixels chosen at random.
 
-#include "engine/model/measurement.h"
 #include "engine/reference/reference.h"
 #include "host/input/setup/setup.h"
 #include "host/output/tables/tradeoff.h"
-
-#include <cstdint>
-#include <vector>
 
 namespace pmdsim {
 

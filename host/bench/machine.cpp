@@ -1,6 +1,5 @@
 #include "host/bench/machine.h"
 
-#include "engine/model/device_info.h"
 #include "host/bench/native/native_kernel.h"
 
 #include <algorithm>

@@ -3,11 +3,6 @@
 
 #include "host/capture/camera.h"
 
-#include <cstdint>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-
 namespace pmdsim {
 
 // Everything that must be known to measure the same again.

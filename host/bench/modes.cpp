@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <span>
 
 namespace pmdsim {
 namespace {
@@ -26,7 +25,8 @@ public:
 
   // With its first frame taken and its results checked.
   void open(Mode mode, const std::vector<ReferenceFrame> &truth) {
-    const Accuracy accuracy = accuracy_of(mode);
+    Accuracy accuracy = request_.accuracy;
+    accuracy.mode = mode;
     ModeBench bench{.mode = mode, .prepare_ms = {}, .checks = {}, .frames = {}};
     auto exposures = std::make_unique<Exposures>(setup_, request_.device, false, accuracy);
     const auto start = std::chrono::steady_clock::now();
@@ -55,12 +55,6 @@ public:
 
 private:
   bool several_sensors() const { return setup_.start.sensors.size() > 1; }
-
-  Accuracy accuracy_of(Mode mode) const {
-    Accuracy accuracy = request_.accuracy;
-    accuracy.mode = mode;
-    return accuracy;
-  }
 
   // A frame of every sensor. Where several share the device each comes to it cold, and its second frame
   // counts.

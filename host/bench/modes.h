@@ -5,12 +5,7 @@
 #include "host/bench/native/native_bench.h"
 #include "host/bench/timing.h"
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace pmdsim {
 

@@ -7,11 +7,6 @@
 #include "host/bench/sequence_rate.h"
 #include "host/bench/sweep.h"
 
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace pmdsim {
 
 struct BenchReport {

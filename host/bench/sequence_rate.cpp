@@ -6,10 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
-#include <set>
-#include <string>
 #include <system_error>
 
 namespace pmdsim {
@@ -69,7 +66,7 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
       const std::string label = fmt::format("{}, {}", what, at.label);
       return rendered_frame(exposures.share(take(label, at.sensor, at.time_s, at.next_s)), at, formats);
     };
-    sequence.write(measure, bytes_of_rendered_frame(several));
+    sequence.write(measure, bytes_of_largest_frame(several, true));
     return frames / (1e-3 * ms_since(start));
   };
   const double measured_per_s = frames_per_s("not written", {});

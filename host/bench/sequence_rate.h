@@ -4,8 +4,6 @@
 #include "host/bench/timing.h"
 #include "host/input/setup/setup.h"
 
-#include <cstdint>
-
 namespace pmdsim {
 
 // Whole frames, all sensors of each, by the clock: from the first's measurement to the last's publication.

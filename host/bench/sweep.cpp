@@ -1,10 +1,8 @@
 #include "host/bench/sweep.h"
 
 #include "engine/model/error.h"
-#include "engine/reference/reference.h"
 #include "host/bench/distance_errors.h"
 #include "host/bench/machine.h"
-#include "host/capture/camera.h"
 #include "host/capture/exposure.h"
 #include "host/capture/progress.h"
 

@@ -5,11 +5,6 @@
 #include "host/bench/accuracy_check.h"
 #include "host/bench/timing.h"
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
 namespace pmdsim {
 
 enum class SweptQuantity { resolution, diodes, samples, triangles, frequencies };

@@ -1,16 +1,11 @@
 #pragma once
 // How long frames take, warm.
 
-#include "engine/model/accuracy.h"
 #include "engine/model/measurement.h"
 #include "host/report/report.h"
 
 #include <chrono>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace pmdsim {
 

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <string_view>
-#include <utility>
 
 namespace pmdsim {
 
@@ -38,9 +37,18 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
 void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                      Backscatter backscatter, Shadows shadows, const Accuracy &accuracy) {
   throw_if_interrupted();
-  prepared_ = {&scene, sensor, illuminators, backscatter, shadows};
   if (simulator_)
-    simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
+    return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
+  reference_frame_ = [=, &scene, keep_taps = extras_.taps](const Progress &progress) {
+    Measurement measurement = reference::to_measurement(
+        reference::simulate(scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
+    measurement.accuracy.precision = Precision::fp64;
+    measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
+    if (!keep_taps)
+      for (Return &of_frequency : measurement.returns)
+        of_frequency.taps.clear();
+    return measurement;
+  };
 }
 
 void Camera::prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy) {
@@ -53,17 +61,7 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
 
 Measurement Camera::measure(const Progress &progress) {
   throw_if_interrupted();
-  if (simulator_)
-    return simulator_->measure(progress);
-  const auto &[scene, sensor, illuminators, backscatter, shadows] = prepared_;
-  Measurement measurement = reference::to_measurement(
-      reference::simulate(*scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
-  measurement.accuracy.precision = Precision::fp64;
-  measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
-  if (!extras_.taps)
-    for (Return &of_frequency : measurement.returns)
-      of_frequency.taps.clear();
-  return measurement;
+  return simulator_ ? simulator_->measure(progress) : reference_frame_(progress);
 }
 
 void Camera::reuse(Measurement &&frame) {

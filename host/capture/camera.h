@@ -1,18 +1,8 @@
 #pragma once
 // Whatever computes frames: a Vulkan device or the reference on the CPU, behind one face.
 
-#include "engine/model/accuracy.h"
-#include "engine/model/illuminator.h"
-#include "engine/model/measurement.h"
-#include "engine/model/scene.h"
-#include "engine/model/sensor.h"
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace pmdsim {
 
@@ -49,16 +39,8 @@ public:
   void reuse(Measurement &&frame);
 
 private:
-  struct Prepared {
-    const Scene *scene;
-    Sensor sensor;
-    std::vector<Illuminator> illuminators;
-    Backscatter backscatter;
-    Shadows shadows;
-  };
-
-  std::optional<Simulator> simulator_; // empty: the reference
-  Prepared prepared_{};
+  std::optional<Simulator> simulator_;                           // empty: the reference
+  std::function<Measurement(const Progress &)> reference_frame_; // of what is prepared
   Extras extras_;
   std::string device_, driver_;
 };

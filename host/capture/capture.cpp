@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -75,10 +74,12 @@ MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, cons
   return {record_of(*taken, at), [frame = std::move(frame), formats] { return files_of(frame, formats); }};
 }
 
-std::size_t bytes_of_rendered_frame(const Setup &setup) {
+std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps) {
   std::size_t most = 0;
-  for (const Sensor &sensor : setup.start.sensors)
-    most = std::max(most, bytes_of_frame(sensor, true));
+  for (const Sensor &sensor : setup.start.sensors) {
+    const std::size_t values = maps * sensor.modulation_hz.size() * sensor.pixel_count();
+    most = std::max(most, bytes_of_frame(sensor, keep_taps) + values * sizeof(float));
+  }
   return most;
 }
 

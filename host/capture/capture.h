@@ -8,12 +8,6 @@
 #include "host/capture/progress.h"
 #include "host/input/setup/sample_choice.h"
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-
 namespace pmdsim {
 
 struct CaptureRequest {
@@ -69,7 +63,7 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats);
 
-// Of the setup's largest frame.
-std::size_t bytes_of_rendered_frame(const Setup &setup);
+// Of the setup's largest frame, with or without its taps, and with so many maps more of each frequency.
+std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps = 0);
 
 } // namespace pmdsim

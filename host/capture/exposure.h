@@ -3,15 +3,8 @@
 // and something moves meanwhile, in one for each frequency and tap.
 
 #include "host/capture/camera.h"
-#include "host/input/setup/setup.h"
 
-#include <cstddef>
-#include <functional>
 #include <future>
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
 
 namespace pmdsim {
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <tbb/info.h>
-#include <utility>
 
 namespace pmdsim {
 namespace {

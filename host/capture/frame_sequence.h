@@ -6,13 +6,6 @@
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace pmdsim {
 
 inline constexpr const char *manifest_name = "manifest.json";

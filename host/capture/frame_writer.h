@@ -6,12 +6,7 @@
 #include "host/output/files/channel.h"
 #include "host/output/files/output_set.h"
 
-#include <cstdint>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace pmdsim {
 

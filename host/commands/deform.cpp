@@ -11,9 +11,6 @@
 #include <array>
 #include <deque>
 #include <fmt/format.h>
-#include <memory>
-#include <optional>
-#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -109,16 +106,6 @@ std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, De
   return pair;
 }
 
-// Of the setup's largest frame.
-std::size_t bytes_of_pair(const Setup &setup) {
-  std::size_t most = 0;
-  for (const Sensor &sensor : setup.start.sensors) {
-    const std::size_t maps = 2 * sensor.modulation_hz.size();
-    most = std::max(most, bytes_of_frame(sensor, false) + maps * sizeof(float) * sensor.pixel_count());
-  }
-  return most;
-}
-
 // Deformations and their statistics are computed where the frame is written, while the next is measured.
 std::deque<DeformedFrame> deform(Capture &capture) {
   std::deque<DeformedFrame> deformed; // its elements stay where they are, as writers fill them in
@@ -132,7 +119,7 @@ std::deque<DeformedFrame> deform(Capture &capture) {
               return deformation_files(pair, told.record.frame, formats);
             }};
   };
-  capture.write(measure, bytes_of_pair(capture.setup()));
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2));
   return deformed;
 }
 

@@ -72,7 +72,7 @@ std::string render(Capture &capture) {
       text += frame_text(*taken, at.frame);
     return rendered_frame(taken, at, capture.formats());
   };
-  capture.write(measure, bytes_of_rendered_frame(capture.setup()));
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), true));
   return text;
 }
 

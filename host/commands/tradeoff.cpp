@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <optional>
 
 namespace pmdsim {
 namespace {

@@ -5,10 +5,7 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace pmdsim {
 

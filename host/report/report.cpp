@@ -10,9 +10,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <system_error>
-#include <vector>
 
 namespace pmdsim {
 namespace {

@@ -137,8 +137,8 @@ double NativeKernel::error_max_m() const {
   double largest_rad = 0.0;
   const std::size_t step = std::max(points_ / checked_points, std::size_t{1});
   for (std::size_t i = 0; i < points_; i += step) {
-    const double error_rad =
-        std::abs(std::remainder(phase_rad(i) - true_phase_rad(i), 2.0 * std::numbers::pi));
+    const double error_rad = std::abs(
+        std::remainder(static_cast<double>(phases_rad_[i]) - true_phase_rad(i), 2.0 * std::numbers::pi));
     if (!(error_rad <= largest_rad)) // NaN is one
       largest_rad = error_rad;
   }

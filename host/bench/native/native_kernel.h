@@ -42,11 +42,10 @@ public:
   // The largest distance error of what was summed last, against double, at some thousand points spread
   // evenly.
   double error_max_m() const;
-  // At one point, relative to the way over the diodes' middle: as it was summed last, and in double.
-  double phase_rad(std::size_t point) const { return static_cast<double>(phases_rad_[point]); }
-  double true_phase_rad(std::size_t point) const;
 
 private:
+  // At one point, relative to the way over the diodes' middle, in double.
+  double true_phase_rad(std::size_t point) const;
   void sum_tiles(NativeSum sum, std::size_t first, std::size_t end);
 
   const NativeSums *sums_;

@@ -4,13 +4,7 @@
 #include "engine/model/channels.h"
 #include "host/output/files/output_file.h"
 
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <optional>
 #include <span>
-#include <string>
-#include <variant>
-#include <vector>
 
 namespace pmdsim {
 

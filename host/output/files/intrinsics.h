@@ -4,8 +4,6 @@
 #include "engine/model/sensor.h"
 
 #include <array>
-#include <string>
-#include <vector>
 
 namespace pmdsim {
 

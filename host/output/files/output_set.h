@@ -3,7 +3,6 @@
 
 #include "host/output/files/output_file.h"
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>

@@ -8,7 +8,6 @@
 #include <cairo.h>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <utility>
 
 namespace pmdsim {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <new>
 #include <numbers>
-#include <vector>
 
 namespace pmdsim {
 namespace {

@@ -5,9 +5,7 @@
 #include "engine/model/channels.h"
 #include "host/output/pictures/canvas.h"
 
-#include <glm/glm.hpp>
 #include <span>
-#include <string>
 
 namespace pmdsim {
 

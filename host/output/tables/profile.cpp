@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
-#include <optional>
 
 namespace pmdsim {
 namespace {

@@ -3,9 +3,6 @@
 
 #include "engine/model/sensor.h"
 #include "host/output/files/channel.h"
-#include "host/output/files/output_file.h"
-
-#include <cstdint>
 
 namespace pmdsim {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace pmdsim {
 namespace {
@@ -76,12 +77,9 @@ std::string micrometres(const std::optional<double> &length_m) {
   return length_m ? with_digits(1e6 * *length_m, 3) : "-";
 }
 
-const Cells &header() {
-  static const Cells cells{"mode",      "asked",         "precision",   "diodes",  "S",
-                           "frame, ms", "least to most", "largest, µm", "RMS, µm", "edges, µm",
-                           "RMS, µm",   "claimed, µm",   "front"};
-  return cells;
-}
+const Cells header{"mode",      "asked",         "precision",   "diodes",  "S",
+                   "frame, ms", "least to most", "largest, µm", "RMS, µm", "edges, µm",
+                   "RMS, µm",   "claimed, µm",   "front"};
 
 std::string samples_text(const TradeoffPoint &point) {
   return point.adaptive_samples ? "auto" : fmt::format("{}", point.samples);
@@ -92,7 +90,7 @@ Cells cells_of(const TradeoffPoint &point) {
   Cells cells{mode_name(point.accuracy.mode), bounded ? length_text(point.accuracy.max_error_m) : "-"};
   if (!point.refusal.empty()) {
     cells.insert(cells.end(), {"-", "-", samples_text(point), "refused"});
-    cells.resize(header().size(), "-");
+    cells.resize(header.size(), "-");
     return cells;
   }
   const FrameTime &time = point.time;
@@ -105,11 +103,9 @@ Cells cells_of(const TradeoffPoint &point) {
   return cells;
 }
 
-std::vector<Cells> rows_of(const Tradeoff &tradeoff, Sweep sweep) {
-  std::vector<Cells> rows{header()};
-  for (const TradeoffPoint &point : tradeoff.points)
-    if (point.sweep == sweep)
-      rows.push_back(cells_of(point));
+std::vector<Cells> rows_of(const std::vector<TradeoffPoint> &points) {
+  std::vector<Cells> rows{header};
+  std::ranges::transform(points, std::back_inserter(rows), cells_of);
   return rows;
 }
 
@@ -145,34 +141,29 @@ std::string piped(const std::vector<Cells> &rows) {
   return text;
 }
 
-// Of the sweep's points, which all have it.
-const TradeoffPoint *first_of(const Tradeoff &tradeoff, Sweep sweep) {
-  const auto first = std::ranges::find(tradeoff.points, sweep, &TradeoffPoint::sweep);
-  return first == tradeoff.points.end() ? nullptr : &*first;
-}
-
-// The sentence above a sweep's table.
-std::string caption(const Tradeoff &tradeoff, Sweep sweep) {
-  const TradeoffPoint &first = *first_of(tradeoff, sweep);
-  const auto measured = std::ranges::find_if(tradeoff.points, [&](const TradeoffPoint &point) {
-    return point.sweep == sweep && point.refusal.empty();
-  });
-  const std::string pixels = measured == tradeoff.points.end()
+// The sentence above the table of a sweep's points.
+std::string caption(const std::vector<TradeoffPoint> &points) {
+  const TradeoffPoint &first = points.front(); // all have its reference
+  const auto measured = std::ranges::find(points, "", &TradeoffPoint::refusal);
+  const std::string pixels = measured == points.end()
                                  ? ""
                                  : fmt::format(", {} random pixels beside edges and {} on them",
                                                measured->smooth.pixels, measured->edges.pixels);
   return fmt::format("{}: largest and RMS distance error against the reference in double, S = {}{}",
-                     sweep == Sweep::modes ? "modes and precisions" : "samples", first.reference_samples,
-                     pixels);
+                     first.sweep == Sweep::modes ? "modes and precisions" : "samples",
+                     first.reference_samples, pixels);
 }
 
 template <class Table>
 std::string tables(const Tradeoff &tradeoff, const Table &table) {
   std::string text;
-  for (const Sweep sweep : {Sweep::modes, Sweep::samples})
-    if (first_of(tradeoff, sweep))
-      text +=
-          (text.empty() ? "" : "\n") + caption(tradeoff, sweep) + "\n\n" + table(rows_of(tradeoff, sweep));
+  for (const Sweep sweep : {Sweep::modes, Sweep::samples}) {
+    std::vector<TradeoffPoint> points;
+    std::ranges::copy_if(tradeoff.points, std::back_inserter(points),
+                         [&](const TradeoffPoint &point) { return point.sweep == sweep; });
+    if (!points.empty())
+      text += (text.empty() ? "" : "\n") + caption(points) + "\n\n" + table(rows_of(points));
+  }
   for (const TradeoffPoint &point : tradeoff.points)
     if (!point.refusal.empty())
       text += fmt::format("\nrefused: {}, {}: {}\n", series_name(point), point_label(point), point.refusal);

@@ -3,9 +3,7 @@
 
 #include "engine/model/accuracy.h"
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
