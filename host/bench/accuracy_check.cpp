@@ -40,12 +40,6 @@ struct SampleDifferences {
   std::size_t pairs = 0, pairs_apart = 0;         // as in AccuracyCheck
 };
 
-void require_same_samples(const Measurement &found, const reference::Frame &truth) {
-  if (found.sample_triangle_id.size() != truth.sample_triangle_id.size() ||
-      found.sample_reached.size() != truth.sample_reached.size())
-    throw Error(ExitCode::internal, "the device and the reference do not tell of the same samples");
-}
-
 // Diodes that reach the sample on one of the two only; `words` of each sample hold its diodes.
 std::size_t diodes_apart(const Measurement &found, const reference::Frame &truth, std::size_t sample,
                          std::size_t words) {
@@ -57,7 +51,9 @@ std::size_t diodes_apart(const Measurement &found, const reference::Frame &truth
 
 SampleDifferences differences(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
                               std::size_t diodes) {
-  require_same_samples(found, truth);
+  if (found.sample_triangle_id.size() != truth.sample_triangle_id.size() ||
+      found.sample_reached.size() != truth.sample_reached.size())
+    throw Error(ExitCode::internal, "the device and the reference do not tell of the same samples");
   const std::vector<bool> none(sensor.pixel_count(), false);
   SampleDifferences result{none, none};
   const std::size_t words = truth.sample_reached.size() / truth.sample_triangle_id.size();

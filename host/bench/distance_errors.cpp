@@ -11,13 +11,12 @@ namespace {
 
 constexpr std::uint64_t pixel_seed = 20070101; // any, but always the same
 
-// Calls `visit` with every triangle that the pixel's samples see in a frame of so many columns.
-template <class Visit>
-void for_each_triangle(const std::vector<std::uint32_t> &sample_triangle_id, std::size_t columns,
-                       std::size_t pixel, std::size_t samples, const Visit &visit) {
+// Every triangle that the pixel's samples see in a frame of so many columns.
+void add_triangles(std::set<std::uint32_t> &triangles, const std::vector<std::uint32_t> &sample_triangle_id,
+                   std::size_t columns, std::size_t pixel, std::size_t samples) {
   const std::size_t row = pixel / columns * samples, column = pixel % columns * samples;
   for (std::size_t k = 0; k < samples * samples; ++k)
-    visit(sample_triangle_id[(row + k / samples) * columns * samples + column + k % samples]);
+    triangles.insert(sample_triangle_id[(row + k / samples) * columns * samples + column + k % samples]);
 }
 
 DistanceErrors errors_of(const std::vector<double> &errors_m) {
@@ -50,9 +49,8 @@ std::vector<bool> on_edges(const TruePixels &truth, const Measurement &found, st
   std::vector<bool> edges;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     std::set<std::uint32_t> triangles;
-    const auto see = [&](std::uint32_t id) { triangles.insert(id); };
-    for_each_triangle(truth.frame.sample_triangle_id, 1, i, true_samples, see);
-    for_each_triangle(found.sample_triangle_id, truth.sensor.resolution.x, truth.pixels[i], samples, see);
+    add_triangles(triangles, truth.frame.sample_triangle_id, 1, i, true_samples);
+    add_triangles(triangles, found.sample_triangle_id, truth.sensor.resolution.x, truth.pixels[i], samples);
     const bool other_light = !found.lit.empty() && std::abs(static_cast<double>(found.lit[truth.pixels[i]]) -
                                                             truth.frame.lit[i]) > 0.5 * least_lit;
     edges.push_back(triangles.size() > 1 || other_light);

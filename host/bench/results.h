@@ -4,7 +4,6 @@
 
 #include "host/bench/machine.h"
 #include "host/bench/modes.h"
-#include "host/bench/sequence_rate.h"
 #include "host/bench/sweep.h"
 
 namespace pmdsim {

@@ -1,4 +1,4 @@
-#include "host/bench/sequence_rate.h"
+#include "host/bench/timing.h"
 
 #include "engine/model/error.h"
 #include "host/capture/capture.h"

@@ -15,21 +15,8 @@
 
 namespace pmdsim {
 
-// The first of the things that something went wrong with; from then on those after it are of no use.
-class FirstFailure {
-public:
-  explicit FirstFailure(std::size_t count) : index_(count) {}
-
-  void note(std::size_t index) {
-    std::size_t known = index_;
-    while (index < known && !index_.compare_exchange_weak(known, index)) {
-    }
-  }
-  bool is_before(std::size_t index) const { return index_ < index; }
-
-private:
-  std::atomic<std::size_t> index_;
-};
+// The index of the first of the things that something went wrong with; those after it are of no use.
+using FirstFailure = std::atomic<std::size_t>;
 
 // Where one goes through the pipeline.
 template <class Made, class Worked>
@@ -42,13 +29,15 @@ struct PipelineItem {
   // The exceptions of several threads are put in order, which TBB would not do.
   template <class Step>
   void attempt(FirstFailure &first, const Step &step) {
-    if (failure || first.is_before(index))
+    if (failure || first < index)
       return;
     try {
       step();
     } catch (...) {
       failure = std::current_exception();
-      first.note(index);
+      std::size_t known = first;
+      while (index < known && !first.compare_exchange_weak(known, index)) {
+      }
     }
   }
 };
@@ -72,7 +61,7 @@ void run_pipeline(std::size_t count, std::size_t waiting, const Make &make, cons
   std::size_t next = 0;
 
   const auto make_next = [&](tbb::flow_control &control) -> Handle {
-    if (next == count || first_failure.is_before(next)) {
+    if (next == count || first_failure < next) {
       control.stop();
       return {};
     }

@@ -1,5 +1,5 @@
 #include "engine/model/error.h"
-#include "host/bench/sequence_rate.h"
+#include "host/bench/timing.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/program/program.h"
 
