@@ -1,14 +1,14 @@
 #include "host/input/calibration/calibration_file.h"
 
-#include "host/input/calibration/calibration_numbers.h"
-#include "host/input/calibration/yaml_file.h"
-#include "host/input/file/regular_file.h"
+#include "host/input/calibration/calibration_yaml.h"
+#include "host/input/file/input_file.h"
 #include "host/input/schema/limits.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace pmdsim {
 namespace {
@@ -75,6 +75,12 @@ void read_camera_matrix(const CalibrationEntry &entry, Calibration &calibration)
 
 enum class Model { brown, fisheye, nameless };
 
+// By distortion_model. ROS's camera_info of a camera that nobody calibrated, or of a rectified image, has the
+// empty one.
+const std::map<std::string, Model> models{
+    {"plumb_bob", Model::brown}, {"rational_polynomial", Model::brown}, {"equidistant", Model::fisheye},
+    {"fisheye", Model::fisheye}, {"kannala_brandt", Model::fisheye},    {"", Model::nameless}};
+
 Model model_of(const CalibrationMap &map) {
   if (const auto flag = map.find({"fisheye_model"})) {
     const double number = number_of(*flag);
@@ -86,25 +92,13 @@ Model model_of(const CalibrationMap &map) {
   const auto model = map.find({"distortion_model"});
   if (!model)
     return Model::brown;
-  const std::string name = text_of(*model);
-  if (name.empty()) // ROS's camera_info of a camera that nobody calibrated, or of a rectified image
-    return Model::nameless;
-  if (name == "fisheye" || name == "equidistant" || name == "kannala_brandt")
-    return Model::fisheye;
-  if (name != "plumb_bob" && name != "rational_polynomial")
+  const auto known = models.find(text_of(*model));
+  if (known == models.end())
     throw input_error(model->key,
                       fmt::format("expected plumb_bob, rational_polynomial, equidistant, fisheye or "
                                   "kannala_brandt, found {}",
-                                  in_quotes(name)));
-  return Model::brown;
-}
-
-// Terms of OpenCV's model that pmdsim has not.
-void refuse_term(const CalibrationKey &key, const std::vector<double> &d, std::size_t term,
-                 const char *kind) {
-  if (d[term] != 0.0)
-    throw input_error(key, fmt::format("{}: expected 0: pmdsim has no {} terms, found {}", opencv_order[term],
-                                       kind, d[term]));
+                                  in_quotes(text_of(*model))));
+  return known->second;
 }
 
 void read_brown(const CalibrationKey &key, std::vector<double> d, Calibration &calibration) {
@@ -112,17 +106,17 @@ void read_brown(const CalibrationKey &key, std::vector<double> d, Calibration &c
   if (std::ranges::find(sizes, d.size()) == sizes.end())
     throw input_error(key, fmt::format("expected 4, 5, 8, 12 or 14 numbers, found {}", d.size()));
   d.resize(std::size(opencv_order));
-  for (std::size_t term = first_rational; term < first_prism; ++term)
-    refuse_term(key, d, term, "rational");
-  for (std::size_t term = first_prism; term < tau_x; ++term)
-    refuse_term(key, d, term, "thin prism");
+  for (std::size_t term = first_rational; term < tau_x; ++term)
+    if (d[term] != 0.0)
+      throw input_error(key, fmt::format("{}: expected 0: pmdsim has no {} terms, found {}",
+                                         opencv_order[term], term < first_prism ? "rational" : "thin prism",
+                                         d[term]));
   for (const std::size_t tilt : {tau_x, tau_y})
     if (std::abs(glm::degrees(d[tilt])) > max_chip_tilt_deg)
       throw input_error(key, fmt::format("{}: expected a tilt within {} degrees, found {} rad",
                                          opencv_order[tilt], max_chip_tilt_deg, d[tilt]));
-  const BrownConrady brown{d[0], d[1], d[2], d[3], d[4]};
   if (std::any_of(d.begin(), d.begin() + first_rational, [](double c) { return c != 0.0; }))
-    calibration.distortion = brown;
+    calibration.distortion = BrownConrady{d[0], d[1], d[2], d[3], d[4]};
   calibration.tau_x_rad = d[tau_x];
   calibration.tau_y_rad = d[tau_y];
 }

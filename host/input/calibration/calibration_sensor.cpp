@@ -1,7 +1,7 @@
 #include "host/input/calibration/calibration_sensor.h"
 
 #include "host/input/schema/limits.h"
-#include "host/input/setup/lens_check.h"
+#include "host/input/setup/parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 // CSV files with a header line: named columns in any order, blank lines skipped, every error with its line.
 
 #include "host/input/file/input_error.h"
-#include "host/input/file/text_file.h"
+#include "host/input/file/input_file.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <string_view>
-#include <utility>
+#include <tuple>
 #define CSV_IO_NO_THREAD
 #include <libfccp/csv.h>
 
@@ -24,7 +24,7 @@ public:
   CsvTable(std::filesystem::path file, std::string_view text, const Names &names, std::size_t required)
       : file_(std::move(file)), names_(names),
         reader_(file_.string(), text.data(), text.data() + text.size()) {
-    read_header(std::make_index_sequence<N>());
+    read_header();
     for (std::size_t column = 0; column < required; ++column)
       if (!has(column))
         throw input_error(here(), fmt::format("missing column {}", names_[column]));
@@ -35,7 +35,13 @@ public:
   // False at the end of the file.
   bool next_row() {
     fields_.fill("");
-    return read_row(std::make_index_sequence<N>());
+    try {
+      return std::apply([&](auto &...fields) { return reader_.read_row(fields...); }, fields_);
+    } catch (const io::error::base &) {
+      const auto columns =
+          std::ranges::count_if(names_, [&](const char *name) { return reader_.has_column(name); });
+      throw input_error(here(), fmt::format("expected {} columns", columns));
+    }
   }
 
   // Of the row read last; empty where the table has no such column.
@@ -50,26 +56,15 @@ public:
   TextPlace end() const { return {file_, reader_.get_file_line() + 1}; }
 
 private:
-  template <std::size_t... I>
-  void read_header(std::index_sequence<I...>) {
+  void read_header() {
     try {
-      reader_.read_header(io::ignore_missing_column, names_[I]...);
+      std::apply([&](auto... names) { reader_.read_header(io::ignore_missing_column, names...); }, names_);
     } catch (const io::error::extra_column_in_header &extra) {
       throw input_error(here(), fmt::format("unknown column {}", in_quotes(extra.column_name)));
     } catch (const io::error::duplicated_column_in_header &doubled) {
       throw input_error(here(), fmt::format("column {} appears twice", doubled.column_name));
     } catch (const io::error::base &) {
       throw input_error(here(), "expected a header line");
-    }
-  }
-
-  template <std::size_t... I>
-  bool read_row(std::index_sequence<I...>) {
-    try {
-      return reader_.read_row(fields_[I]...);
-    } catch (const io::error::base &) {
-      const std::size_t columns = (std::size_t{0} + ... + (has(I) ? 1 : 0));
-      throw input_error(here(), fmt::format("expected {} columns", columns));
     }
   }
 

@@ -1,6 +1,5 @@
-#include "host/input/diagram/diagram_csv.h"
-
 #include "host/input/diagram/csv_table.h"
+#include "host/input/diagram/diagram_table.h"
 
 #include <algorithm>
 #include <tuple>

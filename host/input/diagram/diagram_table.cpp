@@ -13,10 +13,7 @@ constexpr double same_direction = 0.01; // of the maximum: how far values of one
 constexpr double dark_axis = 1e-6;      // of the maximum
 
 double maximum_of(const DiagramTable &table) {
-  double maximum = 0.0;
-  for (const DiagramTable::Value &value : table.values)
-    maximum = std::max(maximum, value.relative);
-  return maximum;
+  return std::ranges::max(table.values, {}, &DiagramTable::Value::relative).relative;
 }
 
 // Exact at 90, 180 and 360 degrees.
@@ -38,8 +35,6 @@ void drop_last_phi(DiagramTable &table) {
   table.values = std::move(kept);
   table.phi_deg.pop_back();
 }
-
-bool reaches_axis(const DiagramTable &table) { return table.theta_deg.front() == 0.0; }
 
 // Gives all phi of the axis their mean, which is returned.
 double merge_axis(DiagramTable &table, double maximum) {
@@ -87,7 +82,7 @@ Diagram diagram_of(DiagramTable table, std::vector<std::string> &warnings) {
   if (maximum == 0.0)
     throw input_error(TextPlace{table.file, table.values.back().line},
                       "expected light in some direction, found only zeros");
-  const double on_axis = reaches_axis(table) ? merge_axis(table, maximum) : 0.0;
+  const double on_axis = table.theta_deg.front() == 0.0 ? merge_axis(table, maximum) : 0.0;
   const bool is_dark = on_axis < dark_axis * maximum;
   if (is_dark)
     warnings.push_back(

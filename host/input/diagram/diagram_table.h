@@ -1,11 +1,13 @@
 #pragma once
-// A radiation diagram as a file lists it, and how it becomes the engine's.
+// Radiation diagrams as files list them, and how they become the engine's.
 
 #include "engine/model/illuminator.h"
 #include "host/input/file/input_error.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
@@ -39,5 +41,28 @@ void close_turn(DiagramTable &table);
 // so. `table` has its turn closed. Throws Error (input) where values on the axis differ by more than 1 % of
 // the maximum, or all are 0.
 Diagram diagram_of(DiagramTable table, std::vector<std::string> &warnings);
+
+// Radiation diagrams as CSV: a header line and the columns angle_deg, relative (the same all around the axis)
+// or theta_deg, phi_deg, relative, in any order. `relative` is in any scale.
+//
+// angle_deg and theta_deg are angles to the diode's axis, 0 to 180, two or more; angle_deg is ascending.
+// phi_deg turns about the axis, right-handed, from Diode::across: 0 to below 360, or to 360 where 0 is there
+// and has the same values. Lines of theta and phi come in any order, every theta once with every phi. Beyond
+// the first and the last angle to the axis it is dark.
+//
+// With its turn closed. `text` is the file's, without a NUL. Throws Error (input): "FILE:LINE: ...".
+DiagramTable read_diagram_csv(const std::filesystem::path &file, std::string_view text);
+
+// Radiation diagrams as IES LM-63 (1986, 1991, 1995, 2002, 2019), type C photometry.
+//
+// Nadir, vertical angle 0, is the diode's axis, and the plane of the horizontal angle 0 that of
+// Diode::across. Horizontal angles run counter-clockwise as seen from above the luminaire, that is, along the
+// axis from behind the diode, where right-handed angles run clockwise: phi = -horizontal angle. In an
+// illuminator's frame with the axis along +z, horizontal angle 0 is to the right (+x) and 90 is up (-y).
+// Lumens, multipliers, ballast factors and dimensions say nothing about the shape and are not used.
+//
+// Over the whole turn, with its symmetries unfolded. `text` is the file's, without a NUL. Throws Error
+// (input): "FILE:LINE: ...".
+DiagramTable read_ies(const std::filesystem::path &file, std::string_view text);
 
 } // namespace pmdsim

@@ -5,7 +5,7 @@
 // the illuminator's frame. Blank lines are skipped. limits.h bounds the values.
 
 #include "engine/model/illuminator.h"
-#include "host/input/diagram/diagram_file.h"
+#include "host/input/diagram/radiation_law.h"
 #include "host/input/file/input_error.h"
 
 #include <filesystem>

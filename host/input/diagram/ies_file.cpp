@@ -1,6 +1,5 @@
-#include "host/input/diagram/ies_file.h"
-
-#include "host/input/file/text_file.h"
+#include "host/input/diagram/diagram_table.h"
+#include "host/input/file/input_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +39,7 @@ public:
     const std::string_view word = expect_word(what);
     return number_in(range, word, what, here());
   }
+
   std::size_t count(Range range, std::string_view what) {
     const double value = number_within(range, what);
     if (value != std::floor(value))
@@ -117,14 +117,10 @@ void skip_tilt(IesText &text) {
 }
 
 void expect_type_c(IesText &text) {
-  switch (text.count({1.0, 3.0}, "photometric type")) {
-  case 1:
-    return;
-  case 2:
-    throw input_error(text.here(), "photometric type: expected 1 (type C), found 2, type B");
-  default:
-    throw input_error(text.here(), "photometric type: expected 1 (type C), found 3, type A");
-  }
+  const std::size_t type = text.count({1.0, 3.0}, "photometric type");
+  if (type != 1)
+    throw input_error(text.here(), fmt::format("photometric type: expected 1 (type C), found {}, type {}",
+                                               type, type == 2 ? 'B' : 'A'));
 }
 
 struct Counts {
@@ -163,49 +159,41 @@ std::vector<double> read_angles(IesText &text, std::size_t count, Range range_de
   return angles_deg;
 }
 
-enum class Symmetry { quadrants, about_0_180, about_90_270, none };
+// What the first and the last horizontal angle h say: the values there are those of every phi = offset_deg +
+// sign h, which are minus that angle and its mirror images.
+struct Symmetry {
+  struct Phi {
+    double offset_deg, sign;
+  };
+  double first_deg, last_deg;
+  std::vector<Phi> phis;
+};
 
-// What the first and the last horizontal angle say; a single angle, 0, is no question of symmetry.
-Symmetry symmetry_of(const std::vector<double> &horizontal_deg, const TextPlace &place) {
-  const double first = horizontal_deg.front();
-  const double last = horizontal_deg.back();
-  if (first == 0.0 && last == 90.0)
-    return Symmetry::quadrants;
-  if (first == 0.0 && last == 180.0)
-    return Symmetry::about_0_180;
-  if (first == 90.0 && last == 270.0)
-    return Symmetry::about_90_270;
-  if (first == 0.0 && (last == 360.0 || horizontal_deg.size() == 1))
-    return Symmetry::none;
+const Symmetry &symmetry_of(const std::vector<double> &horizontal_deg, const TextPlace &place) {
+  static const std::vector<Symmetry> symmetries{
+      {0.0, 90.0, {{0.0, 1.0}, {180.0, -1.0}, {180.0, 1.0}, {360.0, -1.0}}}, // of the quadrants
+      {0.0, 180.0, {{0.0, 1.0}, {360.0, -1.0}}},                             // about 0 - 180
+      {90.0, 270.0, {{360.0, -1.0}, {180.0, 1.0}}},                          // about 90 - 270
+      {0.0, 360.0, {{360.0, -1.0}}},                                         // none
+      {0.0, 0.0, {{360.0, -1.0}}},                                           // a single angle: no question
+  };
+  const double first = horizontal_deg.front(), last = horizontal_deg.back();
+  for (const Symmetry &symmetry : symmetries)
+    if (first == symmetry.first_deg && last == symmetry.last_deg)
+      return symmetry;
   throw input_error(place,
                     fmt::format("horizontal angles: expected a single 0, or 0 to 90, 180 or 360, or 90 "
                                 "to 270, found {} to {}",
                                 first, last));
 }
 
-double within_turn(double angle_deg) { return angle_deg >= 360.0 ? angle_deg - 360.0 : angle_deg; }
-
-// Every phi whose values are those of a horizontal angle: at minus that angle and at its mirror images.
-std::vector<double> phis_deg(double horizontal_deg, Symmetry symmetry) {
-  const double h = horizontal_deg;
-  switch (symmetry) {
-  case Symmetry::quadrants:
-    return {h, 180.0 - h, 180.0 + h, within_turn(360.0 - h)};
-  case Symmetry::about_0_180:
-    return {h, within_turn(360.0 - h)};
-  case Symmetry::about_90_270:
-    return {360.0 - h, within_turn(180.0 + h)};
-  case Symmetry::none:
-    return {within_turn(360.0 - h)};
-  }
-  return {};
-}
-
-DiagramTable unfolded(const DiagramTable &table, Symmetry symmetry) {
+DiagramTable unfolded(const DiagramTable &table, const Symmetry &symmetry) {
   std::map<double, std::size_t> horizontal_at;
   for (std::size_t i = 0; i < table.phi_deg.size(); ++i)
-    for (const double phi_deg : phis_deg(table.phi_deg[i], symmetry))
-      horizontal_at.emplace(phi_deg, i);
+    for (const auto [offset_deg, sign] : symmetry.phis) {
+      const double phi_deg = offset_deg + sign * table.phi_deg[i];
+      horizontal_at.emplace(phi_deg >= 360.0 ? phi_deg - 360.0 : phi_deg, i);
+    }
   DiagramTable whole{table.file, table.theta_deg, {}, {}};
   for (const auto &[phi_deg, i] : horizontal_at)
     whole.phi_deg.push_back(phi_deg);
@@ -225,7 +213,7 @@ DiagramTable read_ies(const std::filesystem::path &file, std::string_view bytes)
   DiagramTable table{file, {}, {}, {}}; // phi is the horizontal angle, until it is unfolded
   table.theta_deg = read_angles(text, vertical, {0.0, 180.0}, "vertical angle");
   table.phi_deg = read_angles(text, horizontal, {0.0, 360.0}, "horizontal angle");
-  const Symmetry symmetry = symmetry_of(table.phi_deg, text.here());
+  const Symmetry &symmetry = symmetry_of(table.phi_deg, text.here());
   table.values.resize(vertical * horizontal);
   for (std::size_t phi = 0; phi < horizontal; ++phi)
     for (std::size_t theta = 0; theta < vertical; ++theta) {

@@ -1,7 +1,8 @@
 #pragma once
-// JSON text from untrusted files: depth-limited, without doubled keys, errors in one line.
+// JSON text from untrusted files: depth-limited, without doubled keys, errors in one line. And vectors in it.
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -18,3 +19,14 @@ inline constexpr std::size_t max_json_depth = 64; // objects and arrays within e
 nlohmann::json parse_json(std::string_view text, const std::filesystem::path &file, Comments comments);
 
 } // namespace pmdsim
+
+// A list of numbers as a vector: json.get<glm::dvec3>().
+namespace glm {
+
+template <class Json, length_t L, class T, qualifier Q>
+void from_json(const Json &numbers, vec<L, T, Q> &vector) {
+  for (length_t i = 0; i < L; ++i)
+    numbers.at(static_cast<std::size_t>(i)).get_to(vector[i]);
+}
+
+} // namespace glm

@@ -1,7 +1,7 @@
 #include "host/input/gltf/document.h"
 
 #include "host/input/file/json_file.h"
-#include "host/input/file/regular_file.h"
+#include "host/input/file/input_file.h"
 #include "host/input/gltf/extensions.h"
 #include "host/input/gltf/references.h"
 #include "host/input/schema/schema_check.h"

@@ -1,13 +1,13 @@
 #include "host/input/image/image_pixels.h"
 
-#include "host/input/image/png_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <new>
+#include <png.h>
+#include <string_view>
 #include <turbojpeg.h>
 
 namespace pmdsim {
@@ -19,6 +19,82 @@ constexpr std::array<unsigned char, 3> jpeg_magic{0xff, 0xd8, 0xff};
 bool starts_with(std::span<const unsigned char> bytes, std::span<const unsigned char> magic) {
   return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
+
+// libpng behind calls that return. libpng reports errors by longjmp, which must not leave out a destructor:
+// here, and nowhere else, it jumps, and only over libpng's own frames.
+class PngReader {
+public:
+  // `bytes` outlive the reader.
+  explicit PngReader(std::span<const unsigned char> bytes) : rest_(bytes) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, keep_error, ignore_warning);
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+    if (info_ == nullptr) {
+      png_destroy_read_struct(&png_, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
+  }
+  PngReader(const PngReader &) = delete;
+  PngReader &operator=(const PngReader &) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+  // First the header, then all rows. False: error() tells why, and nothing more can be read.
+  bool read_header() {
+    if (setjmp(png_jmpbuf(png_)) != 0)
+      return false;
+    png_set_read_fn(png_, this, copy_bytes);
+    // Whoever decodes says which size is too large, in better words than "Invalid IHDR data".
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    // Gamma, colour profiles and whatever else is neither pixels nor tRNS.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_read_info(png_, info_);
+    return true;
+  }
+
+  // As RGBA; each row holds size().x * 4 * component_bytes(), the more significant byte first.
+  bool read_rows(std::span<unsigned char *> rows) {
+    if (setjmp(png_jmpbuf(png_)) != 0)
+      return false;
+    png_set_expand(png_); // palettes and tRNS to colours, 1, 2 and 4 bits to 8
+    png_set_gray_to_rgb(png_);
+    png_set_add_alpha(png_, component_bytes() == 2 ? 0xffff : 0xff, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    if (rows.size() != size().y ||
+        png_get_rowbytes(png_, info_) != std::size_t{4} * size().x * component_bytes())
+      png_error(png_, "the rows have another size than stated");
+    png_read_image(png_, rows.data());
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  glm::uvec2 size() const {
+    return {png_get_image_width(png_, info_), png_get_image_height(png_, info_)};
+  }
+  std::size_t component_bytes() const { return png_get_bit_depth(png_, info_) == 16 ? 2 : 1; }
+  const char *error() const { return error_.data(); }
+
+private:
+  // libpng calls this from C, and it must not return.
+  static void keep_error(png_structp png, png_const_charp message) {
+    auto &error = static_cast<PngReader *>(png_get_error_ptr(png))->error_;
+    std::string_view(message).copy(error.data(), error.size() - 1);
+    png_longjmp(png, 1);
+  }
+  static void ignore_warning(png_structp, png_const_charp) {}
+
+  static void copy_bytes(png_structp png, png_bytep target, std::size_t count) {
+    auto &rest = static_cast<PngReader *>(png_get_io_ptr(png))->rest_;
+    if (count > rest.size())
+      png_error(png, "the image is cut short");
+    std::copy_n(rest.begin(), count, target);
+    rest = rest.subspan(count);
+  }
+
+  std::span<const unsigned char> rest_;
+  std::array<char, 160> error_{}; // ends with a NUL
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
 
 // Throws Error (input) at `place`.
 void check_image_size(const glm::uvec2 &size, std::size_t max_pixels, const Place &place) {

@@ -1,9 +1,10 @@
 #include "host/input/schema/schema_check.h"
 
 #include "host/input/file/input_error.h"
-#include "host/input/schema/schema_walk.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -15,10 +16,129 @@
 namespace pmdsim {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 namespace {
 
-using Tokens = std::vector<std::string>; // keys and array indices from the document's root
+// The keywords that our schemas use: $ref into definitions, anyOf, properties, items (one schema, or one for
+// each item).
+
+// The schema itself, behind any "$ref": "#/definitions/...".
+template <class Json>
+const Json &resolved(const Json &root, const Json &schema) {
+  const auto reference = schema.find("$ref");
+  if (reference == schema.end())
+    return schema;
+  const auto text = reference->template get<std::string>();
+  return root.at(typename Json::json_pointer(text.substr(1)));
+}
+
+// The schema of an array's item; `array_schema` has items, and one for this index.
+template <class Json>
+const Json &item_schema(const Json &array_schema, std::size_t index) {
+  const Json &items = array_schema.at("items");
+  return items.is_array() ? items.at(index) : items;
+}
+
+bool has_type(const json &value, const std::string &type) {
+  if (type == "integer" || type == "number")
+    return value.is_number();
+  return type == value.type_name();
+}
+
+// Whether `value` has a key whose text is another than the constant that the schema states for it.
+bool has_other_constant(const json &schema, const json &value) {
+  const json properties = schema.value("properties", json::object());
+  for (const auto &[key, property] : properties.items())
+    if (property.contains("const") && property.at("const").is_string() && value.contains(key) &&
+        value.at(key) != property.at("const"))
+      return true;
+  return false;
+}
+
+// Whether `value` is what `schema` is about: it has the type (an enum: that of one of its
+// values) and, an object, all required keys and no other text than a constant one ("model": "fisheye").
+bool is_about(const json &schema, const json &value) {
+  if (schema.contains("const"))
+    return value == schema.at("const");
+  const json choices = schema.value("enum", json::array());
+  if (!choices.empty() && std::none_of(choices.begin(), choices.end(),
+                                       [&](const json &choice) { return choice.type() == value.type(); }))
+    return false;
+  if ((schema.contains("type") && !has_type(value, schema.at("type"))) || has_other_constant(schema, value))
+    return false;
+  const json required = schema.value("required", json::array());
+  return std::all_of(required.begin(), required.end(),
+                     [&](const json &key) { return value.contains(key.get_ref<const std::string &>()); });
+}
+
+// The alternative of an anyOf that `value` is meant as; the schema itself where there is none or no anyOf.
+template <class Json>
+const Json &chosen(const Json &root, const Json &schema, const nlohmann::json &value) {
+  const Json &whole = resolved(root, schema);
+  if (!whole.contains("anyOf"))
+    return whole;
+  for (const Json &alternative : whole.at("anyOf"))
+    if (is_about(resolved(root, alternative), value))
+      return resolved(root, alternative);
+  return whole;
+}
+
+// What a schema asks for, as a noun phrase: "an integer from 1 to 16". A schema's `title` is that phrase, if
+// given.
+std::string expectation(const json &root, const json &schema_or_reference);
+
+// The phrase and the value of the keyword, where the schema has it.
+std::string stated(const json &schema, const char *phrase, const char *keyword) {
+  return schema.contains(keyword) ? phrase + schema.at(keyword).dump() : "";
+}
+
+std::string number_expectation(const json &schema) {
+  const std::string noun = schema.at("type") == "integer" ? "an integer" : "a number";
+  if (schema.contains("minimum") && schema.contains("maximum"))
+    return noun + stated(schema, " from ", "minimum") + stated(schema, " to ", "maximum");
+  return noun + stated(schema, " of at least ", "minimum") + stated(schema, " above ", "exclusiveMinimum") +
+         stated(schema, " and at most ", "maximum");
+}
+
+std::string array_expectation(const json &root, const json &schema) {
+  const bool is_bounded = schema.contains("minItems") && schema.contains("maxItems");
+  std::string size = stated(schema, is_bounded ? " of " : " of at least ", "minItems");
+  if (is_bounded && schema.at("minItems") != schema.at("maxItems"))
+    size += stated(schema, " to ", "maxItems");
+  const bool alike = schema.contains("items") && schema.at("items").is_object();
+  return "an array" + size + (alike ? ", each " + expectation(root, schema.at("items")) : "");
+}
+
+template <class Phrase>
+std::string one_of(const json &values, Phrase phrase_of) {
+  std::vector<std::string> phrases;
+  for (const json &value : values)
+    phrases.push_back(phrase_of(value));
+  return fmt::format("{}", fmt::join(phrases, " or "));
+}
+
+std::string expectation(const json &root, const json &schema_or_reference) {
+  const json &schema = resolved(root, schema_or_reference);
+  if (schema.contains("title"))
+    return schema.at("title");
+  if (schema.contains("const"))
+    return schema.at("const").dump();
+  if (schema.contains("enum"))
+    return one_of(schema.at("enum"), [](const json &value) { return value.dump(); });
+  if (schema.contains("anyOf"))
+    return one_of(schema.at("anyOf"), [&](const json &part) { return expectation(root, part); });
+  const std::string type = schema.value("type", "value");
+  if (type == "integer" || type == "number")
+    return number_expectation(schema);
+  if (type == "array")
+    return array_expectation(root, schema);
+  if (type == "boolean")
+    return "true or false";
+  if (type == "null")
+    return "null";
+  return type == "object" ? "an object" : "a " + type;
+}
 
 // A value beside the schema that describes it.
 struct Spot {
@@ -26,13 +146,6 @@ struct Spot {
   const json *schema; // after the choice between alternatives
   const json *value;
 };
-
-Tokens tokens_of(const valijson::ValidationResults::Error &failure) {
-  Tokens tokens(failure.context.begin() + 1, failure.context.end()); // behind "<root>"
-  for (std::string &token : tokens)
-    token = token.substr(1, token.size() - 2); // "[key]"
-  return tokens;
-}
 
 std::optional<Spot> step(const json &root, const Spot &from, const std::string &token) {
   if (from.value->is_array() && from.schema->contains("items")) {
@@ -87,12 +200,13 @@ std::string shown(const json &value) {
   return value.is_string() ? in_quotes(value.get_ref<const std::string &>()) : value.dump();
 }
 
-// As far towards a failure as the alternatives lead that the document has chosen.
-std::vector<Spot> way_to(const Tokens &tokens, const json &document, const json &root,
+// As far towards a failure as the alternatives lead that the document has chosen. `context` is valijson's:
+// "<root>", then a "[key]" or "[index]" for each step.
+std::vector<Spot> way_to(const std::vector<std::string> &context, const json &document, const json &root,
                          const std::filesystem::path &file) {
   std::vector<Spot> way{{Place{file}, &chosen(root, root, document), &document}};
-  for (const std::string &token : tokens) {
-    const std::optional<Spot> next = step(root, way.back(), token);
+  for (std::size_t i = 1; i < context.size(); ++i) {
+    const auto next = step(root, way.back(), context[i].substr(1, context[i].size() - 2));
     if (!next)
       break;
     way.push_back(*next);
@@ -108,7 +222,7 @@ Spot deepest_failure(const valijson::ValidationResults &failures, const json &do
   for (const auto &failure : failures) {
     if (failure.context.size() <= deepest.size()) // cannot lead deeper; there may be a million of these
       continue;
-    const std::vector<Spot> way = way_to(tokens_of(failure), document, root, file);
+    const std::vector<Spot> way = way_to(failure.context, document, root, file);
     const bool is_of_another =
         way.back().schema->contains("const") && way.back().schema->at("const") == *way.back().value;
     if (way.size() > deepest.size() && !is_of_another)
@@ -123,21 +237,6 @@ Error explained(const Spot &spot, const json &root) {
   return input_error(
       spot.place, fmt::format("expected {}, found {}", expectation(root, *spot.schema), shown(*spot.value)));
 }
-
-} // namespace
-
-void check_schema(const json &document, const json &schema_document, const std::filesystem::path &file) {
-  valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
-  valijson::ValidationResults failures;
-  if (!valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &failures))
-    throw explained(deepest_failure(failures, document, schema_document, file), schema_document);
-}
-
-using nlohmann::json;
-using nlohmann::ordered_json;
-
-namespace {
 
 ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyof, const json &value) {
   const ordered_json &schema = chosen(root, schema_or_anyof, value);
@@ -160,6 +259,14 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
 }
 
 } // namespace
+
+void check_schema(const json &document, const json &schema_document, const std::filesystem::path &file) {
+  valijson::Schema schema;
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
+  valijson::ValidationResults failures;
+  if (!valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &failures))
+    throw explained(deepest_failure(failures, document, schema_document, file), schema_document);
+}
 
 ordered_json with_defaults(const json &document, const ordered_json &schema) {
   return filled(schema, schema, document);

@@ -1,9 +1,7 @@
-#include "host/input/setup/illuminator.h"
-
 #include "host/input/diagram/diode_file.h"
 #include "host/input/diagram/radiation_law.h"
 #include "host/input/schema/limits.h"
-#include "host/input/setup/pose.h"
+#include "host/input/setup/parts.h"
 
 #include <cmath>
 #include <cstdint>

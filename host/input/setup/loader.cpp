@@ -1,12 +1,10 @@
 #include "host/input/setup/setup.h"
 
 #include "host/input/file/json_file.h"
-#include "host/input/file/regular_file.h"
+#include "host/input/file/input_file.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
-#include "host/input/setup/illuminator.h"
-#include "host/input/setup/motion.h"
-#include "host/input/setup/sensor.h"
+#include "host/input/setup/parts.h"
 
 #include <fmt/format.h>
 #include <set>

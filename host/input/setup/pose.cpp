@@ -1,11 +1,12 @@
-#include "host/input/setup/pose.h"
-
+#include "host/input/file/json_file.h"
 #include "host/input/schema/limits.h"
+#include "host/input/setup/parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace pmdsim {
 
@@ -14,10 +15,6 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr double smallest_sine = 1e-9; // directions closer than this, in radians, count as parallel
-
-glm::dvec3 vector_of(const ordered_json &numbers) {
-  return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
-}
 
 // Unit vector along `v`; nothing where `v` has no direction. Free of overflow and underflow.
 std::optional<glm::dvec3> direction_of(const glm::dvec3 &v) {
@@ -28,11 +25,11 @@ std::optional<glm::dvec3> direction_of(const glm::dvec3 &v) {
 }
 
 Pose looking_at(const ordered_json &pose, const Place &place) {
-  const glm::dvec3 position_m = vector_of(pose.at("position_m"));
-  const auto forward = direction_of(vector_of(pose.at("look_at_m")) - position_m);
+  const auto position_m = pose.at("position_m").get<glm::dvec3>();
+  const auto forward = direction_of(pose.at("look_at_m").get<glm::dvec3>() - position_m);
   if (!forward)
     throw input_error(place / "look_at_m", "expected a point other than position_m");
-  const auto up = direction_of(vector_of(pose.at("up")));
+  const auto up = direction_of(pose.at("up").get<glm::dvec3>());
   if (!up)
     throw input_error(place / "up", "expected a direction, found zero");
   const glm::dvec3 right = glm::cross(*forward, *up);
@@ -58,27 +55,24 @@ std::optional<glm::dmat3> rotation_of(const glm::dmat3 &linear) {
 }
 
 Pose at_node(const std::string &name, const Place &place, const GltfScene &scene) {
-  const auto is_named = [&](const NamedNode &node) { return node.name == name; };
-  const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(), is_named);
+  const std::string quoted = in_quotes(name), file = scene.file.string();
+  const auto node = std::ranges::find(scene.nodes, name, &NamedNode::name);
   if (node == scene.nodes.end())
-    throw input_error(place, fmt::format("no node {} in {}", in_quotes(name), scene.file.string()));
-  if (std::find_if(std::next(node), scene.nodes.end(), is_named) != scene.nodes.end())
-    throw input_error(place,
-                      fmt::format("more than one node {} in {}", in_quotes(name), scene.file.string()));
+    throw input_error(place, fmt::format("no node {} in {}", quoted, file));
+  if (std::ranges::count(scene.nodes, name, &NamedNode::name) > 1)
+    throw input_error(place, fmt::format("more than one node {} in {}", quoted, file));
   if (!is_position(node->world_from_node.translation_m))
     throw input_error(place,
                       fmt::format("node {} lies outside the world, expected coordinates from {} to {} m",
-                                  in_quotes(name), -max_coordinate_m, max_coordinate_m));
+                                  quoted, -max_coordinate_m, max_coordinate_m));
   const auto rotation = rotation_of(node->world_from_node.linear);
   if (!rotation)
-    throw input_error(place,
-                      fmt::format("the transform of node {} is mirrored or singular", in_quotes(name)));
+    throw input_error(place, fmt::format("the transform of node {} is mirrored or singular", quoted));
   return compose({*rotation, node->world_from_node.translation_m}, node_from_camera());
 }
 
 Pose at_sensor(const std::string &name, const Place &place, const std::vector<Sensor> &sensors) {
-  const auto sensor = std::find_if(sensors.begin(), sensors.end(),
-                                   [&](const Sensor &candidate) { return candidate.name == name; });
+  const auto sensor = std::ranges::find(sensors, name, &Sensor::name);
   if (sensor == sensors.end())
     throw input_error(place, fmt::format("no sensor {} in this setup", in_quotes(name)));
   return sensor->world_from_camera;
@@ -93,6 +87,33 @@ Pose world_from_frame(const ordered_json &pose, const Place &place, const GltfSc
   if (pose.contains("sensor"))
     return at_sensor(pose.at("sensor"), place / "sensor", sensors);
   return looking_at(pose, place);
+}
+
+Motion::Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root)
+    : gltf_(std::move(gltf)), setup_(std::move(setup)), root_(std::move(root)) {}
+
+// What is right at rest may go wrong in motion: such an error tells when.
+Instant Motion::at(double time_s, const Instant &start) const {
+  try {
+    return placed_at(time_s, start);
+  } catch (const Error &error) {
+    throw Error(error.code(), fmt::format("{}, at {:.6g} s", error.what(), time_s));
+  }
+}
+
+Instant Motion::placed_at(double time_s, const Instant &start) const {
+  GltfScene moved = gltf_.at(time_s);
+  Instant instant{{}, start.sensors, start.illuminators};
+  const auto pose_of = [&](const char *list, std::size_t i) {
+    return world_from_frame(setup_.at(list).at(i).at("pose"), root_ / list / i / "pose", moved,
+                            instant.sensors);
+  };
+  for (std::size_t i = 0; i < instant.sensors.size(); ++i)
+    instant.sensors[i].world_from_camera = pose_of("sensors", i);
+  for (std::size_t i = 0; i < instant.illuminators.size(); ++i)
+    instant.illuminators[i].world_from_illuminator = pose_of("illuminators", i);
+  instant.scene = std::move(moved.scene);
+  return instant;
 }
 
 } // namespace pmdsim

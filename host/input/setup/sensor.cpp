@@ -1,12 +1,11 @@
-#include "host/input/setup/sensor.h"
-
+#include "engine/lens/lens.h"
+#include "engine/lens/lens_fault.h"
+#include "host/input/file/json_file.h"
 #include "host/input/schema/limits.h"
-#include "host/input/setup/lens_check.h"
-#include "host/input/setup/pose.h"
+#include "host/input/setup/parts.h"
 #include "host/input/setup/sample_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -14,16 +13,6 @@ namespace pmdsim {
 using nlohmann::ordered_json;
 
 namespace {
-
-glm::dvec2 pair_of(const ordered_json &numbers) {
-  const auto [x, y] = numbers.get<std::array<double, 2>>();
-  return {x, y};
-}
-
-glm::dvec3 triple_of(const ordered_json &numbers) {
-  const auto [x, y, z] = numbers.get<std::array<double, 3>>();
-  return {x, y, z};
-}
 
 double focus_distance_m(const ordered_json &sensor, const Place &place) {
   const ordered_json &focus = sensor.at("focus_distance_m");
@@ -67,34 +56,92 @@ void check_highest_harmonic(const Sensor &sensor, const Place &place) {
                                     sensor.modulation_hz[i] * static_cast<double>(harmonics)));
 }
 
-void check_lens(const Sensor &sensor, const Place &place) {
-  if (const auto problem = lens_problem(sensor))
-    throw input_error(place / problem->key, problem->expectation);
+// The image's corners and, between them, the middles of its sides.
+std::vector<glm::dvec2> rim(const Sensor &sensor) {
+  std::vector<glm::dvec2> places;
+  const glm::dvec2 end(sensor.resolution);
+  for (const double row : {0.0, 0.5, 1.0})
+    for (const double column : {0.0, 0.5, 1.0})
+      if (row != 0.5 || column != 0.5)
+        places.push_back(glm::dvec2(column, row) * end);
+  return places;
+}
+
+// How far one gets from the optical axis towards a place without a ray, pixels.
+double pixels_to_fold(const Lens &lens, const glm::dvec2 &axis_pixel, const glm::dvec2 &pixel) {
+  constexpr int halvings = 50;
+  double reached = 0.0, missed = 1.0; // of the way
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (reached + missed);
+    (lens.ray(lens.on_chip_m(glm::mix(axis_pixel, pixel, middle))) ? reached : missed) = middle;
+  }
+  return reached * glm::length(pixel - axis_pixel);
+}
+
+std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
+  std::string text = "expected a distortion that does not fold over inside the image";
+  const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
+  const std::vector<glm::dvec2> places = rim(sensor);
+  const auto place =
+      std::ranges::find_if(places, [&](const glm::dvec2 &pixel) { return !lens.ray(lens.on_chip_m(pixel)); });
+  if (!axis_m || place == places.end())
+    return text;
+  return fmt::format("{}; it does {:.4g} pixels from the optical axis towards column {}, row {}", text,
+                     pixels_to_fold(lens, lens.pixel(*axis_m), *place), place->x, place->y);
+}
+
+std::string limit_expectation(const Sensor &sensor) {
+  return std::holds_alternative<Fisheye>(sensor.distortion)
+             ? "expected an image within 179 degrees of the optical axis (fisheye)"
+             : "expected an image within 89 degrees of the optical axis (brown)";
+}
+
+LensProblem problem_of(LensFault fault, const Sensor &sensor, const Lens &lens) {
+  switch (fault) {
+  case LensFault::chip_behind_lens:
+    return {"chip", "expected the whole chip in front of the lens"};
+  case LensFault::distortion_folds:
+    return {"distortion", fold_expectation(sensor, lens)};
+  case LensFault::beyond_model:
+    return {"distortion", limit_expectation(sensor)};
+  case LensFault::pixel_too_wide:
+    break;
+  }
+  return {"resolution", "expected pixels that see less than 120 degrees each"};
 }
 
 } // namespace
 
 Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene &scene) {
   Sensor result;
-  result.name = sensor.at("name");
-  result.resolution = pair_of(sensor.at("resolution"));
-  result.pixel_pitch_m = pair_of(sensor.at("pixel_pitch_m"));
-  result.fill_factor = pair_of(sensor.at("fill_factor"));
-  result.focal_length_m = sensor.at("focal_length_m");
+  sensor.at("name").get_to(result.name);
+  sensor.at("resolution").get_to(result.resolution);
+  sensor.at("pixel_pitch_m").get_to(result.pixel_pitch_m);
+  sensor.at("fill_factor").get_to(result.fill_factor);
+  sensor.at("focal_length_m").get_to(result.focal_length_m);
   result.focus_distance_m = focus_distance_m(sensor, place);
   result.distortion = distortion_of(sensor.at("distortion"));
-  result.chip.rotation_rad = glm::radians(triple_of(sensor.at("chip").at("rotation_deg")));
-  result.chip.translation_m = triple_of(sensor.at("chip").at("translation_m"));
+  result.chip.rotation_rad = glm::radians(sensor.at("chip").at("rotation_deg").get<glm::dvec3>());
+  sensor.at("chip").at("translation_m").get_to(result.chip.translation_m);
   result.vignetting = sensor.at("vignetting") == "cos4" ? Vignetting::cos4 : Vignetting::none;
   result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", scene, {});
-  result.modulation_hz = sensor.at("modulation_hz").get<std::vector<double>>();
+  sensor.at("modulation_hz").get_to(result.modulation_hz);
   result.waveform = waveform_of(sensor.at("waveform"), place / "waveform");
-  result.taps = sensor.at("taps");
-  result.tap_interval_s = sensor.at("tap_interval_s");
+  sensor.at("taps").get_to(result.taps);
+  sensor.at("tap_interval_s").get_to(result.tap_interval_s);
   set_samples(result, sample_choice_of(sensor.at("samples")));
   check_highest_harmonic(result, place);
-  check_lens(result, place);
+  if (const auto problem = lens_problem(result))
+    throw input_error(place / problem->key, problem->expectation);
   return result;
+}
+
+std::optional<LensProblem> lens_problem(const Sensor &sensor) {
+  const Lens lens(sensor);
+  const std::optional<LensFault> fault = lens_fault(sensor);
+  if (fault != LensFault::chip_behind_lens && !(glm::determinant(lens.lens_from_chip()) > 0.0))
+    return LensProblem{"chip", "expected the front of the chip towards the lens"};
+  return fault ? std::optional(problem_of(*fault, sensor, lens)) : std::nullopt;
 }
 
 } // namespace pmdsim

@@ -2,7 +2,7 @@
 
 #include "engine/model/tap_sequence.h"
 #include "host/capture/exposure.h"
-#include "host/input/setup/motion.h"
+#include "host/input/setup/parts.h"
 #include "tests/program/program.h"
 #include "tests/support/scenes.h"
 

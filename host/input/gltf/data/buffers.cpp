@@ -1,6 +1,6 @@
 #include "host/input/gltf/data/buffers.h"
 
-#include "host/input/file/regular_file.h"
+#include "host/input/file/input_file.h"
 #include "host/input/gltf/data/meshopt.h"
 
 #include <algorithm>

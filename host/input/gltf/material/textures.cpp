@@ -1,6 +1,6 @@
 #include "host/input/gltf/material/textures.h"
 
-#include "host/input/file/regular_file.h"
+#include "host/input/file/input_file.h"
 #include "host/input/gltf/document.h"
 #include "host/input/image/image_pixels.h"
 

@@ -1,4 +1,4 @@
-#include "host/input/diagram/diagram_file.h"
+#include "host/input/diagram/radiation_law.h"
 #include "tests/host/input/file/input_error_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/units.h"

@@ -1,11 +1,13 @@
 #pragma once
-// Reads files that others name: never a directory, a FIFO or a device, and never more than a stated size.
+// Reads files that others name: never a directory, a FIFO or a device, and never more than a stated size. And
+// the numbers that text files hold.
 
 #include "host/input/file/input_error.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace pmdsim {
 
@@ -18,5 +20,19 @@ std::string read_regular_file(const std::filesystem::path &file, std::size_t max
 // too.
 std::string read_front_of_regular_file(const std::filesystem::path &file, std::size_t length_bytes,
                                        const Place &named_at);
+
+// The bytes of a regular file of at most 2^26 bytes, none of them NUL. As above; throws "FILE:LINE: ..." for
+// a NUL.
+std::string read_text_file(const std::filesystem::path &file, const AnyPlace &named_at);
+
+// Both ends belong to it.
+struct Range {
+  double lowest, highest;
+};
+
+// The number that `text` is, all of it; finite, with or without a sign. Throws Error (input) at `place`;
+// `what` says what the number is.
+double number_of(std::string_view text, std::string_view what, const TextPlace &place);
+double number_in(Range range, std::string_view text, std::string_view what, const TextPlace &place);
 
 } // namespace pmdsim

@@ -1,0 +1,110 @@
+#include "host/input/file/input_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <memory>
+#include <sys/stat.h>
+#include <system_error>
+
+namespace pmdsim {
+
+namespace {
+
+constexpr std::size_t max_text_bytes = std::size_t{1} << 26;
+
+std::string reason(int error) {
+  return error == ENOENT ? "no such file"
+                         : fmt::format("cannot be read ({})", std::generic_category().message(error));
+}
+
+Error refused(const std::filesystem::path &file, const std::string &why, const AnyPlace &named_at) {
+  const auto &named_in = std::visit(
+      [](const auto &place) -> const auto & { return place.file; }, named_at);
+  return input_error(named_at, named_in == file ? why : in_quotes(file.string()) + ": " + why);
+}
+
+struct Close {
+  void operator()(std::FILE *stream) const { std::fclose(stream); }
+};
+
+// A regular file, open for reading.
+struct RegularFile {
+  std::unique_ptr<std::FILE, Close> stream;
+  std::size_t size_bytes;
+
+  std::string front(std::size_t length_bytes) const {
+    std::string bytes(length_bytes, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, length_bytes, stream.get()));
+    return bytes;
+  }
+};
+
+RegularFile opened(const std::filesystem::path &file, const AnyPlace &named_at) {
+  if (file.native().find('\0') != std::string::npos) // the system takes it for the end of a name
+    throw refused(file, "expected a file's name without NUL", named_at);
+  // Without O_NONBLOCK, opening a FIFO waits for a writer.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  std::unique_ptr<std::FILE, Close> stream(descriptor < 0 ? nullptr : fdopen(descriptor, "rb"));
+  struct stat status {};
+  if (!stream || fstat(descriptor, &status) != 0)
+    throw refused(file, reason(errno), named_at);
+  if (S_ISDIR(status.st_mode))
+    throw refused(file, "is a directory, expected a file", named_at);
+  if (!S_ISREG(status.st_mode))
+    throw refused(file, "is no regular file", named_at);
+  return {std::move(stream), static_cast<std::size_t>(status.st_size)};
+}
+
+} // namespace
+
+std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
+                              const AnyPlace &named_at) {
+  const RegularFile regular = opened(file, named_at);
+  if (regular.size_bytes > max_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at most {}", regular.size_bytes, max_bytes),
+                  named_at);
+  return regular.front(regular.size_bytes);
+}
+
+std::string read_front_of_regular_file(const std::filesystem::path &file, std::size_t length_bytes,
+                                       const Place &named_at) {
+  const RegularFile regular = opened(file, named_at);
+  if (regular.size_bytes < length_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at least {}", regular.size_bytes, length_bytes),
+                  named_at);
+  return regular.front(length_bytes);
+}
+
+std::string read_text_file(const std::filesystem::path &file, const AnyPlace &named_at) {
+  std::string text = read_regular_file(file, max_text_bytes, named_at);
+  const auto nul = std::ranges::find(text, '\0'); // readers would take it for the end of a field
+  if (nul != text.end())
+    throw input_error(TextPlace{file, static_cast<std::size_t>(std::count(text.begin(), nul, '\n')) + 1},
+                      "expected text, found a NUL byte");
+  return text;
+}
+
+double number_of(std::string_view text, std::string_view what, const TextPlace &place) {
+  double value = 0.0;
+  const bool has_plus = text.starts_with('+') && !text.starts_with("+-"); // from_chars takes none
+  const char *end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data() + (has_plus ? 1 : 0), end, value);
+  if (error != std::errc{} || stopped != end || !std::isfinite(value))
+    throw input_error(place, fmt::format("{}: expected a number, found {}", what, in_quotes(text)));
+  return value;
+}
+
+double number_in(Range range, std::string_view text, std::string_view what, const TextPlace &place) {
+  const double value = number_of(text, what, place);
+  if (value < range.lowest || value > range.highest)
+    throw input_error(place, fmt::format("{}: expected a number from {} to {}, found {}", what, range.lowest,
+                                         range.highest, in_quotes(text)));
+  return value;
+}
+
+} // namespace pmdsim

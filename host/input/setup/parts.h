@@ -1,0 +1,61 @@
+#pragma once
+// The parts of a setup: sensors and illuminators, where they are, and how they move. What is given as JSON
+// has passed the schema and has its defaults filled in; `place` is where in the setup it stands.
+
+#include "engine/model/illuminator.h"
+#include "engine/model/sensor.h"
+#include "host/input/file/input_error.h"
+#include "host/input/gltf/loader.h"
+#include "host/input/setup/setup.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// World from the frame (x right, y down, z forward) that `pose` gives: {"node"}, {"position_m", "look_at_m",
+// "up"}, or {"sensor"} for one of `sensors`. Scale and shear of a node's transform are taken out, its view
+// direction is kept. Throws Error (input) at `place`: unknown node or sensor, a view or an up without a
+// direction, a mirrored node or one outside the world.
+Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, const GltfScene &scene,
+                      const std::vector<Sensor> &sensors);
+
+// An element of /sensors. Throws Error (input): also for a distortion that folds over inside the image and a
+// chip that is not in front of the lens.
+Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const GltfScene &scene);
+
+// Whether a sensor's lens and chip can make an image, for people.
+struct LensProblem {
+  std::string key;         // of the sensor in a setup: "chip", "distortion" or "resolution"
+  std::string expectation; // "expected ..."
+};
+
+// Nothing where every place of the image has a ray, no pixel sees too much of the scene and the chip's front
+// is towards the lens.
+std::optional<LensProblem> lens_problem(const Sensor &sensor);
+
+// The setup's /illuminators. At most 100,000 diodes in all. Appends to `warnings`, one line each, what is odd
+// about their diagrams. Throws Error (input).
+std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,
+                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         std::vector<std::string> &warnings);
+
+// How a setup's scene moves, and the sensors and illuminators with its nodes.
+class Motion {
+public:
+  Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root);
+
+  // `start` with everything in its place at `time_s`. Throws Error (input).
+  Instant at(double time_s, const Instant &start) const;
+
+private:
+  Instant placed_at(double time_s, const Instant &start) const;
+
+  GltfFile gltf_;
+  nlohmann::ordered_json setup_;
+  Place root_;
+};
+
+} // namespace pmdsim
