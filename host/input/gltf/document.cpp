@@ -1,9 +1,8 @@
 #include "host/input/gltf/document.h"
 
-#include "host/input/file/json_file.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/json_file.h"
 #include "host/input/gltf/extensions.h"
-#include "host/input/gltf/references.h"
 #include "host/input/schema/schema_check.h"
 
 #include <cstdint>

@@ -24,4 +24,8 @@ struct GltfDocument {
 // file.
 GltfDocument read_gltf_document(const std::filesystem::path &file, const Place &named_at);
 
+// Throws Error (input) where an index of a document that has passed the glTF schema names nothing, or a
+// feature is used that is not supported yet.
+void check_references(const nlohmann::json &document, const Place &root);
+
 } // namespace pmdsim

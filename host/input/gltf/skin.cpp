@@ -1,6 +1,7 @@
 #include "host/input/gltf/skin.h"
 
 #include "host/input/gltf/data/accessor.h"
+#include "host/input/gltf/mesh/attributes.h"
 #include "host/input/gltf/mesh/mesh.h"
 
 #include <algorithm>
@@ -32,53 +33,6 @@ std::vector<Joint> read_joints(const tinygltf::Model &model, const tinygltf::Ski
     joints.push_back({*places[node], *joint_from_mesh});
   }
   return joints;
-}
-
-// JOINTS_n and WEIGHTS_n of a primitive, n = 0, 1, ...
-struct WeightSet {
-  std::size_t joints, weights; // accessors
-};
-
-std::size_t attribute(const tinygltf::Primitive &primitive, const std::string &name, const Place &place) {
-  const auto found = primitive.attributes.find(name);
-  if (found == primitive.attributes.end())
-    throw input_error(place / "attributes", fmt::format("missing key \"{}\"", name));
-  return static_cast<std::size_t>(found->second);
-}
-
-void check_joints_type(const tinygltf::Accessor &accessor, const Place &place) {
-  if (accessor.normalized || (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-                              accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT))
-    throw input_error(place / "componentType", "expected 5121 or 5123, not normalized, for joints");
-}
-
-void check_weights_type(const tinygltf::Accessor &accessor, const Place &place) {
-  const bool is_normalized =
-      accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                              accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !is_normalized)
-    throw input_error(place / "componentType", "expected 5126, or 5121 or 5123 normalized, for weights");
-}
-
-std::vector<WeightSet> weight_sets(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                                   const Place &place) {
-  const Place accessors = Place{place.file} / "accessors";
-  const std::size_t vertices = model.accessors[attribute(primitive, "POSITION", place)].count;
-  const auto checked = [&](const std::string &name, auto check_type) {
-    const std::size_t accessor = attribute(primitive, name, place);
-    check_type(model.accessors[accessor], accessors / accessor);
-    if (model.accessors[accessor].count != vertices)
-      throw input_error(place / "attributes" / name, fmt::format("has {} elements, POSITION has {}",
-                                                                 model.accessors[accessor].count, vertices));
-    return accessor;
-  };
-  std::vector<WeightSet> sets;
-  for (std::size_t n = 0;; ++n) {
-    const std::string joints = fmt::format("JOINTS_{}", n), weights = fmt::format("WEIGHTS_{}", n);
-    if (n > 0 && !primitive.attributes.contains(joints) && !primitive.attributes.contains(weights))
-      return sets;
-    sets.push_back({checked(joints, check_joints_type), checked(weights, check_weights_type)});
-  }
 }
 
 // Appends what one set says of `vertex`.
@@ -148,7 +102,7 @@ public:
 
 private:
   SkinWeights made(const tinygltf::Primitive &primitive, const Place &place) {
-    const std::vector<WeightSet> sets = weight_sets(model_, primitive, place);
+    const std::vector<WeightSet> sets = weight_sets({model_, primitive, place});
     for (const WeightSet &set : sets)
       bound_ += model_.accessors[set.joints].count;
     if (bound_ > max_scene_vertices)

@@ -1,10 +1,12 @@
 #pragma once
-// The numbers behind a glTF accessor, plain or sparse.
+// The numbers behind a glTF accessor, plain or sparse. Every range is checked; nothing is assumed of what a
+// file states.
 
 #include "host/input/file/input_error.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace tinygltf {
@@ -12,6 +14,10 @@ class Model;
 }
 
 namespace pmdsim {
+
+// The bytes of /bufferViews/`view`, which exists. Throws Error (input) there where its buffer ends before it.
+std::span<const unsigned char> bytes_of_view(const tinygltf::Model &model, std::size_t view,
+                                             const Place &root);
 
 // All read /accessors/`accessor`, which exists, and throw Error (input) at that place.
 

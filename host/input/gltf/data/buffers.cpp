@@ -65,22 +65,10 @@ Bytes front_of_chunk(std::string_view chunk, std::size_t length_bytes, const Pla
   return {chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(length_bytes)};
 }
 
-Bytes front_of_file(const fs::path &file, std::size_t length_bytes, const Place &uri) {
-  const std::string bytes = read_front_of_regular_file(file, length_bytes, uri);
-  return {bytes.begin(), bytes.end()};
-}
-
 // Whether the buffer has no bytes of its own: no URI, and it is not the .glb's BIN chunk.
 bool is_absent(const GltfDocument &document, std::size_t index) {
   const std::string uri = document.json.at("buffers")[index].value("uri", std::string{});
   return uri.empty() && (index > 0 || document.binary_chunk.empty());
-}
-
-std::vector<bool> fallbacks(const GltfDocument &document, std::size_t count) {
-  std::vector<bool> absent(count);
-  for (std::size_t i = 0; i < count; ++i)
-    absent[i] = is_absent(document, i);
-  return meshopt_fallbacks(document.json, absent);
 }
 
 Bytes read_buffer(const GltfDocument &document, const fs::path &file, std::size_t index) {
@@ -94,7 +82,9 @@ Bytes read_buffer(const GltfDocument &document, const fs::path &file, std::size_
     return front_of_chunk(document.binary_chunk, length_bytes, place);
   if (uri.starts_with("data:"))
     return decoded_data_uri(uri, length_bytes, place / "uri");
-  return front_of_file(file_in_folder(uri, folder_of(file), place / "uri"), length_bytes, place / "uri");
+  const std::string bytes = read_front_of_regular_file(file_in_folder(uri, folder_of(file), place / "uri"),
+                                                       length_bytes, place / "uri");
+  return {bytes.begin(), bytes.end()};
 }
 
 } // namespace
@@ -119,7 +109,10 @@ fs::path file_in_folder(const std::string &uri, const fs::path &folder, const Pl
 
 std::vector<Bytes> read_gltf_buffers(const GltfDocument &document, const fs::path &file) {
   const json buffers = document.json.value("buffers", json::array());
-  const std::vector<bool> is_fallback = fallbacks(document, buffers.size());
+  std::vector<bool> absent(buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+    absent[i] = is_absent(document, i);
+  const std::vector<bool> is_fallback = meshopt_fallbacks(document.json, absent);
   std::vector<Bytes> result(buffers.size());
   std::size_t left_bytes = max_gltf_file_bytes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {

@@ -11,8 +11,6 @@
 
 namespace pmdsim {
 
-using Bytes = std::vector<unsigned char>;
-
 // The folder of a scene's file.
 std::filesystem::path folder_of(const std::filesystem::path &file);
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <fmt/format.h>
+#include <map>
 #include <meshoptimizer.h>
 #include <string>
 
@@ -93,42 +94,28 @@ void check_stream(const CompressedView &view, const Bytes &source) {
                                               view.byte_length, view.count, view.stride_bytes));
 }
 
-int decode_stream(const CompressedView &view, const unsigned char *stream, Bytes &decoded) {
-  if (view.mode == "ATTRIBUTES")
-    return meshopt_decodeVertexBuffer(decoded.data(), view.count, view.stride_bytes, stream,
-                                      view.byte_length);
-  if (view.mode == "TRIANGLES")
-    return meshopt_decodeIndexBuffer(decoded.data(), view.count, view.stride_bytes, stream, view.byte_length);
-  return meshopt_decodeIndexSequence(decoded.data(), view.count, view.stride_bytes, stream, view.byte_length);
-}
-
-void apply_filter(const CompressedView &view, Bytes &decoded) {
-  if (view.filter == "OCTAHEDRAL")
-    meshopt_decodeFilterOct(decoded.data(), view.count, view.stride_bytes);
-  else if (view.filter == "QUATERNION")
-    meshopt_decodeFilterQuat(decoded.data(), view.count, view.stride_bytes);
-  else if (view.filter == "EXPONENTIAL")
-    meshopt_decodeFilterExp(decoded.data(), view.count, view.stride_bytes);
-}
-
 Bytes decode(const CompressedView &view, const Bytes &source) {
+  using Decoder = int (*)(void *, std::size_t, std::size_t, const unsigned char *, std::size_t);
+  static const std::map<std::string, Decoder> decoders{{"ATTRIBUTES", meshopt_decodeVertexBuffer},
+                                                       {"TRIANGLES", meshopt_decodeIndexBuffer},
+                                                       {"INDICES", meshopt_decodeIndexSequence}};
+  using Filter = void (*)(void *, std::size_t, std::size_t);
+  static const std::map<std::string, Filter> filters{{"OCTAHEDRAL", meshopt_decodeFilterOct},
+                                                     {"QUATERNION", meshopt_decodeFilterQuat},
+                                                     {"EXPONENTIAL", meshopt_decodeFilterExp}};
   Bytes decoded(view.decoded_bytes());
-  if (decode_stream(view, source.data() + view.byte_offset, decoded) != 0)
+  if (decoders.at(view.mode)(decoded.data(), view.count, view.stride_bytes, source.data() + view.byte_offset,
+                             view.byte_length) != 0)
     throw input_error(view.place, fmt::format("its bytes cannot be decoded as {} elements of \"{}\"",
                                               view.count, view.mode));
-  apply_filter(view, decoded);
+  if (const auto filter = filters.find(view.filter); filter != filters.end())
+    filter->second(decoded.data(), view.count, view.stride_bytes);
   return decoded;
 }
 
 bool is_marked(const json &buffer) {
   const json *part = meshopt_part(buffer);
   return part != nullptr && part->value("fallback", false);
-}
-
-void refuse_marked_buffer(const json &document, const json &view, const Place &place) {
-  if (is_marked(document.at("buffers").at(view.at("buffer").get<std::size_t>())))
-    throw input_error(place / "buffer",
-                      fmt::format("is a fallback buffer, expected {} here", meshopt_extension));
 }
 
 std::vector<CompressedView> checked_views(const json &document, const std::vector<Bytes> &buffers,
@@ -139,7 +126,9 @@ std::vector<CompressedView> checked_views(const json &document, const std::vecto
     const Place parent = root / "bufferViews" / i;
     const json *part = meshopt_part(views[i]);
     if (part == nullptr) {
-      refuse_marked_buffer(document, views[i], parent);
+      if (is_marked(document.at("buffers").at(views[i].at("buffer").get<std::size_t>())))
+        throw input_error(parent / "buffer",
+                          fmt::format("is a fallback buffer, expected {} here", meshopt_extension));
       continue;
     }
     result.push_back(compressed_view(*part, i, parent / "extensions" / meshopt_extension));

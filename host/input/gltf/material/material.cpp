@@ -1,8 +1,10 @@
 #include "host/input/gltf/material/material.h"
 
-#include "host/input/gltf/material/texture_info.h"
+#include "host/input/file/json_file.h"
+#include "host/input/gltf/extensions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace pmdsim {
@@ -24,23 +26,31 @@ struct Description {
 };
 
 std::optional<double> stated_reflectivity(const json &material) {
-  const auto extras = material.find("extras");
-  if (extras == material.end() || !extras->is_object() || !extras->contains("pmdsim_reflectivity"))
-    return std::nullopt;
-  return extras->at("pmdsim_reflectivity").get<double>();
+  static const json::json_pointer key("/extras/pmdsim_reflectivity");
+  return material.contains(key) ? std::optional(material.at(key).get<double>()) : std::nullopt;
 }
 
 Description described(const json &material) {
   Description result{material.value("pbrMetallicRoughness", json::object()), glm::dvec4(1.0),
                      stated_reflectivity(material), material.value("alphaMode", "OPAQUE"), 0.0};
-  const json factor = result.base.value("baseColorFactor", json{1.0, 1.0, 1.0, 1.0});
-  for (int c = 0; c < 4; ++c)
-    result.factor[c] = factor.at(static_cast<std::size_t>(c)).get<double>();
+  result.base.value("baseColorFactor", json{1.0, 1.0, 1.0, 1.0}).get_to(result.factor);
   // Above 1 all cutoffs mean the same: nothing is left.
   constexpr double beyond_any_alpha = 2.0;
   if (result.alpha_mode == "MASK")
     result.alpha_cutoff = std::min(material.value("alphaCutoff", 0.5), beyond_any_alpha);
   return result;
+}
+
+// KHR_texture_transform: translation * rotation * scale. A positive rotation turns (u, v) counter-clockwise
+// as seen in the image, where v points down: the way that the extension's words and its example have it, and
+// Blender and the other implementations with them. The GLSL that the extension prints has it the other way
+// round.
+glm::dmat3 matrix_of(const json &transform) {
+  const auto offset = transform.value("offset", json{0.0, 0.0}).get<glm::dvec2>();
+  const auto scale = transform.value("scale", json{1.0, 1.0}).get<glm::dvec2>();
+  const double rotation = transform.value("rotation", 0.0);
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  return {scale.x * glm::dvec3(c, -s, 0.0), scale.y * glm::dvec3(s, c, 0.0), glm::dvec3(offset, 1.0)};
 }
 
 // `least_alpha` is that of the factor and the texture, without the vertices'.
@@ -71,15 +81,12 @@ GltfMaterials::GltfMaterials(const json &document, std::shared_ptr<const tinyglt
 
 // Returns the least alpha that the texture has.
 double GltfMaterials::add_texture(const json &info, Paint &paint, GltfMaterial &result) {
-  const GltfTextureInfo described_info = texture_info_of(info);
-  const GltfTexture texture = textures_[described_info.texture];
-  paint.texture = texture.texels;
-  paint.wrap_u = texture.wrap_u;
-  paint.wrap_v = texture.wrap_v;
-  paint.filter = texture.filter;
-  result.texture_coordinates = described_info.texture_coordinates;
-  result.texture_from_coordinates = described_info.texture_from_coordinates;
-  return static_cast<double>(texture.least_alpha);
+  result.texture_coordinates = info.value("texCoord", 0u);
+  if (const json *transform = extension_part(info, "KHR_texture_transform")) {
+    result.texture_coordinates = transform->value("texCoord", result.texture_coordinates);
+    result.texture_from_coordinates = matrix_of(*transform);
+  }
+  return static_cast<double>(textures_.add(info.at("index").get<std::size_t>(), paint));
 }
 
 GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
@@ -87,7 +94,6 @@ GltfMaterial GltfMaterials::material_of(int index, bool has_colours) {
   const json &material = index < 0 ? default_material : materials_.at(static_cast<std::size_t>(index));
   const Description stated = described(material);
   const bool is_blended = stated.alpha_mode == "BLEND";
-
   GltfMaterial result;
   result.blended = is_blended;
   Paint paint;

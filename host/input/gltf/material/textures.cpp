@@ -1,6 +1,8 @@
 #include "host/input/gltf/material/textures.h"
 
 #include "host/input/file/input_file.h"
+#include "host/input/gltf/data/accessor.h"
+#include "host/input/gltf/data/buffers.h"
 #include "host/input/gltf/document.h"
 #include "host/input/image/image_pixels.h"
 
@@ -25,18 +27,6 @@ std::size_t source_of(const json &texture, const Place &place) {
   throw input_error(place, fmt::format("the image is in {}, which is not supported (expected a \"source\" in "
                                        "PNG or JPEG)",
                                        in_quotes(extensions.begin().key())));
-}
-
-std::span<const unsigned char> bytes_of_view(const tinygltf::Model &model, std::size_t index,
-                                             const Place &root) {
-  const tinygltf::BufferView &view = model.bufferViews[index];
-  const Bytes &buffer = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  // Both are below 2^53.
-  if (view.byteOffset + view.byteLength > buffer.size())
-    throw input_error(
-        root / "bufferViews" / index,
-        fmt::format("ends at byte {}, its buffer has {}", view.byteOffset + view.byteLength, buffer.size()));
-  return std::span(buffer).subspan(view.byteOffset, view.byteLength);
 }
 
 Bytes bytes_of_uri(const std::string &uri, const Place &place) {
@@ -64,12 +54,6 @@ Wrap wrap_of(const json &sampler, const char *key) {
   }
 }
 
-float least_alpha_of(const Texture &texture) {
-  const auto least = std::min_element(texture.texels.begin(), texture.texels.end(),
-                                      [](const glm::vec4 &a, const glm::vec4 &b) { return a.a < b.a; });
-  return least->a; // an image has a texel
-}
-
 } // namespace
 
 GltfTextures::GltfTextures(const json &document, std::shared_ptr<const tinygltf::Model> model,
@@ -78,12 +62,18 @@ GltfTextures::GltfTextures(const json &document, std::shared_ptr<const tinygltf:
       samplers_(document.value("samplers", json::array())), model_(std::move(model)), root_{std::move(file)} {
 }
 
-GltfTexture GltfTextures::operator[](std::size_t index) {
+float GltfTextures::add(std::size_t index, Paint &paint) {
   const json &texture = textures_.at(index);
   const Image &source = image(source_of(texture, root_ / "textures" / index));
-  GltfTexture result{source.texels, source.least_alpha};
-  set_sampler(texture, result);
-  return result;
+  paint.texture = source.texels;
+  if (texture.contains("sampler")) {
+    const json &sampler = samplers_.at(texture.at("sampler").get<std::size_t>());
+    paint.wrap_u = wrap_of(sampler, "wrapS");
+    paint.wrap_v = wrap_of(sampler, "wrapT");
+    if (sampler.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR) == TINYGLTF_TEXTURE_FILTER_NEAREST)
+      paint.filter = TextureFilter::nearest;
+  }
+  return source.least_alpha;
 }
 
 const GltfTextures::Image &GltfTextures::image(std::size_t index) {
@@ -104,18 +94,8 @@ GltfTextures::Image GltfTextures::decoded(std::size_t index) {
     bytes = bytes_of_view(*model_, image.at("bufferView").get<std::size_t>(), root_);
   auto texels = std::make_shared<const Texture>(linear_texture(decoded_image(bytes, left_texels_, place)));
   left_texels_ -= texels->texels.size();
-  const float least_alpha = least_alpha_of(*texels);
+  const float least_alpha = std::ranges::min(texels->texels, {}, &glm::vec4::a).a; // an image has a texel
   return {std::move(texels), least_alpha};
-}
-
-void GltfTextures::set_sampler(const json &texture, GltfTexture &result) const {
-  if (!texture.contains("sampler"))
-    return;
-  const json &sampler = samplers_.at(texture.at("sampler").get<std::size_t>());
-  result.wrap_u = wrap_of(sampler, "wrapS");
-  result.wrap_v = wrap_of(sampler, "wrapT");
-  if (sampler.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR) == TINYGLTF_TEXTURE_FILTER_NEAREST)
-    result.filter = TextureFilter::nearest;
 }
 
 } // namespace pmdsim

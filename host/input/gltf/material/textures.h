@@ -2,8 +2,9 @@
 // The textures of a glTF file, each image decoded when it is first asked for, and only once.
 
 #include "engine/model/scene.h"
-#include "host/input/gltf/data/buffers.h"
+#include "host/input/file/input_error.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,21 +18,15 @@ namespace pmdsim {
 // Of all images of a file that are used, together: 2 GiB decoded.
 inline constexpr std::size_t max_file_texels = std::size_t{1} << 27;
 
-struct GltfTexture {
-  std::shared_ptr<const Texture> texels;
-  float least_alpha = 1.0f; // of all texels
-  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  TextureFilter filter = TextureFilter::linear;
-};
-
 class GltfTextures {
 public:
   // `document` has passed the glTF schema and the check of its references; `model` has its buffers' bytes.
   GltfTextures(const nlohmann::json &document, std::shared_ptr<const tinygltf::Model> model,
                std::filesystem::path file);
 
-  // /textures/`texture`, which exists. Throws Error (input).
-  GltfTexture operator[](std::size_t texture);
+  // Gives `paint` /textures/`texture`, which exists, as its sampler says. Returns the least alpha of all
+  // texels. Throws Error (input).
+  float add(std::size_t texture, Paint &paint);
 
 private:
   struct Image {
@@ -41,7 +36,6 @@ private:
 
   const Image &image(std::size_t index);
   Image decoded(std::size_t index);
-  void set_sampler(const nlohmann::json &texture, GltfTexture &result) const;
 
   nlohmann::json textures_, images_, samplers_;
   std::shared_ptr<const tinygltf::Model> model_;

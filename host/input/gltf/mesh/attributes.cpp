@@ -3,7 +3,6 @@
 #include "host/input/gltf/data/accessor.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
@@ -13,131 +12,131 @@ namespace {
 
 constexpr const char *quantization = "KHR_mesh_quantization";
 
-struct Attribute {
-  const tinygltf::Model &model;
-  std::string name;
-  std::size_t accessor;
-  Place primitive;
-
-  const tinygltf::Accessor &data() const { return model.accessors[accessor]; }
-  Place place() const { return Place{primitive.file} / "accessors" / accessor; }
-};
-
-Attribute attribute_of(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                       const std::string &name, const Place &place) {
-  return {model, name, static_cast<std::size_t>(primitive.attributes.at(name)), place};
-}
-
 bool has_quantization(const tinygltf::Model &model) {
-  const auto lists_it = [](const std::vector<std::string> &names) {
-    return std::find(names.begin(), names.end(), quantization) != names.end();
-  };
-  return lists_it(model.extensionsUsed) || lists_it(model.extensionsRequired);
+  return std::ranges::count(model.extensionsUsed, quantization) > 0 ||
+         std::ranges::count(model.extensionsRequired, quantization) > 0;
 }
 
 bool is_float(const tinygltf::Accessor &accessor) {
   return accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
+// 8 or 16 bit.
 bool is_short(const tinygltf::Accessor &accessor) {
-  constexpr std::array types = {TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                                TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
-  return std::find(types.begin(), types.end(), accessor.componentType) != types.end();
+  return accessor.componentType >= TINYGLTF_COMPONENT_TYPE_BYTE &&
+         accessor.componentType <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+}
+
+bool is_unsigned_short(const tinygltf::Accessor &accessor) {
+  return accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
 bool is_unsigned_fraction(const tinygltf::Accessor &accessor) {
-  return accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                 accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+  return accessor.normalized && is_unsigned_short(accessor);
 }
 
-// glTF 2.0's own types (section 3.7.2.1), and with KHR_mesh_quantization any of 8 or 16 bit.
-void check_quantizable(const Attribute &attribute, bool is_core) {
-  if (is_core || (is_short(attribute.data()) && has_quantization(attribute.model)))
-    return;
-  const char *condition = is_short(attribute.data()) ? " without the extension KHR_mesh_quantization" : "";
-  throw input_error(attribute.place() / "componentType",
-                    fmt::format("{}{} is not allowed for {}{}",
-                                attribute.data().normalized ? "normalized " : "",
-                                attribute.data().componentType, attribute.name, condition));
-}
+// An attribute that has to be there; `needed_by` is added where it is not.
+class Attribute {
+public:
+  Attribute(const GltfPrimitive &primitive, std::string name, const char *needed_by = "")
+      : primitive_(primitive), name_(std::move(name)) {
+    const auto found = primitive.data.attributes.find(name_);
+    if (found == primitive.data.attributes.end())
+      throw input_error(primitive.place / "attributes",
+                        fmt::format("missing key \"{}\"{}", name_, needed_by));
+    accessor_ = static_cast<std::size_t>(found->second);
+  }
 
-std::vector<glm::dvec4> read(const Attribute &attribute, int components) {
-  return read_vectors(attribute.model, attribute.accessor, components, Place{attribute.primitive.file});
-}
+  std::size_t accessor() const { return accessor_; }
+  const tinygltf::Accessor &data() const { return primitive_.model.accessors[accessor_]; }
+  Place place() const { return Place{primitive_.place.file} / "accessors" / accessor_; }
 
-void check_type(const Attribute &attribute, bool is_expected, const char *expected) {
-  if (!is_expected)
-    throw input_error(attribute.place() / "type",
-                      fmt::format("expected {} for {}", expected, attribute.name));
-}
+  void check_type(bool is_expected, const char *expected) const {
+    if (!is_expected)
+      throw input_error(place() / "type", fmt::format("expected {} for {}", expected, name_));
+  }
 
-void check_count(const Attribute &attribute, std::size_t vertex_count) {
-  if (attribute.data().count != vertex_count)
-    throw input_error(attribute.primitive / "attributes" / attribute.name,
-                      fmt::format("has {} elements, POSITION has {}", attribute.data().count, vertex_count));
+  void check_component(bool is_expected, const char *expected) const {
+    if (!is_expected)
+      throw input_error(place() / "componentType", fmt::format("expected {}", expected));
+  }
+
+  // glTF 2.0's own types (section 3.7.2.1), and with KHR_mesh_quantization any of 8 or 16 bit.
+  void check_quantizable(bool is_core) const {
+    if (is_core || (is_short(data()) && has_quantization(primitive_.model)))
+      return;
+    const char *condition = is_short(data()) ? " without the extension KHR_mesh_quantization" : "";
+    throw input_error(place() / "componentType",
+                      fmt::format("{}{} is not allowed for {}{}", data().normalized ? "normalized " : "",
+                                  data().componentType, name_, condition));
+  }
+
+  void check_count(std::size_t vertices) const {
+    if (data().count != vertices)
+      throw input_error(primitive_.place / "attributes" / name_,
+                        fmt::format("has {} elements, POSITION has {}", data().count, vertices));
+  }
+
+  std::vector<glm::dvec4> read(int components) const {
+    return read_vectors(primitive_.model, accessor_, components, Place{primitive_.place.file});
+  }
+
+private:
+  const GltfPrimitive &primitive_;
+  std::string name_;
+  std::size_t accessor_;
+};
+
+std::size_t vertex_count(const GltfPrimitive &primitive) {
+  return Attribute(primitive, "POSITION").data().count;
 }
 
 } // namespace
 
-std::vector<glm::dvec4> read_positions(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                                       const Place &place) {
-  if (!primitive.attributes.contains("POSITION"))
-    throw input_error(place / "attributes", "missing key \"POSITION\"");
-  const Attribute attribute = attribute_of(model, primitive, "POSITION", place);
-  check_type(attribute, attribute.data().type == TINYGLTF_TYPE_VEC3, "\"VEC3\"");
-  check_quantizable(attribute, is_float(attribute.data()));
-  return read(attribute, 3);
+std::vector<glm::dvec4> read_positions(const GltfPrimitive &primitive) {
+  const Attribute attribute(primitive, "POSITION");
+  attribute.check_type(attribute.data().type == TINYGLTF_TYPE_VEC3, "\"VEC3\"");
+  attribute.check_quantizable(is_float(attribute.data()));
+  return attribute.read(3);
 }
 
-std::vector<glm::vec4> read_colours(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                                    std::size_t vertex_count, const Place &place) {
-  if (!primitive.attributes.contains("COLOR_0"))
+std::vector<glm::vec4> read_colours(const GltfPrimitive &primitive) {
+  if (!primitive.data.attributes.contains("COLOR_0"))
     return {};
-  const Attribute attribute = attribute_of(model, primitive, "COLOR_0", place);
+  const Attribute attribute(primitive, "COLOR_0");
   const tinygltf::Accessor &accessor = attribute.data();
   const bool has_alpha = accessor.type == TINYGLTF_TYPE_VEC4;
-  check_type(attribute, has_alpha || accessor.type == TINYGLTF_TYPE_VEC3, "\"VEC3\" or \"VEC4\"");
-  check_count(attribute, vertex_count);
-  if (!is_float(accessor) && !is_unsigned_fraction(accessor))
-    throw input_error(attribute.place() / "componentType",
-                      "expected 5126, or normalized 5121 or 5123, for COLOR_0");
+  attribute.check_type(has_alpha || accessor.type == TINYGLTF_TYPE_VEC3, "\"VEC3\" or \"VEC4\"");
+  attribute.check_count(vertex_count(primitive));
+  attribute.check_component(is_float(accessor) || is_unsigned_fraction(accessor),
+                            "5126, or normalized 5121 or 5123, for COLOR_0");
   std::vector<glm::vec4> colours;
-  colours.reserve(vertex_count);
-  for (const glm::dvec4 &colour : read(attribute, has_alpha ? 4 : 3)) {
+  for (const glm::dvec4 &colour : attribute.read(has_alpha ? 4 : 3)) {
     const glm::dvec4 opaque(colour.r, colour.g, colour.b, has_alpha ? colour.a : 1.0);
     colours.emplace_back(glm::clamp(opaque, 0.0, 1.0)); // as glTF 2.0, section 3.7.2.1, has it
   }
   return colours;
 }
 
-std::vector<glm::dvec2> read_texture_coordinates(const tinygltf::Model &model,
-                                                 const tinygltf::Primitive &primitive, std::uint32_t set,
-                                                 std::size_t vertex_count, const Place &place) {
-  const std::string name = fmt::format("TEXCOORD_{}", set);
-  if (!primitive.attributes.contains(name))
-    throw input_error(place / "attributes",
-                      fmt::format("missing key \"{}\", which its material's texture needs", name));
-  const Attribute attribute = attribute_of(model, primitive, name, place);
-  check_type(attribute, attribute.data().type == TINYGLTF_TYPE_VEC2, "\"VEC2\"");
-  check_count(attribute, vertex_count);
-  check_quantizable(attribute, is_float(attribute.data()) || is_unsigned_fraction(attribute.data()));
-  std::vector<glm::dvec2> coordinates;
-  coordinates.reserve(vertex_count);
-  for (const glm::dvec4 &vector : read(attribute, 2))
-    coordinates.emplace_back(vector);
-  return coordinates;
+std::vector<glm::dvec2> read_texture_coordinates(const GltfPrimitive &primitive, std::uint32_t set) {
+  const Attribute attribute(primitive, fmt::format("TEXCOORD_{}", set),
+                            ", which its material's texture needs");
+  attribute.check_type(attribute.data().type == TINYGLTF_TYPE_VEC2, "\"VEC2\"");
+  attribute.check_count(vertex_count(primitive));
+  attribute.check_quantizable(is_float(attribute.data()) || is_unsigned_fraction(attribute.data()));
+  const std::vector<glm::dvec4> coordinates = attribute.read(2);
+  return {coordinates.begin(), coordinates.end()};
 }
 
-std::vector<double> read_radii(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                               std::size_t vertex_count, const Place &place) {
-  if (!primitive.attributes.contains("_RADIUS"))
+std::vector<double> read_radii(const GltfPrimitive &primitive) {
+  if (!primitive.data.attributes.contains("_RADIUS"))
     return {};
-  const Attribute attribute = attribute_of(model, primitive, "_RADIUS", place);
-  check_type(attribute, attribute.data().type == TINYGLTF_TYPE_SCALAR, "\"SCALAR\"");
-  check_count(attribute, vertex_count);
+  const Attribute attribute(primitive, "_RADIUS");
+  attribute.check_type(attribute.data().type == TINYGLTF_TYPE_SCALAR, "\"SCALAR\"");
+  attribute.check_count(vertex_count(primitive));
   std::vector<double> radii;
-  radii.reserve(vertex_count);
-  for (const glm::dvec4 &vector : read(attribute, 1)) {
+  for (const glm::dvec4 &vector : attribute.read(1)) {
     if (!(vector.x > 0.0))
       throw input_error(attribute.place(),
                         fmt::format("element {} is {}, expected a radius above 0", radii.size(), vector.x));
@@ -146,8 +145,28 @@ std::vector<double> read_radii(const tinygltf::Model &model, const tinygltf::Pri
   return radii;
 }
 
-bool is_quantized(const tinygltf::Model &model, const tinygltf::Primitive &primitive) {
-  return !is_float(model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))]);
+std::vector<WeightSet> weight_sets(const GltfPrimitive &primitive) {
+  const auto &attributes = primitive.data.attributes;
+  const std::size_t vertices = vertex_count(primitive);
+  std::vector<WeightSet> sets;
+  for (std::size_t n = 0;; ++n) {
+    const std::string joints_name = fmt::format("JOINTS_{}", n), weights_name = fmt::format("WEIGHTS_{}", n);
+    if (n > 0 && !attributes.contains(joints_name) && !attributes.contains(weights_name))
+      return sets;
+    const Attribute joints(primitive, joints_name);
+    joints.check_component(is_unsigned_short(joints.data()) && !joints.data().normalized,
+                           "5121 or 5123, not normalized, for joints");
+    joints.check_count(vertices);
+    const Attribute weights(primitive, weights_name);
+    weights.check_component(is_float(weights.data()) || is_unsigned_fraction(weights.data()),
+                            "5126, or 5121 or 5123 normalized, for weights");
+    weights.check_count(vertices);
+    sets.push_back({joints.accessor(), weights.accessor()});
+  }
+}
+
+bool is_quantized(const GltfPrimitive &primitive) {
+  return !is_float(Attribute(primitive, "POSITION").data());
 }
 
 } // namespace pmdsim

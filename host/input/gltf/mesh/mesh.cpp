@@ -17,42 +17,36 @@ namespace {
 
 constexpr const char *area_key = "pmdsim_point_area_m2";
 
-// That of a point of its material's area; 0 where the material has none.
-double material_radius_m(const tinygltf::Model &model, const tinygltf::Primitive &primitive) {
-  if (primitive.material < 0)
-    return 0.0;
-  const tinygltf::Value &extras = model.materials[static_cast<std::size_t>(primitive.material)].extras;
+// That of a point of its material's area.
+double material_radius_m(const GltfPrimitive &primitive) {
+  const int material = primitive.data.material;
+  const tinygltf::Value extras =
+      material < 0 ? tinygltf::Value() : primitive.model.materials[static_cast<std::size_t>(material)].extras;
   if (!extras.IsObject() || !extras.Has(area_key))
-    return 0.0;
+    throw input_error(primitive.place,
+                      fmt::format("points without a size, expected the attribute _RADIUS or a material with "
+                                  "extras.{}",
+                                  area_key));
   return std::sqrt(extras.Get(area_key).GetNumberAsDouble() / std::numbers::pi);
 }
 
 // The world radius of each of a POINTS primitive's vertices: the attribute _RADIUS, in the mesh's units, else
 // that of the area extras.pmdsim_point_area_m2 of its material. The node scales both with the cube root of
 // its change of volume; but an area's radius stays where positions are quantized, for their node's scale is
-// part of the quantization and their unit no metre. Throws Error (input) at `place`, /meshes/I/primitives/K.
-std::vector<double> point_radii_m(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                                  const Placement &placement, std::size_t vertex_count, const Place &place) {
-  const auto scale = [&](std::size_t vertex) {
-    return std::cbrt(std::abs(glm::determinant(placement.world_from_mesh(vertex).linear)));
-  };
-  std::vector<double> radii = read_radii(model, primitive, vertex_count, place);
-  const bool of_an_area = radii.empty();
-  if (of_an_area) {
-    const double radius_m = material_radius_m(model, primitive);
-    if (radius_m == 0.0)
-      throw input_error(place, fmt::format("points without a size, expected the attribute _RADIUS or a "
-                                           "material with extras.{}",
-                                           area_key));
-    radii.assign(vertex_count, radius_m);
-  }
-  if (!of_an_area || !is_quantized(model, primitive))
-    for (std::size_t i = 0; i < radii.size(); ++i)
-      radii[i] *= scale(i);
-  for (std::size_t i = 0; i < radii.size(); ++i)
+// part of the quantization and their unit no metre. Throws Error (input) at the primitive.
+std::vector<double> point_radii_m(const GltfPrimitive &primitive, const Placement &placement,
+                                  std::size_t vertex_count) {
+  std::vector<double> radii = read_radii(primitive);
+  const bool is_scaled = !radii.empty() || !is_quantized(primitive);
+  if (radii.empty())
+    radii.assign(vertex_count, material_radius_m(primitive));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (is_scaled)
+      radii[i] *= std::cbrt(std::abs(glm::determinant(placement.world_from_mesh(i).linear)));
     if (!(radii[i] <= max_coordinate_m))
-      throw input_error(place, fmt::format("vertex {} has a radius of {} m, expected at most {} m", i,
-                                           radii[i], max_coordinate_m));
+      throw input_error(primitive.place, fmt::format("vertex {} has a radius of {} m, expected at most {} m",
+                                                     i, radii[i], max_coordinate_m));
+  }
   return radii;
 }
 
@@ -109,10 +103,10 @@ std::vector<glm::dvec3> world_positions(const std::vector<glm::dvec4> &positions
   return world;
 }
 
-std::vector<std::uint32_t> vertex_indices(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                                          std::size_t vertex_count, const Place &root) {
-  if (primitive.indices >= 0)
-    return read_indices(model, static_cast<std::size_t>(primitive.indices), vertex_count, root);
+std::vector<std::uint32_t> vertex_indices(const GltfPrimitive &primitive, std::size_t vertex_count) {
+  if (primitive.data.indices >= 0)
+    return read_indices(primitive.model, static_cast<std::size_t>(primitive.data.indices), vertex_count,
+                        Place{primitive.place.file});
   std::vector<std::uint32_t> indices(vertex_count);
   std::iota(indices.begin(), indices.end(), 0u);
   return indices;
@@ -130,34 +124,26 @@ void extend(std::vector<T> &all, const std::vector<T> &values, T absent, std::si
   all.resize(before + count, absent);
 }
 
-std::vector<glm::dvec2> texture_coordinates(const tinygltf::Model &model,
-                                            const tinygltf::Primitive &primitive,
-                                            const GltfMaterial &material, std::size_t vertex_count,
-                                            const Place &place) {
+std::vector<glm::dvec2> texture_coordinates(const GltfPrimitive &primitive, const GltfMaterial &material) {
   if (!material.surface.paint || !material.surface.paint->texture)
     return {};
-  std::vector<glm::dvec2> coordinates =
-      read_texture_coordinates(model, primitive, material.texture_coordinates, vertex_count, place);
+  std::vector<glm::dvec2> coordinates = read_texture_coordinates(primitive, material.texture_coordinates);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     coordinates[i] = glm::dvec2(material.texture_from_coordinates * glm::dvec3(coordinates[i], 1.0));
     const glm::dvec2 size = glm::abs(coordinates[i]);
     if (!(size.x <= max_texture_coordinate && size.y <= max_texture_coordinate))
-      throw input_error(place,
+      throw input_error(primitive.place,
                         fmt::format("vertex {} lies outside the texture, expected coordinates from {} to {}",
                                     i, -max_texture_coordinate, max_texture_coordinate));
   }
   return coordinates;
 }
 
-std::vector<glm::vec4> colours(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
-                               const GltfMaterial &material, std::size_t vertex_count, const Place &place) {
-  std::vector<glm::vec4> result = read_colours(model, primitive, vertex_count, place);
-  const bool translucent =
-      material.blended &&
-      std::any_of(result.begin(), result.end(), [](const glm::vec4 &rgba) { return rgba.a < 1.0f; });
-  if (translucent)
+std::vector<glm::vec4> colours(const GltfPrimitive &primitive, const GltfMaterial &material) {
+  std::vector<glm::vec4> result = read_colours(primitive);
+  if (material.blended && std::ranges::any_of(result, [](const glm::vec4 &rgba) { return rgba.a < 1.0f; }))
     throw input_error(
-        place / "attributes" / "COLOR_0",
+        primitive.place / "attributes" / "COLOR_0",
         "an alpha below 1 is not supported under alphaMode BLEND (expected \"MASK\" or \"OPAQUE\")");
   return result;
 }
@@ -175,28 +161,27 @@ void append_triangles(const std::vector<Corners> &triangles, const std::vector<s
 
 } // namespace
 
-void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive,
+void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &data,
                       const Placement &placement, const GltfMaterial &material, std::uint32_t surface,
                       std::uint32_t object, const Place &place, Scene &scene) {
-  refuse_other_geometry(primitive, place);
-  const std::vector<glm::dvec4> positions = read_positions(model, primitive, place);
+  const GltfPrimitive primitive{model, data, place};
+  refuse_other_geometry(data, place);
+  const std::vector<glm::dvec4> positions = read_positions(primitive);
   const std::size_t before = scene.positions_m.size(), count = positions.size();
-  const std::vector<std::uint32_t> indices = vertex_indices(model, primitive, count, Place{place.file});
+  const std::vector<std::uint32_t> indices = vertex_indices(primitive, count);
   if (before + count > max_scene_vertices || scene.shape_count() + indices.size() > max_scene_vertices)
     throw input_error(
         place, fmt::format("the scene has more than {} vertices, triangles or points", max_scene_vertices));
 
   const std::vector<glm::dvec3> world = world_positions(positions, placement, place);
   const auto first_vertex = static_cast<std::uint32_t>(before);
-  if (primitive.mode == TINYGLTF_MODE_POINTS)
-    append_discs(indices, point_radii_m(model, primitive, placement, count, place), first_vertex, surface,
-                 object, scene);
+  if (data.mode == TINYGLTF_MODE_POINTS)
+    append_discs(indices, point_radii_m(primitive, placement, count), first_vertex, surface, object, scene);
   else
-    append_triangles(triangle_corners(primitive.mode, static_cast<std::uint32_t>(indices.size()), place),
-                     indices, placement, first_vertex, surface, object, scene);
-  extend(scene.colours, colours(model, primitive, material, count, place), glm::vec4(1.0f), before, count);
-  extend(scene.texture_coordinates, texture_coordinates(model, primitive, material, count, place),
-         glm::dvec2(0.0), before, count);
+    append_triangles(triangle_corners(data.mode, static_cast<std::uint32_t>(indices.size()), place), indices,
+                     placement, first_vertex, surface, object, scene);
+  extend(scene.colours, colours(primitive, material), glm::vec4(1.0f), before, count);
+  extend(scene.texture_coordinates, texture_coordinates(primitive, material), glm::dvec2(0.0), before, count);
   scene.positions_m.insert(scene.positions_m.end(), world.begin(), world.end());
 }
 
