@@ -42,14 +42,6 @@ std::vector<Row> rows_of(Table &table, bool two_dimensional) {
   return rows;
 }
 
-void expect_ascending(const std::vector<Row> &rows, const std::filesystem::path &file) {
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    if (!(rows[i].theta_deg >= rows[i - 1].theta_deg + least_angle_step_deg))
-      throw input_error(TextPlace{file, rows[i].value.line},
-                        fmt::format("angle_deg: expected ascending angles, found {} after {}",
-                                    rows[i].theta_deg, rows[i - 1].theta_deg));
-}
-
 // The different angles among the rows, ascending.
 std::vector<double> distinct_angles(std::vector<Row> &rows, double Row::*angle_deg, const char *name,
                                     const std::filesystem::path &file) {
@@ -87,9 +79,8 @@ void expect_grid(const std::vector<Row> &rows, const DiagramTable &table, const 
 
 DiagramTable listed(const std::filesystem::path &file, const std::vector<Row> &rows) {
   DiagramTable table{file, {}, {0.0}, {}};
-  expect_ascending(rows, file);
   for (const Row &row : rows)
-    table.theta_deg.push_back(row.theta_deg);
+    append_ascending(table.theta_deg, row.theta_deg, columns[angle], TextPlace{file, row.value.line});
   return table;
 }
 

@@ -58,6 +58,14 @@ double merge_axis(DiagramTable &table, double maximum) {
 
 } // namespace
 
+void append_ascending(std::vector<double> &angles_deg, double angle_deg, const char *what,
+                      const TextPlace &place) {
+  if (!angles_deg.empty() && !(angle_deg >= angles_deg.back() + least_angle_step_deg))
+    throw input_error(place, fmt::format("{}: expected ascending angles, found {} after {}", what, angle_deg,
+                                         angles_deg.back()));
+  angles_deg.push_back(angle_deg);
+}
+
 void close_turn(DiagramTable &table) {
   if (table.phi_deg.back() != 360.0)
     return;

@@ -32,6 +32,10 @@ struct DiagramTable {
   Value &at(std::size_t theta, std::size_t phi) { return values[theta * phi_deg.size() + phi]; }
 };
 
+// Throws Error (input) at `place` where the angle, which is a `what`, is not a step above the last one.
+void append_ascending(std::vector<double> &angles_deg, double angle_deg, const char *what,
+                      const TextPlace &place);
+
 // Takes out phi = 360, which is 0 again. Throws Error (input) where 0 is missing, or differs by more than 1 %
 // of the maximum.
 void close_turn(DiagramTable &table);

@@ -151,10 +151,7 @@ std::vector<double> read_angles(IesText &text, std::size_t count, Range range_de
   std::vector<double> angles_deg;
   while (angles_deg.size() < count) {
     const double angle_deg = text.number_within(range_deg, what);
-    if (!angles_deg.empty() && !(angle_deg >= angles_deg.back() + least_angle_step_deg))
-      throw input_error(text.here(), fmt::format("{}: expected ascending angles, found {} after {}", what,
-                                                 angle_deg, angles_deg.back()));
-    angles_deg.push_back(angle_deg);
+    append_ascending(angles_deg, angle_deg, what, text.here());
   }
   return angles_deg;
 }

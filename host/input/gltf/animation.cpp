@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <tiny_gltf.h>
 #include <tuple>
@@ -11,6 +12,8 @@
 namespace pmdsim {
 
 namespace {
+
+constexpr std::size_t max_keys = std::size_t{1} << 24; // of a file's samplers together
 
 // Where a time lies among the keys.
 struct KeySpan {
@@ -44,6 +47,29 @@ glm::dvec4 spline_at(const std::vector<glm::dvec4> &values, const KeySpan &span)
 }
 
 glm::dquat quaternion(const glm::dvec4 &xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
+
+glm::dvec3 vector_at(const Keyframes &keyframes, double time_s) {
+  const KeySpan span = span_at(keyframes.times_s, time_s);
+  if (span.fraction == 0.0 || keyframes.interpolation == Interpolation::step)
+    return key_value(keyframes, span.key);
+  if (keyframes.interpolation == Interpolation::cubic_spline)
+    return spline_at(keyframes.values, span);
+  return glm::mix(keyframes.values[span.key], keyframes.values[span.key + 1], span.fraction);
+}
+
+// Values are quaternions x, y, z, w; linear goes along the great circle, the shorter way. Of unit length; of
+// a cubic spline where it runs through zero the key before.
+glm::dquat rotation_at(const Keyframes &keyframes, double time_s) {
+  const KeySpan span = span_at(keyframes.times_s, time_s);
+  const glm::dquat before = glm::normalize(quaternion(key_value(keyframes, span.key)));
+  if (span.fraction == 0.0 || keyframes.interpolation == Interpolation::step)
+    return before;
+  if (keyframes.interpolation == Interpolation::linear)
+    return glm::normalize(glm::slerp(before, quaternion(keyframes.values[span.key + 1]), span.fraction));
+  const glm::dquat spline = quaternion(spline_at(keyframes.values, span));
+  const double length = glm::length(spline);
+  return length > 0.0 ? spline / length : before;
+}
 
 bool changes(const Keyframes &keyframes) {
   const std::size_t keys = keyframes.times_s.size();
@@ -142,8 +168,8 @@ private:
       throw input_error(place / "output",
                         fmt::format("has {} elements, expected {} for {} times", values, expected, times));
     key_count_ += values;
-    if (key_count_ > max_animation_keys)
-      throw input_error(place, fmt::format("the animations have more than {} keys", max_animation_keys));
+    if (key_count_ > max_keys)
+      throw input_error(place, fmt::format("the animations have more than {} keys", max_keys));
   }
 
   const tinygltf::Model &model_;
@@ -155,30 +181,9 @@ private:
 
 } // namespace
 
-glm::dvec3 vector_at(const Keyframes &keyframes, double time_s) {
-  const KeySpan span = span_at(keyframes.times_s, time_s);
-  if (span.fraction == 0.0 || keyframes.interpolation == Interpolation::step)
-    return key_value(keyframes, span.key);
-  if (keyframes.interpolation == Interpolation::cubic_spline)
-    return spline_at(keyframes.values, span);
-  return glm::mix(keyframes.values[span.key], keyframes.values[span.key + 1], span.fraction);
-}
-
-glm::dquat rotation_at(const Keyframes &keyframes, double time_s) {
-  const KeySpan span = span_at(keyframes.times_s, time_s);
-  const glm::dquat before = glm::normalize(quaternion(key_value(keyframes, span.key)));
-  if (span.fraction == 0.0 || keyframes.interpolation == Interpolation::step)
-    return before;
-  if (keyframes.interpolation == Interpolation::linear)
-    return glm::normalize(glm::slerp(before, quaternion(keyframes.values[span.key + 1]), span.fraction));
-  const glm::dquat spline = quaternion(spline_at(keyframes.values, span));
-  const double length = glm::length(spline);
-  return length > 0.0 ? spline / length : before;
-}
-
 bool Animation::moves() const {
-  return std::any_of(channels.begin(), channels.end(),
-                     [&](const AnimationChannel &channel) { return changes(keyframes[channel.keyframes]); });
+  return std::ranges::any_of(
+      channels, [&](const AnimationChannel &channel) { return changes(keyframes[channel.keyframes]); });
 }
 
 void Animation::apply(double time_s, std::vector<SceneNode> &nodes) const {

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 namespace tinygltf {
@@ -16,8 +15,6 @@ class Model;
 }
 
 namespace pmdsim {
-
-inline constexpr std::size_t max_animation_keys = std::size_t{1} << 24; // of a file's samplers together
 
 enum class Interpolation { step, linear, cubic_spline };
 
@@ -27,11 +24,6 @@ struct Keyframes {
   std::vector<double> times_s;    // at least one, strictly increasing
   std::vector<glm::dvec4> values; // one a key; three for a cubic spline: in-tangent, value, out-tangent
 };
-
-glm::dvec3 vector_at(const Keyframes &keyframes, double time_s);
-// Values are quaternions x, y, z, w; linear goes along the great circle, the shorter way. Of unit length; of
-// a cubic spline where it runs through zero the key before.
-glm::dquat rotation_at(const Keyframes &keyframes, double time_s);
 
 enum class AnimatedProperty { translation, rotation, scale };
 

@@ -22,12 +22,14 @@ double material_radius_m(const GltfPrimitive &primitive) {
   const int material = primitive.data.material;
   const tinygltf::Value extras =
       material < 0 ? tinygltf::Value() : primitive.model.materials[static_cast<std::size_t>(material)].extras;
-  if (!extras.IsObject() || !extras.Has(area_key))
+  const double area_m2 = extras.Has(area_key) ? extras.Get(area_key).GetNumberAsDouble() : 0.0;
+  const double radius_m = std::sqrt(area_m2 / std::numbers::pi);
+  if (radius_m == 0.0)
     throw input_error(primitive.place,
                       fmt::format("points without a size, expected the attribute _RADIUS or a material with "
                                   "extras.{}",
                                   area_key));
-  return std::sqrt(extras.Get(area_key).GetNumberAsDouble() / std::numbers::pi);
+  return radius_m;
 }
 
 // The world radius of each of a POINTS primitive's vertices: the attribute _RADIUS, in the mesh's units, else
