@@ -29,18 +29,16 @@ std::string sensor_name(std::string name) {
   return name.empty() ? "camera" : name;
 }
 
-void check_range(const CalibrationKey &key, const char *what, double value_m, double min_m, double max_m) {
-  if (!(value_m >= min_m && value_m <= max_m))
-    throw input_error(key, fmt::format("expected {} from {} to {} m, found {} m at this pixel pitch", what,
-                                       min_m, max_m, value_m));
-}
-
 void check_ranges(const Sensor &sensor, const CalibrationKey &key) {
-  check_range(key, "a focal length", sensor.focal_length_m, min_length_m, max_length_m);
-  check_range(key, "a pixel pitch along the rows", sensor.pixel_pitch_m.y, min_length_m, max_length_m);
+  const auto check = [&](const char *what, double value_m, double min_m, double max_m) {
+    if (!(value_m >= min_m && value_m <= max_m))
+      throw input_error(key, fmt::format("expected {} from {} to {} m, found {} m at this pixel pitch", what,
+                                         min_m, max_m, value_m));
+  };
+  check("a focal length", sensor.focal_length_m, min_length_m, max_length_m);
+  check("a pixel pitch along the rows", sensor.pixel_pitch_m.y, min_length_m, max_length_m);
   for (int axis = 0; axis < 3; ++axis)
-    check_range(key, "a principal point", sensor.chip.translation_m[axis], -max_chip_shift_m,
-                max_chip_shift_m);
+    check("a principal point", sensor.chip.translation_m[axis], -max_chip_shift_m, max_chip_shift_m);
 }
 
 ordered_json distortion_block(const Distortion &distortion) {

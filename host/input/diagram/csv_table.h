@@ -46,9 +46,8 @@ public:
 
   // Of the row read last; empty where the table has no such column.
   std::string_view text(std::size_t column) const { return fields_[column]; }
-  double number(std::size_t column) const { return number_of(text(column), names_[column], here()); }
-  double number_within(Range range, std::size_t column) const {
-    return number_in(range, text(column), names_[column], here());
+  double number(std::size_t column, Range range = {}) const {
+    return number_of(text(column), names_[column], here(), range);
   }
 
   // The line read last; the header's as long as no row was.

@@ -5,7 +5,6 @@
 #include <tuple>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr std::array<const char *, 4> columns = {"angle_deg", "theta_deg", "phi_deg", "relative"};
@@ -35,9 +34,9 @@ std::vector<Row> rows_of(Table &table, bool two_dimensional) {
   while (table.next_row()) {
     if (rows.size() == max_diagram_values)
       throw input_error(table.here(), fmt::format("expected at most {} directions", max_diagram_values));
-    rows.push_back({table.number_within(to_axis_deg, two_dimensional ? theta : angle),
-                    two_dimensional ? table.number_within(about_axis_deg, phi) : 0.0,
-                    {table.number_within({0.0, max_diagram_value}, relative), table.here().line}});
+    rows.push_back({table.number(two_dimensional ? theta : angle, to_axis_deg),
+                    two_dimensional ? table.number(phi, about_axis_deg) : 0.0,
+                    {table.number(relative, {0.0, max_diagram_value}), table.here().line}});
   }
   return rows;
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr double same_direction = 0.01; // of the maximum: how far values of one direction may lie apart

@@ -38,12 +38,12 @@ glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
 
 Diode diode_of(const Table &row, DiagramFiles &diagrams) {
   Diode diode;
-  diode.position_m = {row.number_within(coordinates_m, x_m), row.number_within(coordinates_m, y_m),
-                      row.number_within(coordinates_m, z_m)};
+  diode.position_m = {row.number(x_m, coordinates_m), row.number(y_m, coordinates_m),
+                      row.number(z_m, coordinates_m)};
   diode.axis = unit_axis({row.number(axis_x), row.number(axis_y), row.number(axis_z)}, row.here());
-  diode.intensity_w_sr = row.number_within(intensities_w_sr, intensity_w_sr);
+  diode.intensity_w_sr = row.number(intensity_w_sr, intensities_w_sr);
   diode.pattern = law_in_field(row.text(pattern), row.here(), diagrams);
-  const double roll = row.has(roll_deg) ? row.number_within(rolls_deg, roll_deg) : 0.0;
+  const double roll = row.has(roll_deg) ? row.number(roll_deg, rolls_deg) : 0.0;
   diode.across = diode_across(diode.axis, glm::radians(roll));
   return diode;
 }

@@ -8,7 +8,6 @@
 #include <optional>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -31,17 +30,12 @@ public:
     return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
   }
 
-  double number(std::string_view what) {
+  double number(std::string_view what, Range range = {}) {
     const std::string_view word = expect_word(what);
-    return number_of(word, what, here());
+    return number_of(word, what, here(), range);
   }
-  double number_within(Range range, std::string_view what) {
-    const std::string_view word = expect_word(what);
-    return number_in(range, word, what, here());
-  }
-
-  std::size_t count(Range range, std::string_view what) {
-    const double value = number_within(range, what);
+  std::size_t count(std::string_view what, Range range) {
+    const double value = number(what, range);
     if (value != std::floor(value))
       throw input_error(here(), fmt::format("{}: expected a whole number, found {}", what, value));
     return static_cast<std::size_t>(value);
@@ -108,8 +102,8 @@ std::string_view skip_label(IesText &text) {
 void skip_tilt(IesText &text) {
   if (skip_label(text) != "INCLUDE")
     return;
-  text.count({1.0, 3.0}, "lamp-to-luminaire geometry");
-  const std::size_t pairs = text.count(angle_counts, "number of tilt angles");
+  text.count("lamp-to-luminaire geometry", {1.0, 3.0});
+  const std::size_t pairs = text.count("number of tilt angles", angle_counts);
   for (std::size_t i = 0; i < pairs; ++i)
     text.number("tilt angle");
   for (std::size_t i = 0; i < pairs; ++i)
@@ -117,7 +111,7 @@ void skip_tilt(IesText &text) {
 }
 
 void expect_type_c(IesText &text) {
-  const std::size_t type = text.count({1.0, 3.0}, "photometric type");
+  const std::size_t type = text.count("photometric type", {1.0, 3.0});
   if (type != 1)
     throw input_error(text.here(), fmt::format("photometric type: expected 1 (type C), found {}, type {}",
                                                type, type == 2 ? 'B' : 'A'));
@@ -133,8 +127,8 @@ Counts read_head(IesText &text) {
   if (!(text.number("candela multiplier") > 0.0))
     throw input_error(text.here(), "candela multiplier: expected a number above 0");
   const std::size_t vertical =
-      text.count({2.0, static_cast<double>(max_diagram_values)}, "number of vertical angles");
-  const std::size_t horizontal = text.count(angle_counts, "number of horizontal angles");
+      text.count("number of vertical angles", {2.0, static_cast<double>(max_diagram_values)});
+  const std::size_t horizontal = text.count("number of horizontal angles", angle_counts);
   if (vertical * horizontal > max_diagram_values)
     throw input_error(text.here(),
                       fmt::format("expected at most {} candela values, found {} vertical times {} "
@@ -150,7 +144,7 @@ Counts read_head(IesText &text) {
 std::vector<double> read_angles(IesText &text, std::size_t count, Range range_deg, const char *what) {
   std::vector<double> angles_deg;
   while (angles_deg.size() < count) {
-    const double angle_deg = text.number_within(range_deg, what);
+    const double angle_deg = text.number(what, range_deg);
     append_ascending(angles_deg, angle_deg, what, text.here());
   }
   return angles_deg;
@@ -214,7 +208,7 @@ DiagramTable read_ies(const std::filesystem::path &file, std::string_view bytes)
   table.values.resize(vertical * horizontal);
   for (std::size_t phi = 0; phi < horizontal; ++phi)
     for (std::size_t theta = 0; theta < vertical; ++theta) {
-      const double candela = text.number_within({0.0, max_diagram_value}, "candela value");
+      const double candela = text.number("candela value", {0.0, max_diagram_value});
       table.at(theta, phi) = {candela, text.here().line};
     }
   text.expect_end();

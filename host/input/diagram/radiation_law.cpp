@@ -24,10 +24,8 @@ bool is_ies(const std::filesystem::path &file) {
   return extension == ".ies";
 }
 
-Pattern::Kind kind_of(const LawName &law) { return static_cast<Pattern::Kind>(&law - law_names.data()); }
-
 Pattern numbered(const LawName &law, double number) {
-  Pattern pattern{kind_of(law)};
+  Pattern pattern{static_cast<Pattern::Kind>(&law - law_names.data())};
   if (law.number != nullptr)
     pattern.*law.number = number;
   return pattern;
@@ -81,13 +79,13 @@ Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFile
   if (field.empty())
     throw input_error(place, "pattern: expected an order, isotropic or a diagram's file name");
   if (is_number_like(field))
-    return numbered(cosine, number_in(limits_of(cosine), field, "pattern", place));
+    return numbered(cosine, number_of(field, "pattern", place, limits_of(cosine)));
   const std::string_view key = field.substr(0, field.find(' '));
   const bool has_number = key.size() < field.size();
   for (const LawName &law : law_names)
     if (key == law.key && has_number == (law.number != nullptr) && key != "file")
       return has_number
-                 ? numbered(law, number_in(limits_of(law), field.substr(key.size() + 1), "pattern", place))
+                 ? numbered(law, number_of(field.substr(key.size() + 1), "pattern", place, limits_of(law)))
                  : numbered(law, 0.0);
   return {Pattern::Kind::diagram, 0.0, diagrams.read(place.file.parent_path() / field, place)};
 }

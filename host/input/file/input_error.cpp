@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 namespace pmdsim {
-
 namespace {
 
 // File names come from the user too and may hold line breaks.

@@ -12,7 +12,6 @@
 #include <system_error>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr std::size_t max_text_bytes = std::size_t{1} << 26;
@@ -89,18 +88,13 @@ std::string read_text_file(const std::filesystem::path &file, const AnyPlace &na
   return text;
 }
 
-double number_of(std::string_view text, std::string_view what, const TextPlace &place) {
+double number_of(std::string_view text, std::string_view what, const TextPlace &place, Range range) {
   double value = 0.0;
   const bool has_plus = text.starts_with('+') && !text.starts_with("+-"); // from_chars takes none
   const char *end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data() + (has_plus ? 1 : 0), end, value);
   if (error != std::errc{} || stopped != end || !std::isfinite(value))
     throw input_error(place, fmt::format("{}: expected a number, found {}", what, in_quotes(text)));
-  return value;
-}
-
-double number_in(Range range, std::string_view text, std::string_view what, const TextPlace &place) {
-  const double value = number_of(text, what, place);
   if (value < range.lowest || value > range.highest)
     throw input_error(place, fmt::format("{}: expected a number from {} to {}, found {}", what, range.lowest,
                                          range.highest, in_quotes(text)));

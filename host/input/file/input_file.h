@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -27,12 +28,11 @@ std::string read_text_file(const std::filesystem::path &file, const AnyPlace &na
 
 // Both ends belong to it.
 struct Range {
-  double lowest, highest;
+  double lowest = std::numeric_limits<double>::lowest(), highest = std::numeric_limits<double>::max();
 };
 
 // The number that `text` is, all of it; finite, with or without a sign. Throws Error (input) at `place`;
 // `what` says what the number is.
-double number_of(std::string_view text, std::string_view what, const TextPlace &place);
-double number_in(Range range, std::string_view text, std::string_view what, const TextPlace &place);
+double number_of(std::string_view text, std::string_view what, const TextPlace &place, Range range = {});
 
 } // namespace pmdsim

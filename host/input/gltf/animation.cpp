@@ -10,7 +10,6 @@
 #include <tuple>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr std::size_t max_keys = std::size_t{1} << 24; // of a file's samplers together

@@ -6,7 +6,6 @@
 #include <tiny_gltf.h>
 
 namespace pmdsim {
-
 namespace {
 
 bool is_finite(const AffineTransform &transform) {

@@ -56,13 +56,18 @@ void normalise(SkinWeights &result, std::size_t first, const Place &place) {
     result.weights[i].weight /= sum;
 }
 
-SkinWeights read_weights(const tinygltf::Model &model, const std::vector<WeightSet> &sets,
-                         const Place &place) {
-  const Place root{place.file};
+// `bound` counts vertices so far, times their sets.
+SkinWeights read_weights(const GltfPrimitive &primitive, std::size_t &bound) {
+  const Place root{primitive.place.file};
+  const std::vector<WeightSet> sets = weight_sets(primitive);
+  for (const WeightSet &set : sets)
+    bound += primitive.model.accessors[set.joints].count;
+  if (bound > max_scene_vertices)
+    throw input_error(primitive.place, fmt::format("skins bind more than {} vertices", max_scene_vertices));
   std::vector<std::vector<glm::dvec4>> joints, weights;
   for (const WeightSet &set : sets) {
-    joints.push_back(read_vectors(model, set.joints, 4, root));
-    weights.push_back(read_vectors(model, set.weights, 4, root));
+    joints.push_back(read_vectors(primitive.model, set.joints, 4, root));
+    weights.push_back(read_vectors(primitive.model, set.weights, 4, root));
     for (std::size_t vertex = 0; vertex < weights.back().size(); ++vertex)
       if (glm::any(glm::lessThan(weights.back()[vertex], glm::dvec4(0.0))))
         throw input_error(root / "accessors" / set.weights,
@@ -73,55 +78,36 @@ SkinWeights read_weights(const tinygltf::Model &model, const std::vector<WeightS
     const std::size_t first = result.weights.size();
     for (std::size_t n = 0; n < sets.size(); ++n)
       append_weights(joints[n][vertex], weights[n][vertex], result);
-    normalise(result, first, place);
+    normalise(result, first, primitive.place);
     result.ends.push_back(result.weights.size());
   }
   return result;
 }
 
-// Reads what each primitive of skinned nodes' meshes says, once.
-class Weights {
-public:
-  Weights(const tinygltf::Model &model, const Place &root, Skins &skins)
-      : model_(model), root_(root), skins_(skins) {}
-
-  void read(int mesh, int skin) {
-    const auto mesh_index = static_cast<std::size_t>(mesh);
-    const std::vector<tinygltf::Primitive> &primitives = model_.meshes[mesh_index].primitives;
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const Place place = root_ / "meshes" / mesh_index / "primitives" / i;
-      const auto [known, is_new] = skins_.weights.try_emplace({mesh, i});
-      if (is_new)
-        known->second = made(primitives[i], place);
-      if (known->second.joint_count > skins_.joints.at(skin).size())
-        throw input_error(place / "attributes",
-                          fmt::format("refers to joint {}, expected one below {}, as skin {} has",
-                                      known->second.joint_count - 1, skins_.joints.at(skin).size(), skin));
-    }
+// Reads what each primitive of a skinned node's mesh says, once.
+void read_mesh(const tinygltf::Model &model, const tinygltf::Node &node, const Place &root,
+               std::size_t &bound, Skins &skins) {
+  const auto mesh = static_cast<std::size_t>(node.mesh);
+  const std::size_t joints = skins.joints.at(node.skin).size();
+  const std::vector<tinygltf::Primitive> &primitives = model.meshes[mesh].primitives;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const GltfPrimitive primitive{model, primitives[i], root / "meshes" / mesh / "primitives" / i};
+    const auto [known, is_new] = skins.weights.try_emplace({node.mesh, i});
+    if (is_new)
+      known->second = read_weights(primitive, bound);
+    if (known->second.joint_count > joints)
+      throw input_error(primitive.place / "attributes",
+                        fmt::format("refers to joint {}, expected one below {}, as skin {} has",
+                                    known->second.joint_count - 1, joints, node.skin));
   }
-
-private:
-  SkinWeights made(const tinygltf::Primitive &primitive, const Place &place) {
-    const std::vector<WeightSet> sets = weight_sets({model_, primitive, place});
-    for (const WeightSet &set : sets)
-      bound_ += model_.accessors[set.joints].count;
-    if (bound_ > max_scene_vertices)
-      throw input_error(place, fmt::format("skins bind more than {} vertices", max_scene_vertices));
-    return read_weights(model_, sets, place);
-  }
-
-  const tinygltf::Model &model_;
-  const Place &root_;
-  Skins &skins_;
-  std::size_t bound_ = 0; // vertices so far, times their sets
-};
+}
 
 } // namespace
 
 Skins read_skins(const tinygltf::Model &model, const std::vector<SceneNode> &nodes, const Place &root) {
   const Places places = places_of_nodes(model, nodes);
   Skins skins;
-  Weights weights(model, root, skins);
+  std::size_t bound = 0;
   for (const SceneNode &scene_node : nodes) {
     const tinygltf::Node &node = model.nodes[scene_node.index];
     if (node.skin < 0)
@@ -130,7 +116,7 @@ Skins read_skins(const tinygltf::Model &model, const std::vector<SceneNode> &nod
     const auto [known, is_new] = skins.joints.try_emplace(node.skin);
     if (is_new)
       known->second = read_joints(model, model.skins[skin], places, root / "skins" / skin);
-    weights.read(node.mesh, node.skin);
+    read_mesh(model, node, root, bound, skins);
   }
   return skins;
 }

@@ -1,7 +1,7 @@
 #include "host/input/setup/setup.h"
 
-#include "host/input/file/json_file.h"
 #include "host/input/file/input_file.h"
+#include "host/input/file/json_file.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/parts.h"
@@ -18,12 +18,10 @@ namespace {
 
 constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
 
-bool has_diode_file(const json &illuminator) { return illuminator.at("diodes").contains("file"); }
-
 void refuse_second_pattern(const json &document, const Place &root) {
   const json &illuminators = document.at("illuminators");
   for (std::size_t i = 0; i < illuminators.size(); ++i)
-    if (has_diode_file(illuminators[i]) && illuminators[i].contains("pattern"))
+    if (illuminators[i].at("diodes").contains("file") && illuminators[i].contains("pattern"))
       throw input_error(root / "illuminators" / i / "pattern",
                         "expected none beside a diode file, which has its own");
 }

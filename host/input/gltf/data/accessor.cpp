@@ -10,7 +10,6 @@
 #include <type_traits>
 
 namespace pmdsim {
-
 namespace {
 
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4);
@@ -89,7 +88,7 @@ class Elements {
 public:
   // They point into the model. Throws Error (input) at `place`, that of the accessor, or at the bufferView.
   Elements(const tinygltf::Model &model, const tinygltf::Accessor &accessor, const Place &place)
-      : model_(model), accessor_(accessor),
+      : model_(model), accessor_(accessor), place_(place),
         component_bytes_(component_bytes(accessor.componentType)), dense_{zeros.data(), 0, accessor.count} {
     if (accessor.bufferView >= 0)
       dense_ = checked_range(
@@ -107,13 +106,12 @@ public:
 
   std::size_t count() const { return dense_.count; }
 
+  // Throws Error (input) where it is not finite.
   double component(std::size_t index, std::size_t c) const {
-    return number_at(at(index) + c * component_bytes_, accessor_.componentType, accessor_.normalized);
-  }
-  double finite_component(std::size_t index, std::size_t c, const Place &place) const {
-    const double value = component(index, c);
+    const double value =
+        number_at(at(index) + c * component_bytes_, accessor_.componentType, accessor_.normalized);
     if (!std::isfinite(value))
-      throw input_error(place, fmt::format("element {} is not finite", index));
+      throw input_error(place_, fmt::format("element {} is not finite", index));
     return value;
   }
 
@@ -165,6 +163,7 @@ private:
 
   const tinygltf::Model &model_;
   const tinygltf::Accessor &accessor_;
+  const Place &place_;
   std::size_t component_bytes_;
   ElementRange dense_;
   std::vector<std::uint32_t> replaced_; // ascending
@@ -196,7 +195,7 @@ std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t i
   std::vector<glm::dvec4> vectors(elements.count(), glm::dvec4(0.0));
   for (std::size_t i = 0; i < elements.count(); ++i)
     for (int c = 0; c < components; ++c)
-      vectors[i][c] = elements.finite_component(i, static_cast<std::size_t>(c), place);
+      vectors[i][c] = elements.component(i, static_cast<std::size_t>(c));
   return vectors;
 }
 
@@ -212,7 +211,7 @@ std::vector<glm::dmat4> read_matrices(const tinygltf::Model &model, std::size_t 
   std::vector<glm::dmat4> matrices(count);
   for (std::size_t i = 0; i < count; ++i)
     for (int c = 0; c < 16; ++c)
-      matrices[i][c / 4][c % 4] = elements.finite_component(i, static_cast<std::size_t>(c), place);
+      matrices[i][c / 4][c % 4] = elements.component(i, static_cast<std::size_t>(c));
   return matrices;
 }
 

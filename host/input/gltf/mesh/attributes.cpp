@@ -7,7 +7,6 @@
 #include <tiny_gltf.h>
 
 namespace pmdsim {
-
 namespace {
 
 constexpr const char *quantization = "KHR_mesh_quantization";
