@@ -8,6 +8,7 @@
 #include <limits>
 #include <tiny_gltf.h>
 #include <type_traits>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -222,15 +223,17 @@ std::vector<std::uint32_t> read_indices(const tinygltf::Model &model, std::size_
   if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.normalized)
     throw input_error(place / "type", "expected \"SCALAR\", not normalized, for indices");
   const Elements elements(model, accessor, place);
-  constexpr std::array types{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
-  if (std::ranges::find(types, accessor.componentType) == types.end())
+  using Type = std::pair<int, std::uint32_t>; // of a component, and its primitive restart value
+  constexpr std::array types{Type{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, 0xff},
+                             Type{TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, 0xffff},
+                             Type{TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, 0xffffffff}};
+  const auto type = std::ranges::find(types, accessor.componentType, &Type::first);
+  if (type == types.end())
     throw input_error(place / "componentType", "expected 5121, 5123 or 5125 for indices");
-  const std::uint64_t restart = (std::uint64_t{1} << (8 * component_bytes(accessor.componentType))) - 1;
   std::vector<std::uint32_t> indices(elements.count());
   for (std::size_t i = 0; i < elements.count(); ++i) {
     indices[i] = static_cast<std::uint32_t>(elements.component(i, 0));
-    if (indices[i] == restart)
+    if (indices[i] == type->second)
       throw input_error(place, fmt::format("element {} is {}, the primitive restart value", i, indices[i]));
     if (indices[i] >= vertex_count)
       throw input_error(
