@@ -130,9 +130,9 @@ struct Indices {
 };
 
 void check_indices(const json &document, const std::vector<Indices> &rows, const Place &root) {
-  for (const auto &[objects, members] : rows)
-    for_each_at(document, objects, root, [&](const json &object, const Place &place) {
-      for (const auto &[path, array] : members)
+  for (const Indices &row : rows)
+    for_each_at(document, row.objects, root, [&](const json &object, const Place &place) {
+      for (const auto &[path, array] : row.members)
         Array(document, array).check(object, path, place);
     });
 }
