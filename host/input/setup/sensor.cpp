@@ -1,5 +1,4 @@
 #include "engine/lens/lens.h"
-#include "engine/lens/lens_fault.h"
 #include "host/input/file/json_file.h"
 #include "host/input/schema/limits.h"
 #include "host/input/setup/parts.h"
