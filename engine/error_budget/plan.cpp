@@ -71,10 +71,10 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
 }
 
 // Of pixels of which some keep the one and some the other.
-Promise worse_of(Promise a, const Promise &b) {
+ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   for (const auto part :
-       {&Promise::fixed_m, &Promise::per_condition_m, &Promise::amplitude_fixed,
-        &Promise::amplitude_per_condition, &Promise::terms_per_weight_error, &Promise::terms_of_rims})
+       {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
+        &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error, &ErrorBound::terms_of_rims})
     a.*part = std::max(a.*part, b.*part);
   return a;
 }
@@ -129,8 +129,8 @@ RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::
   refuse(accuracy, why_unbounded(view.lights));
 }
 
-Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
-  Promise promise{accuracy.max_error_m,
+ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
+  ErrorBound bound{accuracy.max_error_m,
                   rounding.fixed_m,
                   rounding.per_condition_m + light.error_per_condition_m,
                   accuracy.max_amplitude_error,
@@ -139,12 +139,12 @@ Promise promise_of(const Accuracy &accuracy, const RoundingBound &rounding, cons
                   0.0,
                   0.0};
   if (rounding.per_weight_m > 0.0)
-    promise.terms_per_weight_error = rounding.per_weight_m / promise.per_condition_m;
-  if (std::isfinite(promise.amplitude_limit))
-    promise.terms_per_weight_error = std::max(
-        promise.terms_per_weight_error, rounding.amplitude_per_weight / promise.amplitude_per_condition);
-  promise.terms_of_rims = promise.terms_per_weight_error * rounding.rim_error;
-  return promise;
+    bound.terms_per_weight_error = rounding.per_weight_m / bound.per_condition_m;
+  if (std::isfinite(bound.amplitude_limit))
+    bound.terms_per_weight_error = std::max(
+        bound.terms_per_weight_error, rounding.amplitude_per_weight / bound.amplitude_per_condition);
+  bound.terms_of_rims = bound.terms_per_weight_error * rounding.rim_error;
+  return bound;
 }
 
 // At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
@@ -166,7 +166,7 @@ struct SureBound {
 };
 
 // As errors_of in shaders/signal/resolve.glsl.
-std::optional<SureBound> sure_bound(const LitView &view, const Promise &bound, const FramePlan &plan) {
+std::optional<SureBound> sure_bound(const LitView &view, const ErrorBound &bound, const FramePlan &plan) {
   const auto condition = largest_condition(view, plan);
   if (!condition || bound.terms_of_rims > 0.0)
     return std::nullopt;
@@ -178,7 +178,7 @@ std::optional<SureBound> sure_bound(const LitView &view, const Promise &bound, c
 }
 
 // Of what is asked for, every pixel makes sure, where it is not known before.
-void claim_within_limits(const LitView &view, const Promise &bound, FramePlan &plan) {
+void claim_within_limits(const LitView &view, const ErrorBound &bound, FramePlan &plan) {
   const auto sure = sure_bound(view, bound, plan);
   plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
   plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
@@ -195,9 +195,9 @@ ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const R
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }
 
-bool is_kept_by_some(const Promise &promise) {
-  return promise.fixed_m + promise.per_condition_m <= promise.limit_m &&
-         promise.amplitude_fixed + promise.amplitude_per_condition <= promise.amplitude_limit;
+bool is_kept_by_some(const ErrorBound &bound) {
+  return bound.fixed_m + bound.per_condition_m <= bound.limit_m &&
+         bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 
 // One place in float, or four, whatever the precision of the others.
@@ -210,16 +210,16 @@ void plan_short_way(const LitView &view, const Accuracy &accuracy, const Reduced
   plan.short_groups.diode_count = plan.all.diode_count;
   if (!in_float)
     return;
-  const auto promised = [&](std::uint32_t side, double spread_m) -> std::optional<Promise> {
+  const auto bound_at = [&](std::uint32_t side, double spread_m) -> std::optional<ErrorBound> {
     const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, side, spread_m);
     if (!rounding)
       return std::nullopt;
-    const Promise promise = promise_of(accuracy, *rounding, light);
-    return is_kept_by_some(promise) ? std::optional(promise) : std::nullopt;
+    const ErrorBound bound = error_bound_of(accuracy, *rounding, light);
+    return is_kept_by_some(bound) ? std::optional(bound) : std::nullopt;
   };
-  plan.short_promise = promised(1, 0.0);
-  if (plan.short_promise && view.sensor.samples > 1)
-    plan.few_promise = promised(2, place_spread_m);
+  plan.uniform_bound = bound_at(1, 0.0);
+  if (plan.uniform_bound && view.sensor.samples > 1)
+    plan.refined_bound = bound_at(2, place_spread_m);
 }
 
 FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
@@ -229,16 +229,16 @@ FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
   const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   if (const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples)) {
-    const Promise bound = promise_of(accuracy, *rounding, light);
+    const ErrorBound bound = error_bound_of(accuracy, *rounding, light);
     if (view.sensor.adaptive_samples)
-      plan.promise = plan.promise_of_all = bound;
-    // Where samples adapt, pixels that may break the promise are summed in full: nothing is claimed of them.
-    if (const auto sure = sure_bound(view, bound, plan); sure && !plan.promise) {
+      plan.bound = plan.bound_of_all = bound;
+    // Where samples adapt, pixels that may break the bound are summed in full: nothing is claimed of them.
+    if (const auto sure = sure_bound(view, bound, plan); sure && !plan.bound) {
       plan.claimed_m = sure->distance_m;
       plan.claimed_amplitude = sure->amplitude;
     }
   }
-  if (plan.promise && plan.precision == Precision::fp32)
+  if (plan.bound && plan.precision == Precision::fp32)
     plan_short_way(view, accuracy, light, plan);
   return plan;
 }
@@ -268,13 +268,13 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
   plan.stand_ins = groups_of(view, light.illuminators, plan.precision);
   plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
-  plan.promise_of_all = promise_of(accuracy, sum.bound, whole_light(view.lights));
+  plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights));
   const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
-  plan.promise = promise_of(accuracy, of_stand_ins.value_or(sum.bound), light);
+  plan.bound = error_bound_of(accuracy, of_stand_ins.value_or(sum.bound), light);
   plan_short_way(view, accuracy, light, plan);
-  Promise worst = worse_of(*plan.promise, plan.short_promise.value_or(*plan.promise));
+  ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
   if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)
-    worst = worse_of(worst, *plan.promise_of_all);
+    worst = worse_of(worst, *plan.bound_of_all);
   claim_within_limits(view, worst, plan);
   return plan;
 }

@@ -40,11 +40,11 @@ struct FramePlan {
   DiodeGroups short_groups; // the stand-ins in float, for the short way
   LightExtent extent;       // of the light, as the stand-ins' bound has it
   // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
-  std::optional<Promise> promise, promise_of_all;
+  std::optional<ErrorBound> bound, bound_of_all;
   // Of what the short way sums; nothing where that is not exact enough.
-  std::optional<Promise> short_promise;
+  std::optional<ErrorBound> uniform_bound;
   // Likewise of pixels of several samples that it sums at four places.
-  std::optional<Promise> few_promise;
+  std::optional<ErrorBound> refined_bound;
   bool surely_kept = false; // by every pixel, which is known before the frame
   // Before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
@@ -55,7 +55,7 @@ struct FramePlan {
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;
 
-// The `attempt`-th of them. Throws Error (accuracy) where none can promise what is asked for.
+// The `attempt`-th of them. Throws Error (accuracy) where none can bound what is asked for.
 FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
 
 // Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it

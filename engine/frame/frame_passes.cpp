@@ -126,7 +126,7 @@ Pass reached_pass(const Basis &on, const std::vector<LitWindow> &windows,
 // Sorts the pixels into classes, and sums those whose light is uniform.
 void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &lists, FrameGraph &graph) {
   const PixelClass *uniform = on.path.of(PixelsOf::uniform), *refined = on.path.of(PixelsOf::uniform_refined);
-  const Promise &bound = on.plan.short_promise ? *on.plan.short_promise : *on.plan.promise;
+  const ErrorBound &bound = on.plan.uniform_bound ? *on.plan.uniform_bound : *on.plan.bound;
   const std::uint32_t points = uniform && on.request.sensor.samples > 1 ? uniform->points : 0;
   graph.add_after(uniform_pixels_pass(on.setup(), on.plan.short_groups, on.plan.extent, bound,
                                       {.points = points,
@@ -253,7 +253,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
   const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.signal,
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
-  facts.signal.promised = plan.promise.has_value();
+  facts.signal.promised = plan.bound.has_value();
   std::vector<LitWindow> windows =
       facts.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);

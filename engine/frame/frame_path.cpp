@@ -50,7 +50,7 @@ bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sen
 std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
                                             const FrameRequest &request, const PathForms &allowed) {
   const Sensor &sensor = request.sensor;
-  if (!plan.short_promise || !allowed.uniform_pixels || !can_fuse(plan.short_groups, facts.signal, sensor))
+  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.short_groups, facts.signal, sensor))
     return std::nullopt;
   const bool may_thin_out = sensor.adaptive_samples || request.accuracy.mode == Mode::automatic;
   if (sensor.samples == 1)
@@ -64,15 +64,15 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
   const auto points = uniform_points(facts, plan, request, allowed);
   std::vector<PixelClass> classes;
   if (points)
-    classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.short_promise});
-  if (points && samples > 1 && plan.few_promise && allowed.refined_uniform_pixels)
-    classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.few_promise});
+    classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.uniform_bound});
+  if (points && samples > 1 && plan.refined_bound && allowed.refined_uniform_pixels)
+    classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.refined_bound});
   // Of one sample a pixel, the uniform ones are all that every source lights and that surely keep the bound.
   if (!points || samples > 1 || !plan.surely_kept)
-    classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.promise});
+    classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
   if (has_rest(facts))
     classes.push_back(
-        {PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.promise_of_all});
+        {PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.bound_of_all});
   return classes;
 }
 
@@ -86,7 +86,7 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
   // Where all samples are alike, what stands in for the sources does so for all of them.
   const bool reduced = plan.is_reduced() && !has_rest(facts);
   return {{PixelsOf::all, reduced, request.sensor.samples * request.sensor.samples, plan.precision,
-           facts.signal.lit, reduced ? plan.promise : plan.promise_of_all}};
+           facts.signal.lit, reduced ? plan.bound : plan.bound_of_all}};
 }
 
 // Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much

@@ -40,7 +40,7 @@ struct PixelClass {
   std::uint32_t points; // of a pixel: 1, 4, or its samples
   Precision precision;
   bool shadowed;                // not every source reaches every sample
-  std::optional<Promise> bound; // what its error is held against
+  std::optional<ErrorBound> bound; // what its error is held against
 };
 
 struct FramePath {

@@ -54,15 +54,15 @@ shader::ShortWayLight light_record(const LightExtent &extent, const Signal &sign
 
 // The record, and behind it what the sources share.
 vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
-                            const Promise &promise, bool sums, const vulkan::Buffer &diagrams) {
+                            const ErrorBound &bound, bool sums, const vulkan::Buffer &diagrams) {
   shader::ShortWayLight light = light_record(extent, on.signal, groups.phased);
   light.diagrams = diagrams.words();
   if (sums) {
     std::ranges::copy(on.signal.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, promise),
+    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, bound),
                       light.frequencies);
   }
-  const std::vector<shader::LightRun> runs = light_runs(groups, promise);
+  const std::vector<shader::LightRun> runs = light_runs(groups, bound);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));
   std::memcpy(bytes.data(), &light, sizeof(light));
   std::memcpy(bytes.data() + sizeof(light), runs.data(), runs.size() * sizeof(shader::LightRun));
@@ -80,11 +80,11 @@ vulkan::Buffer upload_work(const PassSetup &on, const DiodeGroups &groups, const
 
 // The pass on the device.
 struct OnDevice {
-  OnDevice(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent, const Promise &promise,
+  OnDevice(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent, const ErrorBound &bound,
            const UniformPixels &pixels, const PixelLists &lists)
       : slope(half_sample_slope(on.sensor)), chip(upload_chip(on.device, on.sensor)),
         diodes(upload_diodes(on.device, groups, {})), diagrams(vulkan::upload(on.device, groups.diagrams)),
-        light(upload_light(on, groups, extent, promise, pixels.sums, diagrams)),
+        light(upload_light(on, groups, extent, bound, pixels.sums, diagrams)),
         work(upload_work(on, groups, lists)),
         pipeline(on.device, vulkan::shader_module(on.device, on.options.precision, "uniform_pixels"),
                  sizeof(shader::ShortWayConstants), constants_of(on, groups, pixels)) {}
@@ -97,9 +97,9 @@ struct OnDevice {
 } // namespace
 
 Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
-                         const Promise &promise, const UniformPixels &pixels,
+                         const ErrorBound &bound, const UniformPixels &pixels,
                          const std::shared_ptr<const PixelLists> &lists) {
-  const auto made = std::make_shared<const OnDevice>(on, groups, extent, promise, pixels, *lists);
+  const auto made = std::make_shared<const OnDevice>(on, groups, extent, bound, pixels, *lists);
   const vulkan::Buffer *const few = pixels.points == 4 ? &lists->of(shader::list_few) : nullptr;
   const auto record = [=, &buffers = on.buffers, &scene = on.scene](const Recording &at) {
     const shader::Strip &strip = at.of_strip();

@@ -14,13 +14,13 @@ struct UniformPixels {
   std::uint32_t points = 0; // at which a pixel of several samples is evaluated: none, 1, or 4 for list_few
   bool few_follow = false;  // pixels for which one point is not enough are listed for four
   bool sums = true;         // false: the pass only lists pixels
-  bool lists = true;        // false: it takes all, and none can break the promise
+  bool lists = true;        // false: it takes all, and none can break the bound
 };
 
-// `groups` stand in for all diodes, whose light has that `extent`; `promise` is what their sum is held
+// `groups` stand in for all diodes, whose light has that `extent`; `bound` is what their sum is held
 // against.
 Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
-                         const Promise &promise, const UniformPixels &pixels,
+                         const ErrorBound &bound, const UniformPixels &pixels,
                          const std::shared_ptr<const PixelLists> &lists);
 
 } // namespace pmdsim

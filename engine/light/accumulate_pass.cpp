@@ -38,7 +38,7 @@ bool sums_alike(const DiodeGroups &groups, const SumScope &scope) {
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
 // shaders/light/sum.glsl).
-void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const Promise &promise,
+void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
               shader::LightRun &record) {
   double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i)
@@ -46,7 +46,7 @@ void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, co
       steepest = std::max(steepest, rim->steepness);
       least_power = std::min(least_power, rim->power);
     }
-  record.rims = static_cast<float>(promise.terms_of_rims * steepest);
+  record.rims = static_cast<float>(bound.terms_of_rims * steepest);
   record.rim_root = static_cast<float>(1.0 / least_power);
 }
 
@@ -80,7 +80,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &gro
           {shader::constant_promised, on.signal.promised}};
 }
 
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise) {
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorBound &bound) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
@@ -102,9 +102,9 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promis
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.detours = detours;
-    record.heights = static_cast<float>(promise.terms_per_weight_error * height_rounding * rounding * size_m);
-    record.diagrams = static_cast<float>(promise.terms_per_weight_error * diagrams);
-    set_rims(groups, run.first, run.first + run_diodes, promise, record);
+    record.heights = static_cast<float>(bound.terms_per_weight_error * height_rounding * rounding * size_m);
+    record.diagrams = static_cast<float>(bound.terms_per_weight_error * diagrams);
+    set_rims(groups, run.first, run.first + run_diodes, bound, record);
     if (groups.power_sums.powers > 0)
       std::ranges::copy(groups.power_sums.tables[result.size()], record.moments_of_powers);
     result.push_back(record);
@@ -152,7 +152,7 @@ Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWi
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
       depth_records_(scope.depth_records), runs_(groups.runs),
-      light_runs_(vulkan::upload(on.device, light_runs(groups, scope.promise.value_or(Promise{})))),
+      light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.signal.by_moments() ? 1 : on.signal.frequencies()), planes_(on.signal.planes),
       tones_(vulkan::upload(on.device, on.signal.all_tones())),

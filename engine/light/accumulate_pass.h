@@ -36,7 +36,7 @@ struct SumScope {
   bool shadowed = false;                   // not every diode reaches every sample
   Precision precision = Precision::fp32;   // of the groups and of the surfaces' vectors
   const vulkan::Buffer *list = nullptr;    // of pixels; else all
-  std::optional<Promise> promise{};        // what the sum's error is to be held against
+  std::optional<ErrorBound> bound{};        // what the sum's error is to be held against
   std::optional<ChipGrid> depth_records{}; // where these are all that is known of the samples
 };
 
@@ -45,8 +45,8 @@ Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::
                      const SumScope &scope);
 
 // What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
-// promise's bound counts as light.
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const Promise &promise);
+// bound counts as light.
+std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorBound &bound);
 
 // Specialization constants of the sum's forms, and the diodes that they read.
 vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope);

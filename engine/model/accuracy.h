@@ -42,7 +42,7 @@ struct AccuracyReport {
 
 // What is promised of every pixel: an error within the limit. It is off by fixed + per_condition * condition
 // at most, the condition being sum of |terms| / |sum| over its samples and diodes.
-struct Promise {
+struct ErrorBound {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
   // A diode's weight that is off by its own size is as bad as this many times its term in the condition.

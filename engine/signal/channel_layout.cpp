@@ -80,20 +80,20 @@ std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
 }
 
 std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
-                                                 const std::optional<Promise> &promise) {
+                                                 const std::optional<ErrorBound> &bound) {
   const ChannelLayout layout(signal);
   std::vector<shader::Frequency> records;
   for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
     records.push_back(record_of(signal.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
-    if (!promise)
+    if (!bound)
       continue;
     shader::Frequency &record = records.back();
-    record.limit_m = static_cast<float>(promise->limit_m);
-    record.fixed_m = static_cast<float>(promise->fixed_m);
-    record.per_condition_m = static_cast<float>(promise->per_condition_m);
-    record.amplitude_limit = static_cast<float>(promise->amplitude_limit);
-    record.amplitude_fixed = static_cast<float>(promise->amplitude_fixed);
-    record.amplitude_per_condition = static_cast<float>(promise->amplitude_per_condition);
+    record.limit_m = static_cast<float>(bound->limit_m);
+    record.fixed_m = static_cast<float>(bound->fixed_m);
+    record.per_condition_m = static_cast<float>(bound->per_condition_m);
+    record.amplitude_limit = static_cast<float>(bound->amplitude_limit);
+    record.amplitude_fixed = static_cast<float>(bound->amplitude_fixed);
+    record.amplitude_per_condition = static_cast<float>(bound->amplitude_per_condition);
   }
   return records;
 }

@@ -30,6 +30,6 @@ struct ChannelLayout {
 
 // Amplitudes are per unit of the mean return, in which diodes count relative to the strongest.
 std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
-                                                 const std::optional<Promise> &promise);
+                                                 const std::optional<ErrorBound> &bound);
 
 } // namespace pmdsim

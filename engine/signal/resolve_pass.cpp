@@ -65,7 +65,7 @@ Resolve::Resolve(const PassSetup &on, const DiodeGroups &groups, const SumScope 
       at_once_(frequencies_at_once(on.signal, scope)), lit_channel_(ChannelLayout(on.signal).lit_channel()),
       diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
       records_(vulkan::upload(on.device,
-                              frequency_records(on.signal, groups.largest_intensity_w_sr, scope.promise))),
+                              frequency_records(on.signal, groups.largest_intensity_w_sr, scope.bound))),
       harmonics_(vulkan::upload(on.device, on.signal.harmonics)),
       first_(make_pipeline(on, true, leaves_truth)) {
   const bool is_short = scope.depth_records && single_run_;

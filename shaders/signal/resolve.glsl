@@ -191,7 +191,7 @@ void store_ids(Channels to, uvec2 tag, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, tag.x != 0u ? uvec2(tag.y, object) : uvec2(no_triangle));
 }
 
-// The promise (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to
+// The bound (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to
 // the sum's own error. Nothing where there is no light at all.
 struct Errors {
   float distance_m, amplitude;

@@ -74,7 +74,7 @@ void check_refused(const PlannedSetup &setup, const Accuracy &accuracy) {
 TEST_CASE("mode exact sums all diodes in float and promises nothing, but claims what theory knows") {
   const FramePlan exact = plan({}, {});
   CHECK_FALSE(exact.promise);
-  CHECK_FALSE(exact.promise_of_all);
+  CHECK_FALSE(exact.bound_of_all);
   CHECK_FALSE(exact.is_reduced());
   CHECK(shining(exact.stand_ins) == 240);
   CHECK(exact.precision == Precision::fp32);
@@ -91,7 +91,7 @@ TEST_CASE("mode exact with adaptive samples promises the error that they may cos
   setup.sensor.adaptive_samples = true;
   const FramePlan exact = plan(setup, {});
   REQUIRE(exact.promise);
-  REQUIRE(exact.promise_of_all);
+  REQUIRE(exact.bound_of_all);
   CHECK(exact.promise->limit_m == default_max_error_m);
   CHECK_FALSE(exact.is_reduced());
 }

@@ -23,14 +23,14 @@ DiodeGroups pair_of(const Pattern &pattern, Precision precision) {
   return group_diodes({light}, point_at_2m, 0.42, precision);
 }
 
-Promise counting(double terms_per_weight_error, double terms_of_rims = 0.0) {
-  Promise promise{};
+ErrorBound counting(double terms_per_weight_error, double terms_of_rims = 0.0) {
+  ErrorBound promise{};
   promise.terms_per_weight_error = terms_per_weight_error;
   promise.terms_of_rims = terms_of_rims;
   return promise;
 }
 
-const Promise weights_of_100 = counting(100.0);
+const ErrorBound weights_of_100 = counting(100.0);
 
 } // namespace
 
@@ -46,7 +46,7 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
     // The reference point, 0.4 m from the lens, and 0.3 m to the diodes.
     CHECK(runs[0].heights == Approx(100.0 * 14 * rounding * 0.7));
     CHECK(runs[0].diagrams == Approx(100.0 * 1.5 * groups.places[0].law_error));
-    CHECK(light_runs(groups, Promise{})[0].diagrams == 0.0f);
+    CHECK(light_runs(groups, ErrorBound{})[0].diagrams == 0.0f);
   }
   CHECK(light_runs(pair_of({}, Precision::fp32), weights_of_100)[0].diagrams == 0.0f);
 }
@@ -56,7 +56,7 @@ TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
   const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
   CHECK(alike.rims == 30.0f);
   CHECK(alike.rim_root == Approx(1.0 / 3.0));
-  CHECK(light_runs(groups, Promise{})[0].rims == 0.0f);
+  CHECK(light_runs(groups, ErrorBound{})[0].rims == 0.0f);
   groups.diodes[0].order = 1.5f;
   const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
   CHECK(mixed.rims == 30.0f);
