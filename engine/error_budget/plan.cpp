@@ -279,14 +279,14 @@ FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_
   return plan;
 }
 
-std::optional<std::string> promise_breach(const shader::BrokenPromise &broken, const AccuracyReport &found,
+std::optional<std::string> budget_violation(const shader::BudgetViolations &violations, const AccuracyReport &found,
                                           const Accuracy &asked_for, double ambiguity_m) {
-  if (broken.returns > 0)
+  if (violations.returns > 0)
     return fmt::format("{} returns of pixels cancel in part, or are weak beside what rounding does to them, "
                        "and may be off by up to {}; expected at most {}",
-                       broken.returns,
-                       errors_text(static_cast<double>(std::bit_cast<float>(broken.worst_m)),
-                                   static_cast<double>(std::bit_cast<float>(broken.amplitude)), asked_for),
+                       violations.returns,
+                       errors_text(static_cast<double>(std::bit_cast<float>(violations.worst_m)),
+                                   static_cast<double>(std::bit_cast<float>(violations.amplitude)), asked_for),
                        limits_text(asked_for));
   const double found_m = found.found_m.value_or(0.0), amplitude = found.found_amplitude.value_or(0.0);
   // What is compared is rounded to float itself.

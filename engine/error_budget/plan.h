@@ -59,8 +59,8 @@ inline constexpr std::uint32_t frame_plans = 3;
 FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
 
 // Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it
-// (`broken`) and none that was checked is (`found`). The ambiguity range is that of the distances.
-std::optional<std::string> promise_breach(const shader::BrokenPromise &broken, const AccuracyReport &found,
+// (`violations`) and none that was checked is (`found`). The ambiguity range is that of the distances.
+std::optional<std::string> budget_violation(const shader::BudgetViolations &violations, const AccuracyReport &found,
                                           const Accuracy &asked_for, double ambiguity_m);
 
 } // namespace pmdsim

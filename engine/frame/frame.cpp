@@ -18,9 +18,9 @@ void Frame::warm_up(vulkan::PassRecorder &recorder) const {
   on_.graph.warm_up(recorder, on_.strips.front(), on_.windows);
 }
 
-void Frame::forget_broken(vulkan::PassRecorder &recorder) const {
+void Frame::clear_violations(vulkan::PassRecorder &recorder) const {
   recorder.begin();
-  recorder.commands().fillBuffer(on_.memory->buffers.broken.get(), 0, sizeof(shader::BrokenPromise), 0);
+  recorder.commands().fillBuffer(on_.memory->buffers.violations.get(), 0, sizeof(shader::BudgetViolations), 0);
   recorder.finish();
 }
 
@@ -60,7 +60,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
   else if (options_.keep_reached)
     measurement.sample_reached = none_reached(on_.sensor, *on_.sources);
   if (on_.signal.promised)
-    forget_broken(recorder);
+    clear_violations(recorder);
   for (std::size_t i = 0; i < on_.strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {
       if (progress)
@@ -82,7 +82,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
 std::optional<std::string> Frame::violation(const Measurement &measured) const {
   if (accuracy_.mode == Mode::exact)
     return std::nullopt;
-  return promise_breach(broken_promise(on_.memory->buffers), measured.accuracy, accuracy_,
+  return budget_violation(budget_violations(on_.memory->buffers), measured.accuracy, accuracy_,
                         on_.sensor.ambiguity_m());
 }
 

@@ -31,7 +31,7 @@ public:
   SpareMemory release_memory() { return {std::move(on_.memory->buffers), on_.raster->release_images()}; }
 
 private:
-  void forget_broken(vulkan::PassRecorder &recorder) const;
+  void clear_violations(vulkan::PassRecorder &recorder) const;
   void finish_visibility(Measurement &measurement) const;
   void check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measurement &measurement) const;
 

@@ -48,7 +48,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize channel_bytes = pixels * layout.channels * sizeof(float);
   const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
-  const vk::DeviceSize broken_bytes = layout.keeps_terms ? sizeof(shader::BrokenPromise) : 0;
+  const vk::DeviceSize violation_bytes = layout.keeps_terms ? sizeof(shader::BudgetViolations) : 0;
   const vk::DeviceSize reached_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;
   B made;
@@ -60,11 +60,11 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.reached = storage(&B::reached, reached_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.lit = storage(&B::lit, lit_bytes);
   made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
-  made.broken = storage(&B::broken, broken_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
-  made.broken_read = read(&B::broken_read, broken_bytes);
+  made.violations_read = read(&B::violations_read, violation_bytes);
   made.tags_read = read(&B::tags_read, layout.host_reads_tags && !made.tags.is_mapped() ? tag_bytes : 0);
   made.reached_read = read(&B::reached_read, options.keep_reached ? reached_bytes : 0);
   made.tag_bytes = layout.tag_bytes;

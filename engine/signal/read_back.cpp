@@ -136,8 +136,8 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
     commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                         vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
   if (signal.promised)
-    commands.copyBuffer(buffers.broken.get(), buffers.broken_read.get(),
-                        vk::BufferCopy(0, 0, sizeof(shader::BrokenPromise)));
+    commands.copyBuffer(buffers.violations.get(), buffers.violations_read.get(),
+                        vk::BufferCopy(0, 0, sizeof(shader::BudgetViolations)));
   if (buffers.tags_read.bytes() > 0) {
     const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
     commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
@@ -200,10 +200,10 @@ Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffe
               }};
 }
 
-shader::BrokenPromise broken_promise(const StripBuffers &buffers) {
-  shader::BrokenPromise broken{};
-  std::memcpy(&broken, buffers.broken_read.mapped().data(), sizeof(broken));
-  return broken;
+shader::BudgetViolations budget_violations(const StripBuffers &buffers) {
+  shader::BudgetViolations violations{};
+  std::memcpy(&violations, buffers.violations_read.mapped().data(), sizeof(violations));
+  return violations;
 }
 
 } // namespace pmdsim

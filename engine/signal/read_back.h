@@ -31,6 +31,6 @@ Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffe
                     const std::optional<TruthOfRecords> &truth);
 
 // Of all strips since it was cleared, as read back last; only where Signal::promised.
-shader::BrokenPromise broken_promise(const StripBuffers &buffers);
+shader::BudgetViolations budget_violations(const StripBuffers &buffers);
 
 } // namespace pmdsim

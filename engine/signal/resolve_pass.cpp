@@ -112,7 +112,7 @@ void Resolve::record_samples(const Recording &at, std::uint32_t frequency) const
                                            records_.words(frequency * sizeof(shader::Frequency)),
                                            buffers_.lit.words(),
                                            buffers_.terms.words(),
-                                           buffers_.broken.words(),
+                                           buffers_.violations.words(),
                                            address_of(scope_.list),
                                            strip.columns,
                                            strip.samples,

@@ -313,7 +313,7 @@ struct ResolveConstants {
   uvec2 frequency; // in: Frequency
   uvec2 lit;       // in: uint a sample, the diodes that reach it
   uvec2 terms;     // in, where promised: sum of |terms| of each sample
-  uvec2 broken;    // in and out, where promised: BrokenPromise
+  uvec2 violations;    // in and out, where promised: BudgetViolations
   uvec2 list;      // in, where listed: PixelList and its pixels
   uint columns;    // of the strip
   uint samples;
@@ -378,7 +378,7 @@ struct PixelListConstants {
 };
 
 // Pixels that may be off by more than was promised.
-struct BrokenPromise {
+struct BudgetViolations {
   uint returns;    // of pixels, each at each frequency
   float worst_m;   // as far as is known; bits of a float >= 0 compare as the float does
   float amplitude; // relative, likewise

@@ -78,7 +78,7 @@ void main() {
   if (promised != 0) {
     Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * sum.terms, size, Errors(0.0, 0.0));
     if (!is_kept(frequency, errors))
-      say_broken(constants.broken, errors);
+      report_violation(constants.violations, errors);
   }
   if (ground_truth != 0) {
     store_ground_truth(to, samples, pixel, sum);

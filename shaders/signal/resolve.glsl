@@ -222,10 +222,10 @@ bool is_kept(Frequency frequency, Errors errors) {
   return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
 }
 
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer BrokenWords { uint returns, worst_m, amplitude; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ViolationWords { uint returns, worst_m, amplitude; };
 
-void say_broken(uvec2 broken, Errors errors) {
-  BrokenWords words = BrokenWords(broken);
+void report_violation(uvec2 violations, Errors errors) {
+  ViolationWords words = ViolationWords(violations);
   atomicAdd(words.returns, 1u);
   atomicMax(words.worst_m, floatBitsToUint(errors.distance_m));
   atomicMax(words.amplitude, floatBitsToUint(errors.amplitude));

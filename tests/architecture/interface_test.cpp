@@ -124,7 +124,7 @@ TEST_CASE("a raster's vertex is the vec3 and the uint that the vertex shader tak
 }
 
 TEST_CASE("what breaks a promise is the three words that the shaders keep") {
-  CHECK(offsetof(BrokenPromise, returns) == 0);
-  CHECK(offsetof(BrokenPromise, worst_m) == 4);
-  CHECK(offsetof(BrokenPromise, amplitude) == 8);
+  CHECK(offsetof(BudgetViolations, returns) == 0);
+  CHECK(offsetof(BudgetViolations, worst_m) == 4);
+  CHECK(offsetof(BudgetViolations, amplitude) == 8);
 }
