@@ -59,7 +59,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
     measurement.lit.clear();
   else if (options_.keep_reached)
     measurement.sample_reached = none_reached(on_.sensor, *on_.sources);
-  if (on_.signal.promised)
+  if (on_.signal.keeps_terms)
     clear_violations(recorder);
   for (std::size_t i = 0; i < on_.strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {

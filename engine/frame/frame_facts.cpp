@@ -36,7 +36,7 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
     facts.occluders = find_occluders(facts.camera, request.scene, facts.lights);
   facts.signal = signal_of(request.sensor, options);
   facts.signal.lit = shaded && (!facts.occluders.shapes.empty() || !facing);
-  facts.signal.promised = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
+  facts.signal.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   facts.model = sum_model(facts.lights, request.backscatter, facing);
   facts.paint = paint_use(facts.camera, request.scene);
   facts.largest_strip = largest_strip(device, facts.signal, request.sensor);

@@ -74,7 +74,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .sum_planes = signal.sum_planes(),
           .channels = ChannelLayout(signal).channels(),
           .visibility_words = signal.lit ? shader::bundles_per_window : 0,
-          .keeps_terms = signal.promised};
+          .keeps_terms = signal.keeps_terms};
 }
 
 // What each sample sees, and where.
@@ -163,7 +163,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<LitWindow> &win
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<LitWindow> &windows,
                 const std::shared_ptr<const LitPass> &shadow, FrameGraph &graph) {
   Signal signal = on.facts.signal;
-  signal.promised = false;
+  signal.keeps_terms = false;
   PassSetup setup{on.device,      on.options,        on.request.sensor, signal,
                   on.facts.model, on.memory.buffers, on.memory.scene};
   const Precision precision = *on.path.check;
@@ -253,7 +253,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
   const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.signal,
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
-  facts.signal.promised = plan.bound.has_value();
+  facts.signal.keeps_terms = plan.bound.has_value();
   std::vector<LitWindow> windows =
       facts.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);

@@ -98,7 +98,7 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
 bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                       const Sensor &sensor, const PathForms &allowed) {
   return allowed.depth_records && !path.is_sorted() && !plan.is_reduced() && path.windows == 0 &&
-         !facts.signal.promised && path.summation != Summation::per_diode &&
+         !facts.signal.keeps_terms && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 

@@ -77,7 +77,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &gro
           {shader::constant_tones, on.signal.tones * on.signal.frequencies()},
           {shader::constant_taps, on.signal.taps},
           {shader::constant_listed, scope.list != nullptr},
-          {shader::constant_promised, on.signal.promised}};
+          {shader::constant_keeps_terms, on.signal.keeps_terms}};
 }
 
 std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorBound &bound) {

@@ -40,7 +40,7 @@ struct AccuracyReport {
   double check_ms = 0.0; // not part of Measurement::frame_ms
 };
 
-// What is promised of every pixel: an error within the limit. It is off by fixed + per_condition * condition
+// What is asked for of every pixel: an error within the limit. It is off by fixed + per_condition * condition
 // at most, the condition being sum of |terms| / |sum| over its samples and diodes.
 struct ErrorBound {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped

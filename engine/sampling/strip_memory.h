@@ -22,7 +22,7 @@ struct StripBuffers {
   vulkan::Buffer
       reached;           // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;    // diodes that reach it, a word a sample; likewise
-  vulkan::Buffer terms;  // sum of |terms|, a float a sample; empty unless an error was promised
+  vulkan::Buffer terms;  // sum of |terms|, a float a sample; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
   vulkan::Buffer sum;    // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
   vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
@@ -58,7 +58,7 @@ struct SampleLayout {
   std::uint32_t sum_planes;
   std::uint32_t channels;
   std::uint32_t visibility_words; // 0: every diode reaches every sample
-  bool keeps_terms;               // and whether they break what was promised
+  bool keeps_terms;               // and whether they break what was asked for
 };
 
 // Buffers of `previous`, whose contents are of no use any more, are taken where they have the right size.

@@ -135,7 +135,7 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   if (!buffers.channels.is_mapped())
     commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                         vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
-  if (signal.promised)
+  if (signal.keeps_terms)
     commands.copyBuffer(buffers.violations.get(), buffers.violations_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BudgetViolations)));
   if (buffers.tags_read.bytes() > 0) {

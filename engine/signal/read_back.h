@@ -30,7 +30,7 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
 Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffers &buffers,
                     const std::optional<TruthOfRecords> &truth);
 
-// Of all strips since it was cleared, as read back last; only where Signal::promised.
+// Of all strips since it was cleared, as read back last; only where Signal::keeps_terms.
 shader::BudgetViolations budget_violations(const StripBuffers &buffers);
 
 } // namespace pmdsim

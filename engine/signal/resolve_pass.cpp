@@ -18,7 +18,7 @@ vulkan::Specialization resolve_constants(const PassSetup &on, const SumScope &sc
           {shader::constant_tiled, is_tiled(on.sensor)},
           {shader::constant_lit_is_kept, first && on.signal.lit},
           {shader::constant_listed, scope.list != nullptr},
-          {shader::constant_promised, on.signal.promised},
+          {shader::constant_keeps_terms, on.signal.keeps_terms},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};
 }
 

@@ -157,7 +157,7 @@ Places sum_places(ShortWayLight light, TrianglePlane plane, uint triangle, uint 
   return sum;
 }
 
-// Stores a pixel's channels and returns whether what was promised of them holds.
+// Stores a pixel's channels and returns whether what was asked for of them holds.
 bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {

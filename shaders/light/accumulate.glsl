@@ -11,7 +11,7 @@
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
 layout(constant_id = constant_is_first) const uint is_first = 0;
 layout(constant_id = constant_listed) const uint listed = 0;
-layout(constant_id = constant_promised) const uint promised = 0;
+layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 
 #define DIAGRAM_VALUES constants.diagrams
 #include "shaders/light/sum.glsl"
@@ -37,7 +37,7 @@ float load_backscatter(uint i) { return Floats(constants.backscatter).at[i]; }
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
 void add_terms(uint i, float backscatter, float terms) {
-  if (promised == 0 || constants.adds_terms == 0)
+  if (keeps_terms == 0 || constants.adds_terms == 0)
     return;
   Floats sums = Floats(constants.terms);
   float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;

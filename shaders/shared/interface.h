@@ -281,7 +281,7 @@ struct AccumulateConstants {
   uvec2 tones;    // in: Tone[]
   uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
   uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
-  uvec2 terms; // in (but for the first run) and out, where promised: float[], sum of |terms| of each sample
+  uvec2 terms; // in (but for the first run) and out, where terms are kept: float[], sum of |terms| of each sample
   uvec2 list;  // in, where listed: PixelList and its pixels
   uint blocks; // blocks of diodes to sum, for the looped variant
   uint plane;  // elements of a plane of the sum
@@ -289,7 +289,7 @@ struct AccumulateConstants {
   uint adds_terms; // 0: another dispatch for the same diodes does
 };
 
-// How a modulation frequency becomes channels, and what was promised of it: a distance within limit_m and an
+// How a modulation frequency becomes channels, and what was asked for of it: a distance within limit_m and an
 // amplitude within amplitude_limit. Both are off by fixed + per_condition * condition at most, the condition
 // being sum of |terms| / |sum|.
 struct Frequency {
@@ -312,8 +312,8 @@ struct ResolveConstants {
   uvec2 harmonics; // in: float[], amplitudes of the harmonics
   uvec2 frequency; // in: Frequency
   uvec2 lit;       // in: uint a sample, the diodes that reach it
-  uvec2 terms;     // in, where promised: sum of |terms| of each sample
-  uvec2 violations;    // in and out, where promised: BudgetViolations
+  uvec2 terms;     // in, where terms are kept: sum of |terms| of each sample
+  uvec2 violations;    // in and out, where terms are kept: BudgetViolations
   uvec2 list;      // in, where listed: PixelList and its pixels
   uint columns;    // of the strip
   uint samples;
@@ -377,7 +377,7 @@ struct PixelListConstants {
   uint samples;             // of a pixel, S x S
 };
 
-// Pixels that may be off by more than was promised.
+// Pixels that may be off by more than was asked for.
 struct BudgetViolations {
   uint returns;    // of pixels, each at each frequency
   float worst_m;   // as far as is known; bits of a float >= 0 compare as the float does

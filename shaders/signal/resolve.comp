@@ -50,7 +50,7 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
     sum.hits += 1u;
     if (lit_is_kept != 0)
       sum.lit += Words(constants.lit).at[i];
-    if (promised != 0)
+    if (keeps_terms != 0)
       sum.terms += Floats(constants.terms).at[i];
   }
 }
@@ -75,7 +75,7 @@ void main() {
   uint samples = constants.samples * constants.samples;
   Channels to = Channels(constants.channels, constants.padded_pixels);
   float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
-  if (promised != 0) {
+  if (keeps_terms != 0) {
     Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * sum.terms, size, Errors(0.0, 0.0));
     if (!is_kept(frequency, errors))
       report_violation(constants.violations, errors);

@@ -16,7 +16,7 @@ layout(constant_id = constant_keep_taps) const uint keep_taps = 0;
 layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
 layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
-layout(constant_id = constant_promised) const uint promised = 0;
+layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 
 // The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
 // of each frequency. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores lane by lane, two
@@ -35,7 +35,7 @@ float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
   vec4 z[planes]; // compensated; of a tone relative to twice the reference range
-  float terms;    // sum of |terms| over the samples, where an error was promised
+  float terms;    // sum of |terms| over the samples, where an error was asked for
   Real range;     // sum over the hits, m
   Real depth;
   Real reference_m; // range of the first hit

@@ -42,7 +42,7 @@ bool is_dark(const Return &measured, std::size_t pixel) {
 
 // Without a promise of the error nothing may be left of a return of which the limit leaves nothing.
 bool may_be_dark(const ExtremeTruth &truth, const Accuracy &accuracy, std::size_t pixel) {
-  const bool promised = accuracy.mode == Mode::automatic;
+  const bool keeps_terms = accuracy.mode == Mode::automatic;
   return !truth.is_known(pixel) || (!promised && truth.limit_m(pixel) >= 0.5 * truth.ambiguity_m());
 }
 
