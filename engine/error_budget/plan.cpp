@@ -36,7 +36,7 @@ double pixel_rad(const Sensor &sensor) {
   return glm::length(sensor.pixel_pitch_m * sensor.fill_factor) / sensor.image_distance_m();
 }
 
-std::optional<RoundingBound> bound_of(const LitView &view, const DiodeGroups &groups, Precision precision,
+std::optional<RoundingBound> bound_of(const LightFacts &view, const DiodeGroups &groups, Precision precision,
                                       std::uint32_t samples,
                                       std::optional<double> sample_spread_m = std::nullopt) {
   RoundingScope scope;
@@ -79,7 +79,7 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   return a;
 }
 
-DiodeGroups groups_of(const LitView &view, const std::vector<CameraIlluminator> &lights,
+DiodeGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
                       Precision precision) {
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
@@ -112,7 +112,7 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
 }
 
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
-RoundedSum choose_precision(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   for (const Precision wanted :
@@ -149,7 +149,7 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
 
 // At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
 // counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
-std::optional<double> largest_condition(const LitView &view, const FramePlan &plan) {
+std::optional<double> largest_condition(const LightFacts &view, const FramePlan &plan) {
   const double wavenumber = view.signal.largest_wavenumber_rad_m();
   const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
   if (view.sensor.samples > 1 || plan.all.phased || half_rad > 1.0 ||
@@ -166,7 +166,7 @@ struct SureBound {
 };
 
 // As errors_of in shaders/signal/resolve.glsl.
-std::optional<SureBound> sure_bound(const LitView &view, const ErrorBound &bound, const FramePlan &plan) {
+std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bound, const FramePlan &plan) {
   const auto condition = largest_condition(view, plan);
   if (!condition || bound.terms_of_rims > 0.0)
     return std::nullopt;
@@ -178,7 +178,7 @@ std::optional<SureBound> sure_bound(const LitView &view, const ErrorBound &bound
 }
 
 // Of what is asked for, every pixel makes sure, where it is not known before.
-void claim_within_limits(const LitView &view, const ErrorBound &bound, FramePlan &plan) {
+void claim_within_limits(const LightFacts &view, const ErrorBound &bound, FramePlan &plan) {
   const auto sure = sure_bound(view, bound, plan);
   plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
   plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
@@ -186,7 +186,7 @@ void claim_within_limits(const LitView &view, const ErrorBound &bound, FramePlan
     plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
 }
 
-ReducedLight light_within(const LitView &view, const Accuracy &accuracy, const RoundingBound &rounding,
+ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
                           double share) {
   if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
     return whole_light(view.lights);
@@ -201,7 +201,7 @@ bool is_kept_by_some(const ErrorBound &bound) {
 }
 
 // One place in float, or four, whatever the precision of the others.
-void plan_short_way(const LitView &view, const Accuracy &accuracy, const ReducedLight &light,
+void plan_short_way(const LightFacts &view, const Accuracy &accuracy, const ReducedLight &light,
                     FramePlan &plan) {
   const bool in_float = accuracy.precision != Precision::fp64;
   if (in_float)
@@ -222,7 +222,7 @@ void plan_short_way(const LitView &view, const Accuracy &accuracy, const Reduced
     plan.refined_bound = bound_at(2, place_spread_m);
 }
 
-FramePlan exact_plan(const LitView &view, const Accuracy &accuracy) {
+FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
   FramePlan plan;
   plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
   plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
@@ -257,7 +257,7 @@ std::string limits_text(const Accuracy &asked_for) {
 
 } // namespace
 
-FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt) {
+FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   if (accuracy.mode == Mode::exact)
     return exact_plan(view, accuracy);
   FramePlan plan;

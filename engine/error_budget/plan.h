@@ -13,7 +13,7 @@
 namespace pmdsim {
 
 // A frame's light and what it falls on.
-struct LitView {
+struct LightFacts {
   const std::vector<CameraIlluminator> &lights;
   const std::vector<VisibleBox> &visible;
   const Sensor &sensor;
@@ -56,7 +56,7 @@ struct FramePlan {
 inline constexpr std::uint32_t frame_plans = 3;
 
 // The `attempt`-th of them. Throws Error (accuracy) where none can bound what is asked for.
-FramePlan plan_frame(const LitView &view, const Accuracy &accuracy, std::uint32_t attempt);
+FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt);
 
 // Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it
 // (`violations`) and none that was checked is (`found`). The ambiguity range is that of the distances.

@@ -96,7 +96,7 @@ void list_view(const Basis &on, const std::shared_ptr<VisibilityPass> &raster, F
 }
 
 // Which sources reach which sample. The spot check finds the frame's tiles.
-Pass shadow_pass(const Basis &on, const std::shared_ptr<const LitPass> &shadow, bool makes_tiles) {
+Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &shadow, bool makes_tiles) {
   return {.name = "lit",
           .reads = ids | points,
           .writes = visibility_bits | visibility_counts,
@@ -108,7 +108,7 @@ Pass shadow_pass(const Basis &on, const std::shared_ptr<const LitPass> &shadow, 
 }
 
 // The bits for the host.
-Pass reached_pass(const Basis &on, const std::vector<LitWindow> &windows,
+Pass reached_pass(const Basis &on, const std::vector<SourceWindow> &windows,
                   const std::shared_ptr<const DiodeGroups> &sources) {
   return {.name = "read_back",
           .reads = visibility_bits,
@@ -140,7 +140,7 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
 }
 
 // A class of pixels, sample by sample: all of them, or those of `list`.
-void list_class(const Basis &on, PixelsOf who, const std::vector<LitWindow> &windows,
+void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
                 const vulkan::Buffer *list, FrameGraph &graph) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
@@ -160,8 +160,8 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<LitWindow> &win
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
-void list_check(const Basis &on, const SpotCheck &check, const std::vector<LitWindow> &windows,
-                const std::shared_ptr<const LitPass> &shadow, FrameGraph &graph) {
+void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
+                const std::shared_ptr<const TileShadowPass> &shadow, FrameGraph &graph) {
   Signal signal = on.facts.signal;
   signal.keeps_terms = false;
   PassSetup setup{on.device,      on.options,        on.request.sensor, signal,
@@ -203,7 +203,7 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   return report;
 }
 
-FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::vector<LitWindow> windows,
+FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::vector<SourceWindow> windows,
                         std::unique_ptr<FrameMemory> memory, std::optional<RasterImages> images) {
   const auto &[device, options, request, facts, plan, path, _] = on;
   std::optional<ChipGrid> grid;
@@ -213,9 +213,9 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
                                                  memory->scene.paint.masked, options.precision, grid,
                                                  drawn_tags(memory->buffers), std::move(images));
   const auto sources = std::make_shared<const DiodeGroups>(plan.all);
-  std::shared_ptr<const LitPass> shadow;
+  std::shared_ptr<const TileShadowPass> shadow;
   if (path.windows > 0)
-    shadow = std::make_shared<const LitPass>(device, facts.occluders, plan.all, windows, memory->scene,
+    shadow = std::make_shared<const TileShadowPass>(device, facts.occluders, plan.all, windows, memory->scene,
                                              strips, is_tiled(request.sensor), options.precision);
   std::optional<TruthOfRecords> truth;
   if (path.host_reads_truth)
@@ -254,7 +254,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
   facts.signal.keeps_terms = plan.bound.has_value();
-  std::vector<LitWindow> windows =
+  std::vector<SourceWindow> windows =
       facts.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);

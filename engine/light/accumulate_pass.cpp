@@ -117,7 +117,7 @@ namespace {
 // The pass on the device.
 class Sum {
 public:
-  Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+  Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
       const SumScope &scope);
 
   void record(const Recording &at) const;
@@ -134,7 +134,7 @@ private:
 
   const StripBuffers &buffers_;
   const SceneBuffers &scene_;
-  std::vector<LitWindow> windows_;
+  std::vector<SourceWindow> windows_;
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
   std::vector<DiodeRun> runs_;
@@ -148,7 +148,7 @@ private:
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
-Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
       depth_records_(scope.depth_records), runs_(groups.runs),
@@ -229,7 +229,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
 
 } // namespace
 
-Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::vector<LitWindow> &windows,
+Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
                      const SumScope &scope) {
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",

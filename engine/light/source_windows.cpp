@@ -62,15 +62,15 @@ std::uint32_t bundles_per_run(const DiodeGroups &groups) {
   return (groups.blocks_per_run * shader::diodes_per_block - 1) / shader::diodes_per_bundle + 1;
 }
 
-LitWindow all_runs(const DiodeGroups &groups) {
+SourceWindow all_runs(const DiodeGroups &groups) {
   const auto runs = static_cast<std::uint32_t>(groups.runs.size());
   return {0, runs, runs * bundles_per_run(groups)};
 }
 
-std::vector<LitWindow> plan_windows(const DiodeGroups &groups) {
+std::vector<SourceWindow> plan_windows(const DiodeGroups &groups) {
   const std::uint32_t runs_per_window = std::max(1u, shader::bundles_per_window / bundles_per_run(groups));
   const auto runs = static_cast<std::uint32_t>(groups.runs.size());
-  std::vector<LitWindow> windows;
+  std::vector<SourceWindow> windows;
   for (std::uint32_t first = 0; first < runs; first += runs_per_window) {
     const std::uint32_t last = std::min(runs, first + runs_per_window);
     windows.push_back({first, last, (last - first) * bundles_per_run(groups)});
@@ -78,7 +78,7 @@ std::vector<LitWindow> plan_windows(const DiodeGroups &groups) {
   return windows;
 }
 
-std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bundle,
+std::span<const DiodePlace> places_of(const SourceWindow &window, std::uint32_t bundle,
                                       const DiodeGroups &groups) {
   const std::uint32_t run = window.first_run + bundle / bundles_per_run(groups);
   const std::uint32_t within = bundle % bundles_per_run(groups) * shader::diodes_per_bundle;
@@ -87,7 +87,7 @@ std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bun
       .subspan(groups.runs[run].first + within, std::min(left, shader::diodes_per_bundle));
 }
 
-WindowDiodes diodes_of(const LitWindow &window, const DiodeGroups &groups) {
+WindowDiodes diodes_of(const SourceWindow &window, const DiodeGroups &groups) {
   WindowDiodes diodes;
   diodes.boxes.push_back(empty_box);
   for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)

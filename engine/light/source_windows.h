@@ -10,7 +10,7 @@
 namespace pmdsim {
 
 // Whole runs of the accumulate pass. A run begins with a bundle of its own.
-struct LitWindow {
+struct SourceWindow {
   std::uint32_t first_run, last_run; // the latter excluded
   std::uint32_t bundles;             // of all its runs
 };
@@ -18,13 +18,13 @@ struct LitWindow {
 std::uint32_t bundles_per_run(const DiodeGroups &groups);
 
 // One for all runs.
-LitWindow all_runs(const DiodeGroups &groups);
+SourceWindow all_runs(const DiodeGroups &groups);
 
 // As many runs each as fit shader::bundles_per_window.
-std::vector<LitWindow> plan_windows(const DiodeGroups &groups);
+std::vector<SourceWindow> plan_windows(const DiodeGroups &groups);
 
 // The places of a bundle's diodes.
-std::span<const DiodePlace> places_of(const LitWindow &window, std::uint32_t bundle,
+std::span<const DiodePlace> places_of(const SourceWindow &window, std::uint32_t bundle,
                                       const DiodeGroups &groups);
 
 // What the shaders know of a window's diodes.
@@ -34,6 +34,6 @@ struct WindowDiodes {
   std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
 };
 
-WindowDiodes diodes_of(const LitWindow &window, const DiodeGroups &groups);
+WindowDiodes diodes_of(const SourceWindow &window, const DiodeGroups &groups);
 
 } // namespace pmdsim

@@ -86,8 +86,8 @@ LitDiodes upload_diodes(const vulkan::Device &device, const WindowDiodes &diodes
 
 } // namespace
 
-LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
-                 const std::vector<LitWindow> &windows, const SceneBuffers &scene,
+TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
+                 const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
     : windows_(windows), slots_(std::min(most_slots, most_parts(strips))),
       scene_(upload_scene(device, occluders, scene)),
@@ -98,7 +98,7 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst)),
       candidates_(storage(device, vk::DeviceSize{slots_} * shader::candidate_words * sizeof(std::uint32_t))) {
   std::vector<WindowDiodes> diodes;
-  for (const LitWindow &window : windows_)
+  for (const SourceWindow &window : windows_)
     diodes.push_back(diodes_of(window, groups));
   for (const WindowDiodes &of_window : diodes)
     diodes_.push_back(upload_diodes(device, of_window));
@@ -106,14 +106,14 @@ LitPass::LitPass(const vulkan::Device &device, const Occluders &occluders, const
       make_lit_pipelines(device, windows_, {tiled, may_have_holes(occluders), are_flat(diodes)}, precision);
 }
 
-void LitPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void TileShadowPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers) const {
   const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.tags.words(),
                                             scene_.record.words(), parts_.words()};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
 
-void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void TileShadowPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                      const StripBuffers &buffers, std::size_t window) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
@@ -142,7 +142,7 @@ void LitPass::record(const vk::raii::CommandBuffer &commands, const shader::Stri
   record_count(commands, strip, buffers, window);
 }
 
-shader::LitGatherConstants LitPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
+shader::LitGatherConstants TileShadowPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
                                                      std::size_t window) const {
   return {strip,
           buffers.position.words(),
@@ -157,7 +157,7 @@ shader::LitGatherConstants LitPass::gather_constants(const shader::Strip &strip,
           slots_};
 }
 
-void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void TileShadowPass::record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                             const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const {
   shader::LitDecideConstants constants{
       strip,
@@ -186,7 +186,7 @@ void LitPass::record_decide(const vk::raii::CommandBuffer &commands, const shade
   }
 }
 
-void LitPass::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void TileShadowPass::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                            const StripBuffers &buffers, std::size_t window) const {
   vulkan::compute_barrier(commands);
   const std::uint32_t plane = sample_count(strip);

@@ -23,11 +23,11 @@ struct LitScene {
   vulkan::Buffer record; // shader::LitScene
 };
 
-class LitPass {
+class TileShadowPass {
 public:
   // `tiled` as in LitForm. Throws Error (out_of_memory).
-  LitPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
-          const std::vector<LitWindow> &windows, const SceneBuffers &scene,
+  TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
+          const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
           std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
 
   // Cuts the strip into tiles, once for all windows.
@@ -46,7 +46,7 @@ private:
   void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     const StripBuffers &buffers, std::size_t window) const;
 
-  std::vector<LitWindow> windows_;
+  std::vector<SourceWindow> windows_;
   std::vector<LitDiodes> diodes_; // beside windows_
   std::uint32_t slots_;           // of candidates_
   LitScene scene_;

@@ -14,7 +14,7 @@ std::uint32_t lanes_to_try(const vulkan::Device &device) {
 
 } // namespace
 
-LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
+LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<SourceWindow> &windows,
                                 const LitForm &form, SamplePrecision precision) {
   vulkan::Specialization constants{{shader::constant_tiled, form.tiled},
                                    {shader::constant_masked, form.masked},
@@ -32,7 +32,7 @@ LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<
   made.attempt = pipeline("lit_try", sizeof(shader::LitDecideConstants));
   made.clear = pipeline("lit_clear", sizeof(shader::LitDecideConstants));
   made.trace = pipeline("lit_trace", sizeof(shader::LitDecideConstants));
-  for (const LitWindow &window : windows) {
+  for (const SourceWindow &window : windows) {
     constants.set(shader::constant_bundles, window.bundles)
         .set(shader::constant_is_first, made.counts.empty());
     made.counts.push_back(pipeline("lit_count", sizeof(shader::LitCountConstants)));

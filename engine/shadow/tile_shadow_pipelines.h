@@ -26,7 +26,7 @@ struct LitForm {
   bool flat;   // within a bundle all diodes have the same z
 };
 
-LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<LitWindow> &windows,
+LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<SourceWindow> &windows,
                                 const LitForm &form, SamplePrecision precision);
 
 } // namespace pmdsim

@@ -11,7 +11,7 @@ namespace {
 
 std::size_t words_a_sample(const DiodeGroups &groups) { return (groups.diode_count + 31) / 32; }
 
-vk::DeviceSize bytes_of(const LitWindow &window, const shader::Strip &strip) {
+vk::DeviceSize bytes_of(const SourceWindow &window, const shader::Strip &strip) {
   return vk::DeviceSize{window.bundles} * sample_count(strip) * sizeof(std::uint32_t);
 }
 
@@ -45,7 +45,7 @@ void all_reached(const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
 }
 
 void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, const LitWindow &window) {
+                    const StripBuffers &buffers, const SourceWindow &window) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
@@ -55,7 +55,7 @@ void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const LitWindow &window,
+void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
                    const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
   std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));

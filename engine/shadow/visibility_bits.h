@@ -17,10 +17,10 @@ void all_reached(const DiodeGroups &groups, std::vector<std::uint32_t> &to);
 
 // Copies a window's bits to memory that the host can read.
 void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, const LitWindow &window);
+                    const StripBuffers &buffers, const SourceWindow &window);
 
 // Once that is done: sets the bits of the window's diodes in `to`, those of samples that see nothing as well.
-void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const LitWindow &window,
+void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
                    const DiodeGroups &groups, std::vector<std::uint32_t> &to);
 
 // Where the sample sees nothing (sample_pixel_id is 0) nothing is reached.

@@ -36,10 +36,10 @@ std::uint32_t diodes_per_run(const DiodeGroups &groups) {
 }
 
 // Every run in one window, in order, and no more bundles than there may be.
-void check_windows(const std::vector<LitWindow> &windows, const DiodeGroups &groups) {
+void check_windows(const std::vector<SourceWindow> &windows, const DiodeGroups &groups) {
   REQUIRE(bundles_per_run(groups) * shader::diodes_per_bundle >= diodes_per_run(groups));
   std::uint32_t next_run = 0;
-  for (const LitWindow &window : windows) {
+  for (const SourceWindow &window : windows) {
     REQUIRE(window.first_run == next_run);
     REQUIRE(window.last_run > window.first_run);
     REQUIRE(window.last_run <= groups.runs.size());
@@ -51,7 +51,7 @@ void check_windows(const std::vector<LitWindow> &windows, const DiodeGroups &gro
 }
 
 // Its bundles hold the run's diodes one after the other.
-void check_bundles_of_run(const LitWindow &window, std::uint32_t run, const DiodeGroups &groups) {
+void check_bundles_of_run(const SourceWindow &window, std::uint32_t run, const DiodeGroups &groups) {
   std::uint32_t next = groups.runs[run].first;
   for (std::uint32_t i = 0; i < bundles_per_run(groups); ++i) {
     const auto places = places_of(window, (run - window.first_run) * bundles_per_run(groups) + i, groups);
@@ -88,7 +88,7 @@ void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const 
   }
 }
 
-void check_diodes(const LitWindow &window, const DiodeGroups &groups, std::vector<int> &times) {
+void check_diodes(const SourceWindow &window, const DiodeGroups &groups, std::vector<int> &times) {
   const WindowDiodes told = diodes_of(window, groups);
   REQUIRE(told.boxes.size() == window.bundles + 1);
   REQUIRE(told.bundles.size() == window.bundles);
@@ -111,7 +111,7 @@ TEST_CASE("windows hold whole runs and every diode once") {
         const auto windows = plan_windows(groups);
         check_windows(windows, groups);
         std::vector<int> times(groups.diode_count);
-        for (const LitWindow &window : windows) {
+        for (const SourceWindow &window : windows) {
           for (std::uint32_t run = window.first_run; run < window.last_run; ++run)
             check_bundles_of_run(window, run, groups);
           check_diodes(window, groups, times);
@@ -137,7 +137,7 @@ TEST_CASE("the paper's ring is one window") {
 
 TEST_CASE("without shadows one window is all runs") {
   const DiodeGroups groups = groups_of(5000, 1.0, wavenumber_20mhz_rad_m);
-  const LitWindow window = all_runs(groups);
+  const SourceWindow window = all_runs(groups);
   CHECK(window.first_run == 0);
   CHECK(window.last_run == groups.runs.size());
   CHECK(window.bundles == groups.runs.size() * bundles_per_run(groups));
@@ -145,7 +145,7 @@ TEST_CASE("without shadows one window is all runs") {
 
 TEST_CASE("a bundle's box is not much larger than its diodes need") {
   const DiodeGroups groups = groups_of(240, 0.15, wavenumber_20mhz_rad_m);
-  for (const LitWindow &window : plan_windows(groups)) {
+  for (const SourceWindow &window : plan_windows(groups)) {
     const WindowDiodes diodes = diodes_of(window, groups);
     for (std::size_t b = 0; b < window.bundles; ++b) {
       glm::dvec3 low_m(1e9), high_m(-1e9);
