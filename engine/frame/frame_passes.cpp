@@ -78,7 +78,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
 }
 
 // What each sample sees, and where.
-void list_view(const Basis &on, const std::shared_ptr<VisibilityPass> &raster, FrameGraph &graph) {
+void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster, FrameGraph &graph) {
   graph.add_before({.name = "visibility",
                     .reads = no_resource,
                     .writes = ids,
@@ -209,7 +209,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   std::optional<ChipGrid> grid;
   if (path.record == SampleRecord::depth)
     grid.emplace(device, request.sensor);
-  auto raster = std::make_shared<VisibilityPass>(device, facts.projection, request.sensor, strips,
+  auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
                                                  memory->scene.paint.masked, options.precision, grid,
                                                  drawn_tags(memory->buffers), std::move(images));
   const auto sources = std::make_shared<const DiodeGroups>(plan.all);

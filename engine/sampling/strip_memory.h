@@ -11,7 +11,7 @@
 namespace pmdsim {
 
 struct StripBuffers {
-  // With room for rasters that draw on them, whose rows may come in fours (VisibilityPass).
+  // With room for rasters that draw on them, whose rows may come in fours (IdRasterPass).
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer
       tags; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4

@@ -55,7 +55,7 @@ struct Raster {
 
 vulkan::Pipeline make_pipeline(const vulkan::Device &device, const Raster &raster) {
   return vulkan::checked([&] {
-    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::VisibilityConstants));
+    const vk::PushConstantRange range(stages_with_constants, 0, sizeof(shader::IdRasterConstants));
     vk::raii::PipelineLayout layout(device.get(), vk::PipelineLayoutCreateInfo({}, {}, range));
     using ShaderBit = vk::ShaderStageFlagBits;
     const vulkan::ShaderStage vertex(device, ShaderBit::eVertex, raster.vertex, raster.of_vertex);
@@ -110,7 +110,7 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
   return std::min(std::bit_floor(device.limits().viewport_samples) / 2, device.limits().raster_samples);
 }
 
-VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &projection,
+IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection,
                                const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
                                SamplePrecision precision, const std::optional<ChipGrid> &grid,
                                const vulkan::Buffer &tags, std::optional<RasterImages> &&previous)
@@ -138,13 +138,13 @@ VisibilityPass::VisibilityPass(const vulkan::Device &device, const Projection &p
                   std::move(previous));
 }
 
-std::optional<RasterImages> VisibilityPass::release_images() {
+std::optional<RasterImages> IdRasterPass::release_images() {
   if (images_)
     images_->leave_buffer();
   return std::exchange(images_, std::nullopt);
 }
 
-void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                             const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   images_->begin(commands, extent, tags);
@@ -154,7 +154,7 @@ void VisibilityPass::record(const vk::raii::CommandBuffer &commands, const Plann
     add_depths(commands, planned, scene, tags);
 }
 
-void VisibilityPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                                 const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
@@ -166,7 +166,7 @@ void VisibilityPass::add_depths(const vk::raii::CommandBuffer &commands, const P
                          Access::eShaderStorageRead | Access::eTransferRead);
 }
 
-void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                           const SceneBuffers &scene) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
@@ -179,7 +179,7 @@ void VisibilityPass::draw(const vk::raii::CommandBuffer &commands, const Planned
       draw_tile(commands, planned, scene, {column, row});
 }
 
-void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
+void IdRasterPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
                                const SceneBuffers &scene, const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
@@ -198,7 +198,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
                       vk::Rect2D({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y)},
                                  {size.x, size.y}));
   const shader::SampleGrid grid = grid_ ? grid_->of(strip) : shader::SampleGrid{};
-  const shader::VisibilityConstants constants{
+  const shader::IdRasterConstants constants{
       raster_shift(sensor_, tile),
       corner.x,
       corner.y,
@@ -216,7 +216,7 @@ void VisibilityPass::draw_tile(const vk::raii::CommandBuffer &commands, const Pl
       grid.slope,
       grid.first,
       grid_ ? grid_->chip() : shader::uvec2(0)};
-  commands.pushConstants<shader::VisibilityConstants>(*compiled_->layout, stages_with_constants, 0,
+  commands.pushConstants<shader::IdRasterConstants>(*compiled_->layout, stages_with_constants, 0,
                                                       constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
 }

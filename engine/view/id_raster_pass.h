@@ -20,12 +20,12 @@ namespace pmdsim {
 // The largest raster block that the device rasterises exactly: half of its largest power-of-two viewport.
 std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
-class VisibilityPass {
+class IdRasterPass {
 public:
   // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
   // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
   // same.
-  VisibilityPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
+  IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                  const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
                  const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
                  std::optional<RasterImages> &&previous);

@@ -134,7 +134,7 @@ Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, c
                       const SceneBuffers &scene_buffers) {
   const bool fisheye = std::holds_alternative<Fisheye>(sensor.distortion);
   vulkan::ComputePipeline pipeline(
-      device, vulkan::shader_module(device, precision, "lens_search"), sizeof(shader::SearchConstants),
+      device, vulkan::shader_module(device, precision, "lens_search"), sizeof(shader::LensSearchConstants),
       {{shader::constant_surface_vectors, surface_vectors},
        {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
        {shader::constant_distortion, fisheye ? shader::distortion_fisheye : shader::distortion_brown},
@@ -147,7 +147,7 @@ Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, c
           .reads = ids,
           .writes = ids | points,
           .record = [made, &buffers, &scene_buffers](const Recording &at) {
-            const shader::SearchConstants constants{
+            const shader::LensSearchConstants constants{
                 at.of_strip(),
                 made->lens.words(),
                 made->views.words(at.planned.block * sizeof(shader::RasterView)),

@@ -206,7 +206,7 @@ struct Strip {
 // filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
 // samples: their tags only say what is seen (pixel id 1), and the samples' tags follow from a search, row by
 // row.
-struct VisibilityConstants {
+struct IdRasterConstants {
   vec2 shift;          // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
   uint tile_x, tile_y; // of its first fragment
   uint column, row;    // of the strip's first pixel
@@ -251,7 +251,7 @@ struct PointsConstants {
   uvec2 list;        // in, where listed: PixelList and its pixels
 };
 
-struct SearchConstants {
+struct LensSearchConstants {
   Strip strip;
   uvec2 lens;        // in: LensModel and its table
   uvec2 view;        // in: RasterView

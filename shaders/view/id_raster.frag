@@ -6,7 +6,7 @@
 #include "shaders/shared/constants.h"
 #include "shaders/view/surface_appearance.glsl"
 
-layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
+layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
 layout(constant_id = constant_masked) const uint masked = 0;
 layout(location = 0) flat in uint visible_triangle;
 layout(location = 0) out uvec2 tag;

@@ -11,7 +11,7 @@
 #include "shaders/shared/constants.h"
 #include "shaders/shared/interface.h"
 
-layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
+layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
 layout(location = 0) in vec3 corner; // x_fragments, y_fragments, inverse_depth
 layout(location = 1) in uint triangle;
 layout(location = 0) flat out uint visible_triangle;

@@ -9,7 +9,7 @@
 #include "shaders/view/surface_appearance.glsl"
 #include "shaders/view/sight.glsl"
 
-layout(push_constant, std430) uniform Constants { VisibilityConstants constants; };
+layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_masked) const uint masked = 0;
 layout(location = 0) flat in uint visible_triangle;

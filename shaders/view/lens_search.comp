@@ -8,7 +8,7 @@
 #include "shaders/view/points.glsl"
 #include "shaders/shared/real.glsl"
 
-layout(push_constant, std430) uniform Constants { SearchConstants constants; };
+layout(push_constant, std430) uniform Constants { LensSearchConstants constants; };
 
 layout(constant_id = constant_masked) const uint masked = 0;
 
