@@ -201,17 +201,17 @@ bool is_kept_by_some(const ErrorBound &bound) {
 }
 
 // One place in float, or four, whatever the precision of the others.
-void plan_short_way(const LightFacts &view, const Accuracy &accuracy, const ReducedLight &light,
+void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const ReducedLight &light,
                     FramePlan &plan) {
   const bool in_float = accuracy.precision != Precision::fp64;
   if (in_float)
-    plan.short_groups = groups_of(view, light.illuminators, Precision::fp32);
+    plan.uniform_groups = groups_of(view, light.illuminators, Precision::fp32);
   // How much light a sample has is counted in these, also where pixels are only listed.
-  plan.short_groups.diode_count = plan.all.diode_count;
+  plan.uniform_groups.diode_count = plan.all.diode_count;
   if (!in_float)
     return;
   const auto bound_at = [&](std::uint32_t side, double spread_m) -> std::optional<ErrorBound> {
-    const auto rounding = bound_of(view, plan.short_groups, Precision::fp32, side, spread_m);
+    const auto rounding = bound_of(view, plan.uniform_groups, Precision::fp32, side, spread_m);
     if (!rounding)
       return std::nullopt;
     const ErrorBound bound = error_bound_of(accuracy, *rounding, light);
@@ -239,7 +239,7 @@ FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
     }
   }
   if (plan.bound && plan.precision == Precision::fp32)
-    plan_short_way(view, accuracy, light, plan);
+    plan_uniform_pixels(view, accuracy, light, plan);
   return plan;
 }
 
@@ -271,7 +271,7 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights));
   const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
   plan.bound = error_bound_of(accuracy, of_stand_ins.value_or(sum.bound), light);
-  plan_short_way(view, accuracy, light, plan);
+  plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
   if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)
     worst = worse_of(worst, *plan.bound_of_all);

@@ -24,7 +24,7 @@ struct LightFacts {
   PathForms allowed = {};
 };
 
-// What the short way has to know of the light.
+// What the uniform-pixel pass has to know of the light.
 struct LightExtent {
   VisibleBox box;             // holds all diodes, camera frame
   double pattern_slope = 0.0; // radiation_laws.h
@@ -37,11 +37,11 @@ struct FramePlan {
   Precision precision = Precision::fp32;
   DiodeGroups all;          // every diode
   DiodeGroups stand_ins;    // of those, with other intensities, that do where all light and face a point
-  DiodeGroups short_groups; // the stand-ins in float, for the short way
+  DiodeGroups uniform_groups; // the stand-ins in float, for the uniform-pixel pass
   LightExtent extent;       // of the light, as the stand-ins' bound has it
   // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
-  // Of what the short way sums; nothing where that is not exact enough.
+  // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;
   // Likewise of pixels of several samples that it sums at four places.
   std::optional<ErrorBound> refined_bound;

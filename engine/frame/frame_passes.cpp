@@ -128,14 +128,14 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
   const PixelClass *uniform = on.path.of(PixelsOf::uniform), *refined = on.path.of(PixelsOf::uniform_refined);
   const ErrorBound &bound = on.plan.uniform_bound ? *on.plan.uniform_bound : *on.plan.bound;
   const std::uint32_t points = uniform && on.request.sensor.samples > 1 ? uniform->points : 0;
-  graph.add_after(uniform_pixels_pass(on.setup(), on.plan.short_groups, on.plan.extent, bound,
+  graph.add_after(uniform_pixels_pass(on.setup(), on.plan.uniform_groups, on.plan.extent, bound,
                                       {.points = points,
                                        .few_follow = refined != nullptr,
                                        .sums = uniform != nullptr,
                                        .lists = on.path.lists_pixels()},
                                       lists));
   if (refined)
-    graph.add_after(uniform_pixels_pass(on.setup(), on.plan.short_groups, on.plan.extent, *refined->bound,
+    graph.add_after(uniform_pixels_pass(on.setup(), on.plan.uniform_groups, on.plan.extent, *refined->bound,
                                         {.points = refined->points}, lists));
 }
 

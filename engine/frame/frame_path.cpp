@@ -42,7 +42,7 @@ bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.sign
 // Whether the pass from IDs to channels can sum such groups itself, as one straight line.
 bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
   return signal.waveform == shader::waveform_sine && !sensor.has_distortion() &&
-         signal.frequencies() <= shader::short_way_tones &&
+         signal.frequencies() <= shader::uniform_tones &&
          groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;
 }
 
@@ -50,7 +50,7 @@ bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sen
 std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
                                             const FrameRequest &request, const PathForms &allowed) {
   const Sensor &sensor = request.sensor;
-  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.short_groups, facts.signal, sensor))
+  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.uniform_groups, facts.signal, sensor))
     return std::nullopt;
   const bool may_thin_out = sensor.adaptive_samples || request.accuracy.mode == Mode::automatic;
   if (sensor.samples == 1)

@@ -33,7 +33,7 @@ vulkan::Specialization constants_of(const PassSetup &on, const DiodeGroups &grou
               {shader::constant_lists_pixels, lists_of(pixels)}});
 }
 
-shader::ShortWayLight light_record(const LightExtent &extent, const Signal &signal, bool phased) {
+shader::UniformPixelsLight light_record(const LightExtent &extent, const Signal &signal, bool phased) {
   const glm::dvec3 middle_m = 0.5 * (extent.box.low_m + extent.box.high_m);
   // A hair wider, as the shader compares in float.
   const glm::dvec3 half_m = 0.5 * (extent.box.high_m - extent.box.low_m) + 1e-6 * glm::abs(middle_m) + 1e-9;
@@ -42,7 +42,7 @@ shader::ShortWayLight light_record(const LightExtent &extent, const Signal &sign
   const double rad_m_hz = 2.0 * std::numbers::pi / speed_of_light_m_s;
   const double one_radian_m = 1.0 / (rad_m_hz * *lowest_hz);
   const double diameter_m = 2.0 * glm::length(half_m);
-  shader::ShortWayLight record{};
+  shader::UniformPixelsLight record{};
   record.middle_m = glm::vec4(middle_m, 0.0);
   record.extent_m = glm::vec4(half_m, glm::length(half_m));
   record.pattern_slope = static_cast<float>(extent.pattern_slope);
@@ -55,7 +55,7 @@ shader::ShortWayLight light_record(const LightExtent &extent, const Signal &sign
 // The record, and behind it what the sources share.
 vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
                             const ErrorBound &bound, bool sums, const vulkan::Buffer &diagrams) {
-  shader::ShortWayLight light = light_record(extent, on.signal, groups.phased);
+  shader::UniformPixelsLight light = light_record(extent, on.signal, groups.phased);
   light.diagrams = diagrams.words();
   if (sums) {
     std::ranges::copy(on.signal.all_tones(), light.tones);
@@ -70,7 +70,7 @@ vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, cons
 }
 
 vulkan::Buffer upload_work(const PassSetup &on, const DiodeGroups &groups, const PixelLists &lists) {
-  shader::ShortWayWork work{};
+  shader::UniformPixelsWork work{};
   work.lit_channel = ChannelLayout(on.signal).lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
@@ -87,7 +87,7 @@ struct OnDevice {
         light(upload_light(on, groups, extent, bound, pixels.sums, diagrams)),
         work(upload_work(on, groups, lists)),
         pipeline(on.device, vulkan::shader_module(on.device, on.options.precision, "uniform_pixels"),
-                 sizeof(shader::ShortWayConstants), constants_of(on, groups, pixels)) {}
+                 sizeof(shader::UniformPixelsConstants), constants_of(on, groups, pixels)) {}
 
   shader::vec4 slope;
   vulkan::Buffer chip, diodes, diagrams, light, work;
@@ -103,7 +103,7 @@ Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const L
   const vulkan::Buffer *const few = pixels.points == 4 ? &lists->of(shader::list_few) : nullptr;
   const auto record = [=, &buffers = on.buffers, &scene = on.scene](const Recording &at) {
     const shader::Strip &strip = at.of_strip();
-    const shader::ShortWayConstants constants{strip,
+    const shader::UniformPixelsConstants constants{strip,
                                               made->slope,
                                               made->chip.words(),
                                               buffers.tags.words(),

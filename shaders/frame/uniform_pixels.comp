@@ -1,5 +1,5 @@
 #version 460
-// The short way: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
+// The uniform-pixel pass: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
 // face, so that few diodes may stand in for all and one place, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
@@ -9,11 +9,11 @@
 #include "shaders/signal/resolve.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Lights {
-  ShortWayLight at;
+  UniformPixelsLight at;
   LightRun runs[];
 };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Works { ShortWayWork at; };
-layout(push_constant, std430) uniform Constants { ShortWayConstants constants; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Works { UniformPixelsWork at; };
+layout(push_constant, std430) uniform Constants { UniformPixelsConstants constants; };
 #define DIAGRAM_VALUES Lights(constants.light).at.diagrams
 #include "shaders/light/moments.glsl"
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
@@ -35,12 +35,12 @@ struct Seen {
 };
 
 // Whether all of the box around the light is in front of a surface.
-bool faces(TrianglePlane plane, ShortWayLight light) {
+bool faces(TrianglePlane plane, UniformPixelsLight light) {
   float height = dot(plane.plane_hi.xyz, light.middle_m.xyz) - plane.plane_hi.w;
   return height > dot(abs(plane.plane_hi.xyz), light.extent_m.xyz);
 }
 
-Seen see(uint pixel, ShortWayLight light) {
+Seen see(uint pixel, UniformPixelsLight light) {
   Strip strip = constants.strip;
   uvec2 in_strip = uvec2(pixel % strip.columns, pixel / strip.columns), extent = uvec2(strip.columns, strip.rows);
   uint diodes = Works(constants.work).at.diodes;
@@ -60,7 +60,7 @@ Seen see(uint pixel, ShortWayLight light) {
 
 // What the places of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
 // within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
-Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, ShortWayLight light) {
+Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, UniformPixelsLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
   float depth = length(point) / length(ray);
   vec2 tilt = vec2(dot(plane.plane_hi.xyz, step_x), dot(plane.plane_hi.xyz, step_y)) / along;
@@ -82,7 +82,7 @@ Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y,
 }
 
 // Adds up the terms of all diodes at a point.
-void sum_runs(ShortWayLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out float terms) {
+void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out float terms) {
   [[unroll]] for (uint t = 0; t < tones; ++t)
     z[t] = vec4(0.0);
   terms = 0.0;
@@ -119,7 +119,7 @@ Real3 ray_to(uint pixel, vec2 from_centre) {
 }
 
 // `z`: of each tone.
-void add_place(ShortWayLight light, TrianglePlane plane, uint triangle, Real3 ray, uint place, inout Places sum,
+void add_place(UniformPixelsLight light, TrianglePlane plane, uint triangle, Real3 ray, uint place, inout Places sum,
                inout vec4 z[tones]) {
   Real3 position = point_on_plane(ray, plane);
   float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
@@ -145,7 +145,7 @@ void add_place(ShortWayLight light, TrianglePlane plane, uint triangle, Real3 ra
   sum.most_m = max(sum.most_m, high(range));
 }
 
-Places sum_places(ShortWayLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
+Places sum_places(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
   Places sum = Places(0.0, real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t)
     z[t] = vec4(0.0);
@@ -158,7 +158,7 @@ Places sum_places(ShortWayLight light, TrianglePlane plane, uint triangle, uint 
 }
 
 // Stores a pixel's channels and returns whether what was asked for of them holds.
-bool store_pixel(Channels to, ShortWayLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
+bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Lights(constants.light).at.frequencies[t];
@@ -197,7 +197,7 @@ vec3 half_step(uint axis, uvec2 pixel) {
   return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
 }
 
-Errors errors_of_pixel(ShortWayLight light, TrianglePlane plane, uint pixel, bool hits, Places of_pixel) {
+Errors errors_of_pixel(UniformPixelsLight light, TrianglePlane plane, uint pixel, bool hits, Places of_pixel) {
   if (side == 1 || !hits)
     return Errors(0.0, 0.0);
   Real3 ray = ray_to(pixel, vec2(0.0));
@@ -217,7 +217,7 @@ void main() {
     to = listed_pixel(PixelLists(Works(constants.work).at.lists[list_few]), to, strip.padded_pixels);
   bool pads = to >= strip.columns * strip.rows;
   uint pixel = pads ? 0u : to;
-  ShortWayLight light = Lights(constants.light).at;
+  UniformPixelsLight light = Lights(constants.light).at;
   Seen seen = see(pixel, light);
   bool done = false;
   if (runs > 0) {

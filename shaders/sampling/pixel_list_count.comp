@@ -1,5 +1,5 @@
 #version 460
-// How many workgroups the passes after the short way take for each list.
+// How many workgroups the passes after the uniform-pixel pass take for each list.
 // It has no Real.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_list.glsl"

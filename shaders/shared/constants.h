@@ -50,7 +50,7 @@ PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another
 PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 
-PMDSIM_CONSTANT lists_no_pixel = 0; // all go the short way and none can break the bound
+PMDSIM_CONSTANT lists_no_pixel = 0; // all go the uniform-pixel pass and none can break the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_lit or list_rest
 PMDSIM_CONSTANT lists_in_three = 2; // list_few is for pixels that one place does not do for
 

@@ -385,10 +385,10 @@ struct BudgetViolations {
   uint padding;
 };
 
-// The light as the short way sees it. The LightRuns of the diodes that stand in for all follow. (What has an
+// The light as the uniform-pixel pass sees it. The LightRuns of the diodes that stand in for all follow. (What has an
 // address in memory, lavapipe fetches for each lane.)
-PMDSIM_CONSTANT short_way_tones = 4; // at most
-struct ShortWayLight {
+PMDSIM_CONSTANT uniform_tones = 4; // at most
+struct UniformPixelsLight {
   vec4 middle_m;       // of the box around the light, camera frame
   vec4 extent_m;       // half of it; w: the radius of the sphere around it
   uvec2 diagrams;      // vec2[]
@@ -398,12 +398,12 @@ struct ShortWayLight {
   float wavenumber; // of the highest frequency, rad/m
   float place_spread_m; // at most, how much the ranges of the places of a pixel may differ
   uint padding_1, padding_2;
-  Tone tones[short_way_tones];
-  Frequency frequencies[short_way_tones];
+  Tone tones[uniform_tones];
+  Frequency frequencies[uniform_tones];
 };
 
 // Sees a pixel from its tags to its channels, or lists it.
-struct ShortWayConstants {
+struct UniformPixelsConstants {
   Strip strip;
   vec4 slope; // as in PointsConstants
   uvec2 chip; // likewise
@@ -412,14 +412,14 @@ struct ShortWayConstants {
   uvec2 shapes;
   uvec2 surfaces;
   uvec2 lit;      // in, where shadowed: uint a sample, the diodes that reach it
-  uvec2 light;    // in: ShortWayLight and its LightRuns
+  uvec2 light;    // in: UniformPixelsLight and its LightRuns
   uvec2 diodes;   // in, as in AccumulateConstants, run by run
   uvec2 channels; // out, as in ResolveConstants
-  uvec2 work;     // in and out: ShortWayWork
+  uvec2 work;     // in and out: UniformPixelsWork
 };
 
-// Where the short way leaves what it cannot do.
-struct ShortWayWork {
+// Where the uniform-pixel pass leaves what it cannot do.
+struct UniformPixelsWork {
   uvec2 lists[pixel_lists]; // PixelList
   uint lit_channel;
   uint diodes; // of all illuminators

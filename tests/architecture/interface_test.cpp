@@ -91,10 +91,10 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(PixelList, sample_groups_x, sample_groups_y, sample_groups_z, pixel_groups_x, pixel_groups_y,
            pixel_groups_z, count, padding),
     STRUCT(PixelListConstants, lists, samples),
-    STRUCT(ShortWayLight, middle_m, extent_m, diagrams, pattern_slope, spread_m, wavenumber,
+    STRUCT(UniformPixelsLight, middle_m, extent_m, diagrams, pattern_slope, spread_m, wavenumber,
            place_spread_m, padding_1, padding_2, tones, frequencies),
-    STRUCT(ShortWayWork, lists, lit_channel, diodes),
-    STRUCT(ShortWayConstants, strip, slope, chip, tags, planes, shapes, surfaces, lit, light, diodes,
+    STRUCT(UniformPixelsWork, lists, lit_channel, diodes),
+    STRUCT(UniformPixelsConstants, strip, slope, chip, tags, planes, shapes, surfaces, lit, light, diodes,
            channels, work),
 };
 // clang-format on

@@ -59,7 +59,7 @@ ExitCode refusal_of(const Accuracy &accuracy, double modulation_hz, double phase
 } // namespace
 
 TEST_CASE("a single diode has nothing to be reduced to") {
-  // Not to the bit: the short way sums a diode by a straight line of its own.
+  // Not to the bit: the uniform-pixel pass sums a diode by a straight line of its own.
   const Measurement exact = measure(1, {}), reduced = measure(1, within(Mode::reduced, 1.0));
   CHECK(reduced.accuracy.diodes == 1);
   CHECK(largest_difference_m(exact, reduced) == 0.0);

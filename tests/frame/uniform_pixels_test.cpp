@@ -223,7 +223,7 @@ TEST_CASE("frequencies from one sum", "[long]") {
   }
 }
 
-TEST_CASE("more frequencies than the short way has room for") {
+TEST_CASE("more frequencies than the uniform-pixel pass has room for") {
   Case of = in_corner("10 to 50 MHz", 1);
   of.sensor.modulation_hz = {10e6, 20e6, 30e6, 40e6, 50e6};
   check(of);
@@ -302,7 +302,7 @@ TEST_CASE("lights half a radian apart", "[long]") {
 TEST_CASE("shadows that leave part of the light") {
   for (const std::uint32_t samples : {1u, 2u}) {
     check(behind_a_post("shadows", samples));
-    // Few diodes, but none on the short way, which is in float.
+    // Few diodes, but none on the uniform-pixel pass, which is in float.
     Case precise = behind_a_post("shadows, fp64", samples);
     precise.precision = Precision::fp64;
     check(precise);
