@@ -130,7 +130,7 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
   const std::uint32_t points = uniform && on.request.sensor.samples > 1 ? uniform->points : 0;
   graph.add_after(uniform_pixels_pass(on.setup(), on.plan.uniform_groups, on.plan.extent, bound,
                                       {.points = points,
-                                       .few_follow = refined != nullptr,
+                                       .refines = refined != nullptr,
                                        .sums = uniform != nullptr,
                                        .lists = on.path.lists_pixels()},
                                       lists));
@@ -233,7 +233,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   if (path.is_sorted()) {
     const auto lists = std::make_shared<const PixelLists>(device, strips);
     list_sorting(on, lists, graph);
-    list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_lit), graph);
+    list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_unshadowed), graph);
     list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
   }
   graph.add_after(read_back_pass(request.sensor, facts.signal, on.memory.buffers, truth));

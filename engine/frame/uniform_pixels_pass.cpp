@@ -16,7 +16,7 @@ namespace {
 std::uint32_t lists_of(const UniformPixels &pixels) {
   if (!pixels.lists)
     return shader::lists_no_pixel;
-  return pixels.few_follow ? shader::lists_in_three : shader::lists_in_two;
+  return pixels.refines ? shader::lists_in_three : shader::lists_in_two;
 }
 
 vulkan::Specialization constants_of(const PassSetup &on, const DiodeGroups &groups,
@@ -100,7 +100,7 @@ Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const L
                          const ErrorBound &bound, const UniformPixels &pixels,
                          const std::shared_ptr<const PixelLists> &lists) {
   const auto made = std::make_shared<const OnDevice>(on, groups, extent, bound, pixels, *lists);
-  const vulkan::Buffer *const few = pixels.points == 4 ? &lists->of(shader::list_few) : nullptr;
+  const vulkan::Buffer *const few = pixels.points == 4 ? &lists->of(shader::list_refined) : nullptr;
   const auto record = [=, &buffers = on.buffers, &scene = on.scene](const Recording &at) {
     const shader::Strip &strip = at.of_strip();
     const shader::UniformPixelsConstants constants{strip,

@@ -182,7 +182,7 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, P
   return kept;
 }
 
-void enlist(uint list, uint pixel) {
+void defer(uint list, uint pixel) {
   PixelLists to = PixelLists(Works(constants.work).at.lists[list]);
   uint at = atomicAdd(to.head.count, 1u);
   to.pixels[at] = pixel;
@@ -214,7 +214,7 @@ void main() {
   Strip strip = constants.strip;
   uint to = gl_GlobalInvocationID.x; // beyond the last pixel is room for what only pads
   if (by_four)
-    to = listed_pixel(PixelLists(Works(constants.work).at.lists[list_few]), to, strip.padded_pixels);
+    to = listed_pixel(PixelLists(Works(constants.work).at.lists[list_refined]), to, strip.padded_pixels);
   bool pads = to >= strip.columns * strip.rows;
   uint pixel = pads ? 0u : to;
   UniformPixelsLight light = Lights(constants.light).at;
@@ -233,9 +233,9 @@ void main() {
     done = seen.alike && seen.lit && kept && (side == 1 || places != 0 || !hits);
   }
   if (lists_pixels != lists_no_pixel && !done && !pads) {
-    uint list = seen.lit ? list_lit : list_rest;
+    uint list = seen.lit ? list_unshadowed : list_rest;
     if (lists_pixels == lists_in_three)
-      list = seen.alike && seen.lit ? list_few : list;
-    enlist(list, pixel);
+      list = seen.alike && seen.lit ? list_refined : list;
+    defer(list, pixel);
   }
 }

@@ -43,7 +43,7 @@ PMDSIM_CONSTANT constant_painted = 30; // 1: shapes have paint
 PMDSIM_CONSTANT constant_masked = 31; // 1: shapes may have holes
 PMDSIM_CONSTANT constant_one_backscatter = 32; // 1: all surfaces have one backscatter
 PMDSIM_CONSTANT constant_surface_vectors = 33; // a sample that the sum asks for: 0, 1 or, precise, 2
-PMDSIM_CONSTANT constant_places = 34; // at which a pixel of several samples is evaluated: 1, its centre; 4, pixels of list_few; 0: none
+PMDSIM_CONSTANT constant_places = 34; // at which a pixel of several samples is evaluated: 1, its centre; 4, pixels of list_refined; 0: none
 PMDSIM_CONSTANT constant_lists_pixels = 35; // one of lists_*
 PMDSIM_CONSTANT constant_lanes = 36; // invocations that try the candidates of a part
 PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another of its bundle: z is the same
@@ -51,8 +51,8 @@ PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // all go the uniform-pixel pass and none can break the bound
-PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_lit or list_rest
-PMDSIM_CONSTANT lists_in_three = 2; // list_few is for pixels that one place does not do for
+PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest
+PMDSIM_CONSTANT lists_in_three = 2; // list_refined is for pixels that one place does not do for
 
 #ifdef __cplusplus
 } // namespace pmdsim::shader

@@ -368,9 +368,9 @@ struct PixelList {
   uint padding;
 };
 PMDSIM_CONSTANT pixel_lists = 3;
-PMDSIM_CONSTANT list_lit = 0;  // every diode lights whatever they see
+PMDSIM_CONSTANT list_unshadowed = 0;  // every diode lights whatever they see
 PMDSIM_CONSTANT list_rest = 1; // not every one does
-PMDSIM_CONSTANT list_few = 2;  // one surface that every diode lights, which few places may do for
+PMDSIM_CONSTANT list_refined = 2;  // one surface that every diode lights, which few places may do for
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
