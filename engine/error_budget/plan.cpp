@@ -72,9 +72,9 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
 
 // Of pixels of which some keep the one and some the other.
 ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
-  for (const auto part :
-       {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
-        &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error, &ErrorBound::terms_of_rims})
+  for (const auto part : {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
+                          &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
+                          &ErrorBound::terms_of_rims})
     a.*part = std::max(a.*part, b.*part);
   return a;
 }
@@ -129,20 +129,21 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   refuse(accuracy, why_unbounded(view.lights));
 }
 
-ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light) {
+ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding,
+                          const ReducedLight &light) {
   ErrorBound bound{accuracy.max_error_m,
-                  rounding.fixed_m,
-                  rounding.per_condition_m + light.error_per_condition_m,
-                  accuracy.max_amplitude_error,
-                  rounding.amplitude_fixed,
-                  rounding.amplitude_per_condition + light.amplitude_error_per_condition,
-                  0.0,
-                  0.0};
+                   rounding.fixed_m,
+                   rounding.per_condition_m + light.error_per_condition_m,
+                   accuracy.max_amplitude_error,
+                   rounding.amplitude_fixed,
+                   rounding.amplitude_per_condition + light.amplitude_error_per_condition,
+                   0.0,
+                   0.0};
   if (rounding.per_weight_m > 0.0)
     bound.terms_per_weight_error = rounding.per_weight_m / bound.per_condition_m;
   if (std::isfinite(bound.amplitude_limit))
-    bound.terms_per_weight_error = std::max(
-        bound.terms_per_weight_error, rounding.amplitude_per_weight / bound.amplitude_per_condition);
+    bound.terms_per_weight_error =
+        std::max(bound.terms_per_weight_error, rounding.amplitude_per_weight / bound.amplitude_per_condition);
   bound.terms_of_rims = bound.terms_per_weight_error * rounding.rim_error;
   return bound;
 }
@@ -202,7 +203,7 @@ bool is_kept_by_some(const ErrorBound &bound) {
 
 // One place in float, or four, whatever the precision of the others.
 void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const ReducedLight &light,
-                    FramePlan &plan) {
+                         FramePlan &plan) {
   const bool in_float = accuracy.precision != Precision::fp64;
   if (in_float)
     plan.uniform_groups = groups_of(view, light.illuminators, Precision::fp32);
@@ -219,7 +220,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
   };
   plan.uniform_bound = bound_at(1, 0.0);
   if (plan.uniform_bound && view.sensor.samples > 1)
-    plan.refined_bound = bound_at(2, place_spread_m);
+    plan.refined_bound = bound_at(2, point_spread_m);
 }
 
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
@@ -279,14 +280,16 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   return plan;
 }
 
-std::optional<std::string> budget_violation(const shader::BudgetViolations &violations, const AccuracyReport &found,
-                                          const Accuracy &asked_for, double ambiguity_m) {
+std::optional<std::string> budget_violation(const shader::BudgetViolations &violations,
+                                            const AccuracyReport &found, const Accuracy &asked_for,
+                                            double ambiguity_m) {
   if (violations.returns > 0)
     return fmt::format("{} returns of pixels cancel in part, or are weak beside what rounding does to them, "
                        "and may be off by up to {}; expected at most {}",
                        violations.returns,
                        errors_text(static_cast<double>(std::bit_cast<float>(violations.worst_m)),
-                                   static_cast<double>(std::bit_cast<float>(violations.amplitude)), asked_for),
+                                   static_cast<double>(std::bit_cast<float>(violations.amplitude)),
+                                   asked_for),
                        limits_text(asked_for));
   const double found_m = found.found_m.value_or(0.0), amplitude = found.found_amplitude.value_or(0.0);
   // What is compared is rounded to float itself.

@@ -31,14 +31,14 @@ struct LightExtent {
 };
 
 // Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
-inline constexpr double place_spread_m = 0.1;
+inline constexpr double point_spread_m = 0.1;
 
 struct FramePlan {
   Precision precision = Precision::fp32;
-  DiodeGroups all;          // every diode
-  DiodeGroups stand_ins;    // of those, with other intensities, that do where all light and face a point
+  DiodeGroups all;            // every diode
+  DiodeGroups stand_ins;      // of those, with other intensities, that do where all light and face a point
   DiodeGroups uniform_groups; // the stand-ins in float, for the uniform-pixel pass
-  LightExtent extent;       // of the light, as the stand-ins' bound has it
+  LightExtent extent;         // of the light, as the stand-ins' bound has it
   // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
   // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
@@ -60,7 +60,8 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
 
 // Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it
 // (`violations`) and none that was checked is (`found`). The ambiguity range is that of the distances.
-std::optional<std::string> budget_violation(const shader::BudgetViolations &violations, const AccuracyReport &found,
-                                          const Accuracy &asked_for, double ambiguity_m);
+std::optional<std::string> budget_violation(const shader::BudgetViolations &violations,
+                                            const AccuracyReport &found, const Accuracy &asked_for,
+                                            double ambiguity_m);
 
 } // namespace pmdsim

@@ -20,7 +20,8 @@ void Frame::warm_up(vulkan::PassRecorder &recorder) const {
 
 void Frame::clear_violations(vulkan::PassRecorder &recorder) const {
   recorder.begin();
-  recorder.commands().fillBuffer(on_.memory->buffers.violations.get(), 0, sizeof(shader::BudgetViolations), 0);
+  recorder.commands().fillBuffer(on_.memory->buffers.violations.get(), 0, sizeof(shader::BudgetViolations),
+                                 0);
   recorder.finish();
 }
 
@@ -83,7 +84,7 @@ std::optional<std::string> Frame::violation(const Measurement &measured) const {
   if (accuracy_.mode == Mode::exact)
     return std::nullopt;
   return budget_violation(budget_violations(on_.memory->buffers), measured.accuracy, accuracy_,
-                        on_.sensor.ambiguity_m());
+                          on_.sensor.ambiguity_m());
 }
 
 } // namespace pmdsim

@@ -210,13 +210,13 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   if (path.record == SampleRecord::depth)
     grid.emplace(device, request.sensor);
   auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
-                                                 memory->scene.paint.masked, options.precision, grid,
-                                                 drawn_tags(memory->buffers), std::move(images));
+                                               memory->scene.paint.masked, options.precision, grid,
+                                               drawn_tags(memory->buffers), std::move(images));
   const auto sources = std::make_shared<const DiodeGroups>(plan.all);
   std::shared_ptr<const TileShadowPass> shadow;
   if (path.windows > 0)
     shadow = std::make_shared<const TileShadowPass>(device, facts.occluders, plan.all, windows, memory->scene,
-                                             strips, is_tiled(request.sensor), options.precision);
+                                                    strips, is_tiled(request.sensor), options.precision);
   std::optional<TruthOfRecords> truth;
   if (path.host_reads_truth)
     truth = truth_of_records(device, options, request.scene);

@@ -71,8 +71,7 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
   if (!points || samples > 1 || !plan.surely_kept)
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
   if (has_rest(facts))
-    classes.push_back(
-        {PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.bound_of_all});
+    classes.push_back({PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.bound_of_all});
   return classes;
 }
 

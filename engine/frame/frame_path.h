@@ -39,7 +39,7 @@ struct PixelClass {
   bool reduced;         // few weighted sources stand in for all
   std::uint32_t points; // of a pixel: 1, 4, or its samples
   Precision precision;
-  bool shadowed;                // not every source reaches every sample
+  bool shadowed;                   // not every source reaches every sample
   std::optional<ErrorBound> bound; // what its error is held against
 };
 

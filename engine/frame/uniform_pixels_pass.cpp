@@ -29,7 +29,7 @@ vulkan::Specialization constants_of(const PassSetup &on, const DiodeGroups &grou
               {shader::constant_painted, on.scene.paint.painted},
               {shader::constant_runs, pixels.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
               {shader::constant_side, on.sensor.samples},
-              {shader::constant_places, pixels.points},
+              {shader::constant_quadrature_points, pixels.points},
               {shader::constant_lists_pixels, lists_of(pixels)}});
 }
 
@@ -48,7 +48,7 @@ shader::UniformPixelsLight light_record(const LightExtent &extent, const Signal 
   record.pattern_slope = static_cast<float>(extent.pattern_slope);
   record.spread_m = static_cast<float>(phased ? one_radian_m : std::min(diameter_m, one_radian_m));
   record.wavenumber = static_cast<float>(rad_m_hz * *highest_hz);
-  record.place_spread_m = static_cast<float>(place_spread_m);
+  record.point_spread_m = static_cast<float>(point_spread_m);
   return record;
 }
 
@@ -59,8 +59,7 @@ vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, cons
   light.diagrams = diagrams.words();
   if (sums) {
     std::ranges::copy(on.signal.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, bound),
-                      light.frequencies);
+    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, bound), light.frequencies);
   }
   const std::vector<shader::LightRun> runs = light_runs(groups, bound);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));
@@ -104,17 +103,17 @@ Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const L
   const auto record = [=, &buffers = on.buffers, &scene = on.scene](const Recording &at) {
     const shader::Strip &strip = at.of_strip();
     const shader::UniformPixelsConstants constants{strip,
-                                              made->slope,
-                                              made->chip.words(),
-                                              buffers.tags.words(),
-                                              scene.planes.words(),
-                                              scene.paint.shapes.words(),
-                                              scene.paint.surfaces.words(),
-                                              buffers.lit.words(),
-                                              made->light.words(),
-                                              made->diodes.words(),
-                                              buffers.channels.words(),
-                                              made->work.words()};
+                                                   made->slope,
+                                                   made->chip.words(),
+                                                   buffers.tags.words(),
+                                                   scene.planes.words(),
+                                                   scene.paint.shapes.words(),
+                                                   scene.paint.surfaces.words(),
+                                                   buffers.lit.words(),
+                                                   made->light.words(),
+                                                   made->diodes.words(),
+                                                   buffers.channels.words(),
+                                                   made->work.words()};
     if (!few)
       lists->record_clear(at.commands);
     dispatch_listed(made->pipeline, at.commands, constants, strip.padded_pixels, few, of_pixels);

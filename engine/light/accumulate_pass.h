@@ -36,7 +36,7 @@ struct SumScope {
   bool shadowed = false;                   // not every diode reaches every sample
   Precision precision = Precision::fp32;   // of the groups and of the surfaces' vectors
   const vulkan::Buffer *list = nullptr;    // of pixels; else all
-  std::optional<ErrorBound> bound{};        // what the sum's error is to be held against
+  std::optional<ErrorBound> bound{};       // what the sum's error is to be held against
   std::optional<ChipGrid> depth_records{}; // where these are all that is known of the samples
 };
 

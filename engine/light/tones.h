@@ -19,7 +19,7 @@ struct Signal {
   bool keep_taps;                    // the taps are channels, too
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
-  bool keeps_terms = false;             // an error was asked for: what the terms come to is kept
+  bool keeps_terms = false;          // an error was asked for: what the terms come to is kept
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }

@@ -1,5 +1,6 @@
 #pragma once
-// Pixels that the uniform-pixel pass leaves to the passes that go sample by sample, in lists that the device fills.
+// Pixels that the uniform-pixel pass leaves to the passes that go sample by sample, in lists that the device
+// fills.
 
 #include "engine/sampling/strip_memory.h"
 #include "engine/vulkan/compute_pipeline.h"

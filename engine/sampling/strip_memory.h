@@ -20,12 +20,12 @@ struct StripBuffers {
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer
-      reached;           // a window's bundles (source_windows.h), a word a sample each; empty without shadows
-  vulkan::Buffer lit;    // diodes that reach it, a word a sample; likewise
-  vulkan::Buffer terms;  // sum of |terms|, a float a sample; empty unless an error was asked for
+      reached;          // a window's bundles (source_windows.h), a word a sample each; empty without shadows
+  vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
+  vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
-  vulkan::Buffer sum;    // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
-  vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
+  vulkan::Buffer sum;        // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
+  vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
   vulkan::Buffer tags_read;    // empty where `tags` is mapped itself, or the host has no use for them

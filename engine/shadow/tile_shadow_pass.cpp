@@ -86,9 +86,10 @@ LitDiodes upload_diodes(const vulkan::Device &device, const WindowDiodes &diodes
 
 } // namespace
 
-TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
-                 const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
-                 std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision)
+TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &occluders,
+                               const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+                               const SceneBuffers &scene, std::span<const PlannedStrip> strips, bool tiled,
+                               SamplePrecision precision)
     : windows_(windows), slots_(std::min(most_slots, most_parts(strips))),
       scene_(upload_scene(device, occluders, scene)),
       parts_(storage(device, most_parts(strips) * sizeof(shader::TilePart))),
@@ -107,14 +108,14 @@ TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &oc
 }
 
 void TileShadowPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                           const StripBuffers &buffers) const {
+                                  const StripBuffers &buffers) const {
   const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.tags.words(),
                                             scene_.record.words(), parts_.words()};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
 
 void TileShadowPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                     const StripBuffers &buffers, std::size_t window) const {
+                            const StripBuffers &buffers, std::size_t window) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   // Whoever used what is overwritten here is done.
@@ -142,8 +143,9 @@ void TileShadowPass::record(const vk::raii::CommandBuffer &commands, const shade
   record_count(commands, strip, buffers, window);
 }
 
-shader::LitGatherConstants TileShadowPass::gather_constants(const shader::Strip &strip, const StripBuffers &buffers,
-                                                     std::size_t window) const {
+shader::LitGatherConstants TileShadowPass::gather_constants(const shader::Strip &strip,
+                                                            const StripBuffers &buffers,
+                                                            std::size_t window) const {
   return {strip,
           buffers.position.words(),
           buffers.tags.words(),
@@ -158,7 +160,8 @@ shader::LitGatherConstants TileShadowPass::gather_constants(const shader::Strip 
 }
 
 void TileShadowPass::record_decide(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                            const StripBuffers &buffers, std::size_t window, std::uint32_t bundle) const {
+                                   const StripBuffers &buffers, std::size_t window,
+                                   std::uint32_t bundle) const {
   shader::LitDecideConstants constants{
       strip,
       buffers.position.words(),
@@ -187,7 +190,7 @@ void TileShadowPass::record_decide(const vk::raii::CommandBuffer &commands, cons
 }
 
 void TileShadowPass::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                           const StripBuffers &buffers, std::size_t window) const {
+                                  const StripBuffers &buffers, std::size_t window) const {
   vulkan::compute_barrier(commands);
   const std::uint32_t plane = sample_count(strip);
   const shader::LitCountConstants constants{buffers.reached.words(), diodes_[window].bits.words(),

@@ -27,8 +27,8 @@ class TileShadowPass {
 public:
   // `tiled` as in LitForm. Throws Error (out_of_memory).
   TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
-          const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
-          std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
+                 const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
+                 std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
 
   // Cuts the strip into tiles, once for all windows.
   void record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

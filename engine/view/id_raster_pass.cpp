@@ -110,10 +110,10 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
   return std::min(std::bit_floor(device.limits().viewport_samples) / 2, device.limits().raster_samples);
 }
 
-IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection,
-                               const Sensor &sensor, const std::vector<PlannedStrip> &strips, bool masked,
-                               SamplePrecision precision, const std::optional<ChipGrid> &grid,
-                               const vulkan::Buffer &tags, std::optional<RasterImages> &&previous)
+IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
+                           const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+                           const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+                           std::optional<RasterImages> &&previous)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
@@ -145,7 +145,7 @@ std::optional<RasterImages> IdRasterPass::release_images() {
 }
 
 void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                            const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+                          const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   images_->begin(commands, extent, tags);
   draw(commands, planned, scene);
@@ -155,7 +155,7 @@ void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const Planned
 }
 
 void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                                const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+                              const SceneBuffers &scene, const vulkan::Buffer &tags) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
   const shader::TagsConstants constants{
@@ -167,7 +167,7 @@ void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const Pla
 }
 
 void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene) const {
+                        const SceneBuffers &scene) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
@@ -180,7 +180,7 @@ void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedSt
 }
 
 void IdRasterPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                               const SceneBuffers &scene, const glm::uvec2 &tile) const {
+                             const SceneBuffers &scene, const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   const bool tiled = is_tiled(sensor_);
@@ -216,8 +216,7 @@ void IdRasterPass::draw_tile(const vk::raii::CommandBuffer &commands, const Plan
       grid.slope,
       grid.first,
       grid_ ? grid_->chip() : shader::uvec2(0)};
-  commands.pushConstants<shader::IdRasterConstants>(*compiled_->layout, stages_with_constants, 0,
-                                                      constants);
+  commands.pushConstants<shader::IdRasterConstants>(*compiled_->layout, stages_with_constants, 0, constants);
   commands.draw(block.vertex_count, 1, block.first_vertex, 0);
 }
 

@@ -26,9 +26,9 @@ public:
   // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
   // same.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-                 const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
-                 const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
-                 std::optional<RasterImages> &&previous);
+               const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+               const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+               std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
   // the tags of its block's fragments, in `tags`, visible to compute shaders and transfers. Of a strip that

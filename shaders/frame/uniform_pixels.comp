@@ -19,9 +19,9 @@ layout(push_constant, std430) uniform Constants { UniformPixelsConstants constan
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_runs) const uint runs = 1;
 layout(constant_id = constant_side) const uint side = 1; // S
-layout(constant_id = constant_places) const uint places = 0;
+layout(constant_id = constant_quadrature_points) const uint quadrature_points = 0;
 layout(constant_id = constant_lists_pixels) const uint lists_pixels = lists_in_two;
-const bool by_four = places == 4;
+const bool by_four = quadrature_points == 4;
 const uint evaluations = by_four ? 4 : 1;
 // The variance of the samples' places, in half steps between them. Four places at its root each way from the centre share all
 // moments with the samples up to the third.
@@ -60,7 +60,7 @@ Seen see(uint pixel, UniformPixelsLight light) {
 
 // What the places of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
 // within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
-Errors errors_of_places(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, UniformPixelsLight light) {
+Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, UniformPixelsLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
   float depth = length(point) / length(ray);
   vec2 tilt = vec2(dot(plane.plane_hi.xyz, step_x), dot(plane.plane_hi.xyz, step_y)) / along;
@@ -101,7 +101,7 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
 }
 
 // What a pixel's places come to beside their returns.
-struct Places {
+struct Quadrature {
   float terms;
   Real range, depth, reference_m; // the first two summed; of the first place, as the returns' phases are
   float least_m, most_m;          // of the ranges
@@ -112,31 +112,31 @@ uvec2 in_frame(uint pixel) {
   return uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
 }
 
-// To a place of the pixel, from its centre in half steps between samples.
+// To a point of the pixel, from its centre in half steps between samples.
 Real3 ray_to(uint pixel, vec2 from_centre) {
   return general_chip != 0 ? chip_ray(Chips(constants.chip).at, constants.strip, in_frame(pixel), from_centre)
                            : plain_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
 }
 
 // `z`: of each tone.
-void add_place(UniformPixelsLight light, TrianglePlane plane, uint triangle, Real3 ray, uint place, inout Places sum,
+void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, Real3 ray, uint number, inout Quadrature sum,
                inout vec4 z[tones]) {
   Real3 position = point_on_plane(ray, plane);
   float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
-  vec4 of_place[tones];
+  vec4 of_point[tones];
   float terms;
-  sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, of_place, terms);
+  sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, of_point, terms);
   Real range = length3(position);
-  if (place == 0u)
+  if (number == 0u)
     sum.reference_m = range;
   Real excess = add(range, negate(sum.reference_m));
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     if (!by_four) {
-      z[t] = of_place[t];
+      z[t] = of_point[t];
       continue;
     }
     Real turns = multiply(excess, turns_per_m(Lights(constants.light).at.frequencies[t], 0));
-    z[t] = compensated_add(z[t], complex_multiply(compensated_value(of_place[t]), unit_phasor(turn_fraction(turns))));
+    z[t] = compensated_add(z[t], complex_multiply(compensated_value(of_point[t]), unit_phasor(turn_fraction(turns))));
   }
   sum.terms += terms;
   sum.range = add(sum.range, range);
@@ -145,20 +145,20 @@ void add_place(UniformPixelsLight light, TrianglePlane plane, uint triangle, Rea
   sum.most_m = max(sum.most_m, high(range));
 }
 
-Places sum_places(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
-  Places sum = Places(0.0, real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
+Quadrature sum_points(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
+  Quadrature sum = Quadrature(0.0, real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t)
     z[t] = vec4(0.0);
   [[unroll]] for (uint p = 0; p < evaluations; ++p) { // lavapipe fetches lane by lane in loops
     vec2 side_of = vec2((p & 1u) == 0u ? -1.0 : 1.0, (p & 2u) == 0u ? -1.0 : 1.0);
     vec2 from_centre = by_four ? sqrt(variance()) * side_of : vec2(0.0);
-    add_place(light, plane, triangle, ray_to(pixel, from_centre), p, sum, z);
+    add_point(light, plane, triangle, ray_to(pixel, from_centre), p, sum, z);
   }
   return sum;
 }
 
 // Stores a pixel's channels and returns whether what was asked for of them holds.
-bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Places seen, vec4 z[tones], Errors added) {
+bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Quadrature seen, vec4 z[tones], Errors added) {
   bool kept = true;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Lights(constants.light).at.frequencies[t];
@@ -197,15 +197,15 @@ vec3 half_step(uint axis, uvec2 pixel) {
   return (axis == 0 ? chip.half_step_x_hi.xyz : chip.half_step_y_hi.xyz) / depth;
 }
 
-Errors errors_of_pixel(UniformPixelsLight light, TrianglePlane plane, uint pixel, bool hits, Places of_pixel) {
+Errors errors_of_pixel(UniformPixelsLight light, TrianglePlane plane, uint pixel, bool hits, Quadrature of_pixel) {
   if (side == 1 || !hits)
     return Errors(0.0, 0.0);
   Real3 ray = ray_to(pixel, vec2(0.0));
   uvec2 at = in_frame(pixel);
-  Errors errors = errors_of_places(plane, high3(ray), half_step(0, at), half_step(1, at), high3(point_on_plane(ray, plane)), light);
+  Errors errors = errors_of_quadrature(plane, high3(ray), half_step(0, at), half_step(1, at), high3(point_on_plane(ray, plane)), light);
   if (by_four && side == 2) // these are the samples
     errors = Errors(0.0, 0.0);
-  if (by_four && of_pixel.most_m - of_pixel.least_m > light.place_spread_m)
+  if (by_four && of_pixel.most_m - of_pixel.least_m > light.point_spread_m)
     errors = Errors(1.0 / 0.0, 1.0 / 0.0);
   return errors;
 }
@@ -225,12 +225,12 @@ void main() {
     uint triangle = hits ? seen.tag.y : 0u;
     TrianglePlane plane = load_plane(constants.planes, triangle);
     vec4 z[tones];
-    Places places_seen = sum_places(light, plane, triangle, pixel, z);
-    Errors added = errors_of_pixel(light, plane, pixel, hits, places_seen);
+    Quadrature quadrature = sum_points(light, plane, triangle, pixel, z);
+    Errors added = errors_of_pixel(light, plane, pixel, hits, quadrature);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
-    bool kept = store_pixel(channels, light, to, hits, places_seen, z, added);
+    bool kept = store_pixel(channels, light, to, hits, quadrature, z, added);
     store_ids(channels, seen.tag, plane.object, to);
-    done = seen.alike && seen.lit && kept && (side == 1 || places != 0 || !hits);
+    done = seen.alike && seen.lit && kept && (side == 1 || quadrature_points != 0 || !hits);
   }
   if (lists_pixels != lists_no_pixel && !done && !pads) {
     uint list = seen.lit ? list_unshadowed : list_rest;

@@ -396,7 +396,7 @@ struct UniformPixelsLight {
   float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
                     // theirs do
   float wavenumber; // of the highest frequency, rad/m
-  float place_spread_m; // at most, how much the ranges of the places of a pixel may differ
+  float point_spread_m; // at most, how much the ranges of the places of a pixel may differ
   uint padding_1, padding_2;
   Tone tones[uniform_tones];
   Frequency frequencies[uniform_tones];

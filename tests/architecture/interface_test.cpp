@@ -92,7 +92,7 @@ const std::map<std::string, HostLayout> host_layouts{
            pixel_groups_z, count, padding),
     STRUCT(PixelListConstants, lists, samples),
     STRUCT(UniformPixelsLight, middle_m, extent_m, diagrams, pattern_slope, spread_m, wavenumber,
-           place_spread_m, padding_1, padding_2, tones, frequencies),
+           point_spread_m, padding_1, padding_2, tones, frequencies),
     STRUCT(UniformPixelsWork, lists, lit_channel, diodes),
     STRUCT(UniformPixelsConstants, strip, slope, chip, tags, planes, shapes, surfaces, lit, light, diodes,
            channels, work),

@@ -108,9 +108,9 @@ void read_brown(const CalibrationKey &key, std::vector<double> d, Calibration &c
   d.resize(std::size(opencv_order));
   for (std::size_t term = first_rational; term < tau_x; ++term)
     if (d[term] != 0.0)
-      throw input_error(key, fmt::format("{}: expected 0: pmdsim has no {} terms, found {}",
-                                         opencv_order[term], term < first_prism ? "rational" : "thin prism",
-                                         d[term]));
+      throw input_error(key,
+                        fmt::format("{}: expected 0: pmdsim has no {} terms, found {}", opencv_order[term],
+                                    term < first_prism ? "rational" : "thin prism", d[term]));
   for (const std::size_t tilt : {tau_x, tau_y})
     if (std::abs(glm::degrees(d[tilt])) > max_chip_tilt_deg)
       throw input_error(key, fmt::format("{}: expected a tilt within {} degrees, found {} rad",

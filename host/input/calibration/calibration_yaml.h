@@ -1,6 +1,6 @@
 #pragma once
-// A calibration file as YAML, and the JSON that is also YAML, from untrusted files: of bounded depth and size,
-// errors in one line; its keys, texts and numbers.
+// A calibration file as YAML, and the JSON that is also YAML, from untrusted files: of bounded depth and
+// size, errors in one line; its keys, texts and numbers.
 
 #include "host/input/calibration/calibration_file.h"
 

@@ -16,7 +16,8 @@
 
 namespace pmdsim {
 
-// The radiation diagrams that a setup names: IES LM-63 (.ies in any case), else CSV. Every file is read once, and all diodes that name it share its diagram.
+// The radiation diagrams that a setup names: IES LM-63 (.ies in any case), else CSV. Every file is read once,
+// and all diodes that name it share its diagram.
 class DiagramFiles {
 public:
   // The diagram's shape: 1 on the axis, or at its maximum where the axis is dark, of which there is a warning

@@ -67,9 +67,7 @@ public:
     return true;
   }
 
-  glm::uvec2 size() const {
-    return {png_get_image_width(png_, info_), png_get_image_height(png_, info_)};
-  }
+  glm::uvec2 size() const { return {png_get_image_width(png_, info_), png_get_image_height(png_, info_)}; }
   std::size_t component_bytes() const { return png_get_bit_depth(png_, info_) == 16 ? 2 : 1; }
   const char *error() const { return error_.data(); }
 
