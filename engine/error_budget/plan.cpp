@@ -201,7 +201,7 @@ bool is_kept_by_some(const ErrorBound &bound) {
          bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 
-// One place in float, or four, whatever the precision of the others.
+// One point in float, or four, whatever the precision of the others.
 void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const ReducedLight &light,
                          FramePlan &plan) {
   const bool in_float = accuracy.precision != Precision::fp64;

@@ -30,7 +30,7 @@ struct LightExtent {
   double pattern_slope = 0.0; // radiation_laws.h
 };
 
-// Four places of a pixel, whose ranges differ by no more, may stand in for its samples.
+// Four points of a pixel, whose ranges differ by no more, may stand in for its samples.
 inline constexpr double point_spread_m = 0.1;
 
 struct FramePlan {
@@ -43,7 +43,7 @@ struct FramePlan {
   std::optional<ErrorBound> bound, bound_of_all;
   // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;
-  // Likewise of pixels of several samples that it sums at four places.
+  // Likewise of pixels of several samples that it sums at four points.
   std::optional<ErrorBound> refined_bound;
   bool surely_kept = false; // by every pixel, which is known before the frame
   // Before the frame; nothing where theory knows no bound.

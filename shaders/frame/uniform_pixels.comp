@@ -1,6 +1,6 @@
 #version 460
 // The uniform-pixel pass: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
-// face, so that few diodes may stand in for all and one place, or four, for all samples. Other pixels are listed for the
+// face, so that few diodes may stand in for all and one point, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/chip.glsl"
@@ -23,7 +23,7 @@ layout(constant_id = constant_quadrature_points) const uint quadrature_points = 
 layout(constant_id = constant_lists_pixels) const uint lists_pixels = lists_in_two;
 const bool by_four = quadrature_points == 4;
 const uint evaluations = by_four ? 4 : 1;
-// The variance of the samples' places, in half steps between them. Four places at its root each way from the centre share all
+// The variance of the samples' points, in half steps between them. Four points at its root each way from the centre share all
 // moments with the samples up to the third.
 float variance() { return float(side * side - 1u) / 3.0; }
 
@@ -58,7 +58,7 @@ Seen see(uint pixel, UniformPixelsLight light) {
   return seen;
 }
 
-// What the places of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
+// What the points of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
 // within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
 Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, UniformPixelsLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
@@ -73,7 +73,7 @@ Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 ste
   float bent = 2.0 * sqrt(tilt2 * way2) + 0.5 * way2 * (1.0 / range + 1.0 / nearest); // of the path
   float amplitude = sqrt(tilt2 * way2) * slope + way2 * (slope * (slope + 1.0 / nearest) + 2.0 * light.wavenumber * light.wavenumber);
   float path = bent + 2.0 * way2 * slope + amplitude * light.spread_m;
-  // Of the second order; four places have that. Beyond it all is analytic within `nearest`, and the series of what is left begins
+  // Of the second order; four points have that. Beyond it all is analytic within `nearest`, and the series of what is left begins
   // with the fourth.
   float farthest2 = 3.0 * max(way2 * slope * slope / 9.0, max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
   float share = by_four ? 20.0 * farthest2 : 1.0 + 10.0 * farthest2;
@@ -100,10 +100,10 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
   }
 }
 
-// What a pixel's places come to beside their returns.
+// What a pixel's points come to beside their returns.
 struct Quadrature {
   float terms;
-  Real range, depth, reference_m; // the first two summed; of the first place, as the returns' phases are
+  Real range, depth, reference_m; // the first two summed; of the first point, as the returns' phases are
   float least_m, most_m;          // of the ranges
 };
 
@@ -188,7 +188,7 @@ void defer(uint list, uint pixel) {
   to.pixels[at] = pixel;
 }
 
-// From the pixel's centre to the next sample's place, in a ray (x, y, 1).
+// From the pixel's centre to the next sample, in a ray (x, y, 1).
 vec3 half_step(uint axis, uvec2 pixel) {
   if (general_chip == 0)
     return axis == 0 ? vec3(constants.slope.x, 0.0, 0.0) : vec3(0.0, constants.slope.z, 0.0);

@@ -52,7 +52,7 @@ PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // all go the uniform-pixel pass and none can break the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest
-PMDSIM_CONSTANT lists_in_three = 2; // list_refined is for pixels that one place does not do for
+PMDSIM_CONSTANT lists_in_three = 2; // list_refined is for pixels that one point does not do for
 
 #ifdef __cplusplus
 } // namespace pmdsim::shader

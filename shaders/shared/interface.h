@@ -370,7 +370,7 @@ struct PixelList {
 PMDSIM_CONSTANT pixel_lists = 3;
 PMDSIM_CONSTANT list_unshadowed = 0;  // every diode lights whatever they see
 PMDSIM_CONSTANT list_rest = 1; // not every one does
-PMDSIM_CONSTANT list_refined = 2;  // one surface that every diode lights, which few places may do for
+PMDSIM_CONSTANT list_refined = 2;  // one surface that every diode lights, which few points may do for
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
@@ -396,7 +396,7 @@ struct UniformPixelsLight {
   float spread_m;   // at most, how much the paths of two diodes over one point differ; 1 rad of phase where
                     // theirs do
   float wavenumber; // of the highest frequency, rad/m
-  float point_spread_m; // at most, how much the ranges of the places of a pixel may differ
+  float point_spread_m; // at most, how much the ranges of the points of a pixel may differ
   uint padding_1, padding_2;
   Tone tones[uniform_tones];
   Frequency frequencies[uniform_tones];
