@@ -43,7 +43,7 @@ double nearest_m(const VisibleBox &box) {
 
 std::vector<glm::dvec3> lit_places(const DiodeGroups &groups) {
   std::vector<glm::dvec3> places_m;
-  for (const DiodePlace &place : groups.places)
+  for (const SourcePosition &place : groups.positions)
     if (place.number != no_id)
       places_m.push_back(place.position_m);
   return places_m;
@@ -289,8 +289,8 @@ std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t
 std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope) {
-  if (!std::ranges::all_of(groups.places,
-                           [](const DiodePlace &place) { return std::isfinite(place.law_error); }))
+  if (!std::ranges::all_of(groups.positions,
+                           [](const SourcePosition &place) { return std::isfinite(place.law_error); }))
     return std::nullopt;
   const Bound bound(groups, visible, model, signal, scope);
   RoundingBound largest{};
@@ -310,8 +310,8 @@ double least_emission_cosine(const DiodeGroups &groups, const std::vector<Visibl
   const std::vector<VisibleBox> boxes = merged(visible, most_boxes);
   double least = 1.0;
   for (std::size_t i = 0; i < groups.diodes.size() && least > grazing_cosine; ++i) {
-    const glm::dvec3 &place_m = groups.places[i].position_m;
-    if (groups.places[i].number == no_id || law_of(groups.diodes[i]).rim == nullptr)
+    const glm::dvec3 &place_m = groups.positions[i].position_m;
+    if (groups.positions[i].number == no_id || law_of(groups.diodes[i]).rim == nullptr)
       continue;
     for (const VisibleBox &box : boxes)
       least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));

@@ -90,7 +90,7 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorB
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
       detours += glm::dvec4(groups.diodes[i].position);
-      diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.places[i].law_error;
+      diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.positions[i].law_error;
     }
     const DoublePair4 reference(run.reference_m, 0.0);
     const DoublePair phase_turns(run.phase_turns);

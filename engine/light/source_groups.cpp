@@ -205,7 +205,7 @@ void add_runs(const Group &group, Precision precision, DiodeGroups &result, Diag
       if (precision == Precision::fp64)
         result.precise_diodes.push_back(
             precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
-      result.places.push_back(
+      result.positions.push_back(
           {diode.position_m, dark ? no_id : diode.number, law_error(diode.pattern, diagrams)});
     }
   }

@@ -34,7 +34,7 @@ struct DiodeRun {
 };
 
 // A diode among all of all illuminators.
-struct DiodePlace {
+struct SourcePosition {
   glm::dvec3 position_m;        // camera frame
   std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
   double law_error = 0.0;       // of its J, beside what rounding does (radiation_laws.h)
@@ -49,7 +49,7 @@ struct DiodeGroups {
   std::vector<DiodeRun> runs;
   std::vector<shader::GroupDiode> diodes;
   std::vector<shader::PreciseDiode> precise_diodes; // the same; only for fp64
-  std::vector<DiodePlace> places;                   // beside `diodes`; those that stand together lie together
+  std::vector<SourcePosition> positions;                   // beside `diodes`; those that stand together lie together
   std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
   std::uint32_t diode_count = 0;                    // without the dark ones
   double excess_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible

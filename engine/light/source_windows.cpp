@@ -29,9 +29,9 @@ void flatten(shader::BundleDiodes &bundle) {
       place.z = 0.0f;
 }
 
-void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
+void add_bundle(WindowDiodes &diodes, std::span<const SourcePosition> places) {
   shader::DiodeBox box = empty_box;
-  for (const DiodePlace &place : places) {
+  for (const SourcePosition &place : places) {
     add(box, place.position_m);
     add(diodes.boxes.front(), place.position_m);
   }
@@ -40,7 +40,7 @@ void add_bundle(WindowDiodes &diodes, std::span<const DiodePlace> places) {
   glm::vec3 reach_m(0.0f);
   std::uint32_t bits = 0;
   for (std::size_t i = 0; i < shader::diodes_per_bundle; ++i) {
-    const DiodePlace &place = places[std::min(i, places.size() - 1)];
+    const SourcePosition &place = places[std::min(i, places.size() - 1)];
     const glm::vec3 from_centre_m(place.position_m - glm::dvec3(centre));
     const bool shines = i < places.size() && place.number != no_id;
     bundle.places[i] = {from_centre_m, shines ? 1.0f : 0.0f};
@@ -78,12 +78,12 @@ std::vector<SourceWindow> plan_windows(const DiodeGroups &groups) {
   return windows;
 }
 
-std::span<const DiodePlace> places_of(const SourceWindow &window, std::uint32_t bundle,
+std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
                                       const DiodeGroups &groups) {
   const std::uint32_t run = window.first_run + bundle / bundles_per_run(groups);
   const std::uint32_t within = bundle % bundles_per_run(groups) * shader::diodes_per_bundle;
   const std::uint32_t left = groups.blocks_per_run * shader::diodes_per_block - within;
-  return std::span(groups.places)
+  return std::span(groups.positions)
       .subspan(groups.runs[run].first + within, std::min(left, shader::diodes_per_bundle));
 }
 
@@ -91,7 +91,7 @@ WindowDiodes diodes_of(const SourceWindow &window, const DiodeGroups &groups) {
   WindowDiodes diodes;
   diodes.boxes.push_back(empty_box);
   for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
-    add_bundle(diodes, places_of(window, bundle, groups));
+    add_bundle(diodes, positions_of(window, bundle, groups));
   return diodes;
 }
 

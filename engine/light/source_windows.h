@@ -24,7 +24,7 @@ SourceWindow all_runs(const DiodeGroups &groups);
 std::vector<SourceWindow> plan_windows(const DiodeGroups &groups);
 
 // The places of a bundle's diodes.
-std::span<const DiodePlace> places_of(const SourceWindow &window, std::uint32_t bundle,
+std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
                                       const DiodeGroups &groups);
 
 // What the shaders know of a window's diodes.

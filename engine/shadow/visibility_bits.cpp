@@ -24,7 +24,7 @@ std::size_t place_in_frame(const shader::Strip &strip, std::uint32_t subsample, 
   return row * strip.resolution_x * strip.samples + column;
 }
 
-void set_bits(std::uint32_t bundle, std::span<const DiodePlace> places, std::uint32_t *sample) {
+void set_bits(std::uint32_t bundle, std::span<const SourcePosition> places, std::uint32_t *sample) {
   for (std::size_t d = 0; d < places.size(); ++d)
     if (const std::uint32_t number = places[d].number; number != no_id)
       sample[number / 32] |= (bundle >> d & 1u) << number % 32;
@@ -65,7 +65,7 @@ void store_reached(const shader::Strip &strip, const StripBuffers &buffers, cons
       const std::size_t i = std::size_t{subsample} * strip.padded_pixels + pixel;
       std::uint32_t *const sample = to.data() + place_in_frame(strip, subsample, pixel) * words;
       for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
-        set_bits(bits[bundle * plane + i], places_of(window, bundle, groups), sample);
+        set_bits(bits[bundle * plane + i], positions_of(window, bundle, groups), sample);
     }
 }
 

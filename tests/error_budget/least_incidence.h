@@ -14,7 +14,7 @@ inline double least_incidence_cosine(const CameraScene &camera, const DiodeGroup
     return glm::length(glm::max(glm::abs(box.low_m), glm::abs(box.high_m)));
   };
   VisibleBox diodes;
-  for (const DiodePlace &place : groups.places)
+  for (const SourcePosition &place : groups.positions)
     if (place.number != no_id)
       diodes.add(place.position_m);
   double farthest = 0.0;

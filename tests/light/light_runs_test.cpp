@@ -45,7 +45,7 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
     CHECK(runs[0].intensity == 1.5f); // of 2, of which weights are parts
     // The reference point, 0.4 m from the lens, and 0.3 m to the diodes.
     CHECK(runs[0].heights == Approx(100.0 * 14 * rounding * 0.7));
-    CHECK(runs[0].diagrams == Approx(100.0 * 1.5 * groups.places[0].law_error));
+    CHECK(runs[0].diagrams == Approx(100.0 * 1.5 * groups.positions[0].law_error));
     CHECK(light_runs(groups, ErrorBound{})[0].diagrams == 0.0f);
   }
   CHECK(light_runs(pair_of({}, Precision::fp32), weights_of_100)[0].diagrams == 0.0f);

@@ -227,12 +227,12 @@ TEST_CASE("places name every diode of all illuminators once, and stand beside wh
         positions_m.push_back(diode.position_m);
     const auto groups = group_diodes(lights, wall_at_2m, 30 * wavenumber_20mhz_rad_m);
     REQUIRE(groups.diode_count == positions_m.size());
-    REQUIRE(groups.places.size() == groups.diodes.size());
+    REQUIRE(groups.positions.size() == groups.diodes.size());
     std::vector<int> times(positions_m.size());
     for (const DiodeRun &run : groups.runs)
       for (std::uint32_t i = run.first; i < run.first + groups.blocks_per_run * shader::diodes_per_block;
            ++i) {
-        const DiodePlace &at = groups.places[i];
+        const SourcePosition &at = groups.positions[i];
         REQUIRE((at.number == no_id) == (groups.diodes[i].intensity == 0.0f));
         if (at.number == no_id)
           continue;
@@ -252,7 +252,7 @@ TEST_CASE("diodes that share a bundle stand together") {
   std::vector<glm::dvec3> as_given_m, as_grouped_m;
   for (const Diode &diode : rings)
     as_given_m.push_back(diode.position_m);
-  for (const DiodePlace &place : groups.places)
+  for (const SourcePosition &place : groups.positions)
     as_grouped_m.push_back(place.position_m);
   CHECK(bundle_diagonals_m(as_grouped_m) < 0.6 * bundle_diagonals_m(as_given_m));
 }

@@ -54,10 +54,10 @@ void check_windows(const std::vector<SourceWindow> &windows, const DiodeGroups &
 void check_bundles_of_run(const SourceWindow &window, std::uint32_t run, const DiodeGroups &groups) {
   std::uint32_t next = groups.runs[run].first;
   for (std::uint32_t i = 0; i < bundles_per_run(groups); ++i) {
-    const auto places = places_of(window, (run - window.first_run) * bundles_per_run(groups) + i, groups);
+    const auto places = positions_of(window, (run - window.first_run) * bundles_per_run(groups) + i, groups);
     REQUIRE(!places.empty());
     REQUIRE(places.size() <= shader::diodes_per_bundle);
-    REQUIRE(places.data() == &groups.places[next]);
+    REQUIRE(places.data() == &groups.positions[next]);
     next += static_cast<std::uint32_t>(places.size());
   }
   REQUIRE(next == groups.runs[run].first + diodes_per_run(groups));
@@ -70,9 +70,9 @@ bool holds(const shader::DiodeBox &box, const glm::dvec3 &p) {
 
 // What is told of a bundle is true of each of its diodes; `times` counts those that shine.
 void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const shader::DiodeBox &box,
-                  std::span<const DiodePlace> places, std::vector<int> &times) {
+                  std::span<const SourcePosition> places, std::vector<int> &times) {
   for (std::uint32_t i = 0; i < shader::diodes_per_bundle; ++i) {
-    const DiodePlace &place = places[std::min<std::size_t>(i, places.size() - 1)]; // the last one again
+    const SourcePosition &place = places[std::min<std::size_t>(i, places.size() - 1)]; // the last one again
     const bool shines = (bits >> i & 1u) != 0;
     REQUIRE(shines == (i < places.size() && place.number != no_id));
     if (shines)
@@ -94,9 +94,9 @@ void check_diodes(const SourceWindow &window, const DiodeGroups &groups, std::ve
   REQUIRE(told.bundles.size() == window.bundles);
   REQUIRE(told.bits.size() == window.bundles);
   for (std::uint32_t b = 0; b < window.bundles; ++b) {
-    const auto places = places_of(window, b, groups);
+    const auto places = positions_of(window, b, groups);
     check_bundle(told.bundles[b], told.bits[b], told.boxes[b + 1], places, times);
-    for (const DiodePlace &place : places)
+    for (const SourcePosition &place : places)
       REQUIRE(holds(told.boxes[0], place.position_m));
   }
 }

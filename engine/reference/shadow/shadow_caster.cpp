@@ -41,7 +41,7 @@ std::vector<Blocker> blockers_of(const std::vector<Shape> &shapes, double origin
 
 Place place_of(const glm::dvec3 &position_m) { return {position_m, glm::length(position_m)}; }
 
-std::vector<Place> places_of(const std::vector<Light> &lights) {
+std::vector<Place> positions_of(const std::vector<Light> &lights) {
   std::vector<Place> places;
   for (const Light &light : lights)
     for (const Diode &diode : light.diodes)
@@ -118,7 +118,7 @@ struct ShadowQuery {
 ShadowCaster::ShadowCaster(const std::vector<CameraTriangle> &triangles, const std::vector<CameraDisc> &discs,
                            const std::vector<Light> &lights, double origin_range_m, IsThere is_there)
     : triangles_(blockers_of<TriangleBlocker>(triangles, origin_range_m)),
-      discs_(blockers_of<DiscBlocker>(discs, origin_range_m)), diodes_(places_of(lights)),
+      discs_(blockers_of<DiscBlocker>(discs, origin_range_m)), diodes_(positions_of(lights)),
       is_there_(std::move(is_there)), tree_(triangles, discs, {.occluded = ShadowQuery::ask_triangle},
                                             {.occluded = ShadowQuery::ask_disc}, farthest_m(diodes_)) {}
 
