@@ -15,9 +15,9 @@
 namespace pmdsim {
 namespace {
 
-// Of what rounding leaves of the error asked for, how much the stand-ins may take in each plan. The rest is
+// Of what rounding leaves of the error asked for, how much the reduced set may take in each plan. The rest is
 // for pixels whose returns cancel in part.
-constexpr double share_of_stand_ins[frame_plans] = {0.5, 0.02, 0.0};
+constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 
 // Of paint, texture and vignetting, relative.
 constexpr double painted_backscatter_error = 0x1p-21;
@@ -226,7 +226,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
   FramePlan plan;
   plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
-  plan.all = plan.stand_ins = groups_of(view, view.lights, plan.precision);
+  plan.all = plan.reduced = groups_of(view, view.lights, plan.precision);
   const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   if (const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples)) {
@@ -263,15 +263,15 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
     return exact_plan(view, accuracy);
   FramePlan plan;
   RoundedSum sum = choose_precision(view, accuracy, attempt);
-  const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_stand_ins[attempt]);
+  const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_reduction[attempt]);
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
-  plan.stand_ins = groups_of(view, light.illuminators, plan.precision);
-  plan.stand_ins.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
+  plan.reduced = groups_of(view, light.illuminators, plan.precision);
+  plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights));
-  const auto of_stand_ins = bound_of(view, plan.stand_ins, plan.precision, view.sensor.samples);
-  plan.bound = error_bound_of(accuracy, of_stand_ins.value_or(sum.bound), light);
+  const auto of_reduced = bound_of(view, plan.reduced, plan.precision, view.sensor.samples);
+  plan.bound = error_bound_of(accuracy, of_reduced.value_or(sum.bound), light);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
   if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)

@@ -36,10 +36,10 @@ inline constexpr double point_spread_m = 0.1;
 struct FramePlan {
   Precision precision = Precision::fp32;
   DiodeGroups all;            // every diode
-  DiodeGroups stand_ins;      // of those, with other intensities, that do where all light and face a point
-  DiodeGroups uniform_groups; // the stand-ins in float, for the uniform-pixel pass
-  LightExtent extent;         // of the light, as the stand-ins' bound has it
-  // Of what the stand-ins sum, and of what all do; nothing where no error was asked for.
+  DiodeGroups reduced;      // of those, with other intensities, that do where all light and face a point
+  DiodeGroups uniform_groups; // the reduced set in float, for the uniform-pixel pass
+  LightExtent extent;         // of the light, as the reduced set's bound has it
+  // Of what the reduced set sum, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
   // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;
@@ -49,7 +49,7 @@ struct FramePlan {
   // Before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
 
-  bool is_reduced() const { return stand_ins.diodes.size() < all.diodes.size(); }
+  bool is_reduced() const { return reduced.diodes.size() < all.diodes.size(); }
 };
 
 // Plans for the same frame, each more exact and dearer than the one before.

@@ -145,7 +145,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
-  const DiodeGroups &groups = pixels->reduced ? on.plan.stand_ins : on.plan.all;
+  const DiodeGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
   SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
   if (on.path.record == SampleRecord::depth)
     scope.depth_records.emplace(on.device, on.request.sensor);
@@ -197,7 +197,7 @@ std::uint32_t shining(const DiodeGroups &groups) {
 AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   AccuracyReport report;
   report.precision = plan.precision;
-  report.diodes = shining(path.classes.front().reduced ? plan.stand_ins : plan.all);
+  report.diodes = shining(path.classes.front().reduced ? plan.reduced : plan.all);
   report.claimed_m = plan.claimed_m;
   report.claimed_amplitude = plan.claimed_amplitude;
   return report;

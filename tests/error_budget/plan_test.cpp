@@ -76,7 +76,7 @@ TEST_CASE("mode exact sums all diodes in float and promises nothing, but claims 
   CHECK_FALSE(exact.promise);
   CHECK_FALSE(exact.bound_of_all);
   CHECK_FALSE(exact.is_reduced());
-  CHECK(shining(exact.stand_ins) == 240);
+  CHECK(shining(exact.reduced) == 240);
   CHECK(exact.precision == Precision::fp32);
   REQUIRE(exact.claimed_m);
   CHECK(*exact.claimed_m > 0.0);
@@ -100,7 +100,7 @@ TEST_CASE("the ring within a micrometre takes few diodes in float and surely kee
   const FramePlan few = plan({}, automatic(1e-6));
   CHECK(few.precision == Precision::fp32);
   CHECK(shining(few.all) == 240);
-  CHECK(shining(few.stand_ins) < 24);
+  CHECK(shining(few.reduced) < 24);
   CHECK(few.is_reduced());
   CHECK(few.surely_kept);
   REQUIRE(few.promise);
@@ -144,17 +144,17 @@ TEST_CASE("stand-ins shine as much as all diodes do") {
     return sum_w_sr;
   };
   const FramePlan few = plan({}, automatic(1e-6));
-  CHECK(light_of(few.stand_ins) == Approx(light_of(few.all)).epsilon(1e-5));
+  CHECK(light_of(few.reduced) == Approx(light_of(few.all)).epsilon(1e-5));
 }
 
 TEST_CASE("more error, fewer diodes") {
   std::size_t before = 240;
   for (const double max_error_m : {1e-6, 1e-4, 1e-2}) {
-    const std::size_t now = shining(plan({}, automatic(max_error_m)).stand_ins);
+    const std::size_t now = shining(plan({}, automatic(max_error_m)).reduced);
     CHECK(now <= before);
     before = now;
   }
-  CHECK(before < shining(plan({}, automatic(1e-6)).stand_ins));
+  CHECK(before < shining(plan({}, automatic(1e-6)).reduced));
 }
 
 TEST_CASE("what a float cannot hold is refused, and so is what theory cannot bound") {
@@ -178,10 +178,10 @@ TEST_CASE("each plan is more exact than the one before, the last one has every d
     const FramePlan now = plan({}, automatic(1e-6), attempt);
     REQUIRE(now.promise);
     CHECK(now.promise->per_condition_m < before_m);
-    CHECK(shining(now.stand_ins) >= diodes);
+    CHECK(shining(now.reduced) >= diodes);
     CHECK((now.precision == Precision::fp64) == (attempt > 0));
     before_m = now.promise->per_condition_m;
-    diodes = shining(now.stand_ins);
+    diodes = shining(now.reduced);
   }
   CHECK(diodes == 240);
 }
