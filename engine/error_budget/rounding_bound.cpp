@@ -60,15 +60,15 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
   std::vector<glm::dvec3> references_m;
   for (const DiodeRun &run : groups.runs)
     references_m.push_back(run.reference_m);
-  result.detour_m = excess_of(glm::dvec3(0.0), references_m, visible).excess_m;
+  result.detour_m = path_difference_of(glm::dvec3(0.0), references_m, visible).path_difference_m;
   const std::vector<glm::dvec3> places_m = lit_places(groups);
   VisibleBox box;
   for (const glm::dvec3 &place_m : places_m)
     box.add(place_m);
-  const double about_middle_m = excess_of(0.5 * (box.low_m + box.high_m), places_m, visible).excess_m;
-  const double about_lens_m = excess_of(glm::dvec3(0.0), places_m, visible).excess_m;
+  const double about_middle_m = path_difference_of(0.5 * (box.low_m + box.high_m), places_m, visible).path_difference_m;
+  const double about_lens_m = path_difference_of(glm::dvec3(0.0), places_m, visible).path_difference_m;
   const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
-  result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.excess_m;
+  result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.path_difference_m;
   if (scope.samples > 1)
     result.sample_spread_m = scope.sample_spread_m.value_or(std::max(0.0, result.range_m - nearest));
   return result;
@@ -118,10 +118,10 @@ double excess_error_m(const DiodeGroups &groups) {
   const double t = groups.radius_over_range;
   if (groups.power_sums.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
     return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
-           groups.excess_m *
+           groups.path_difference_m *
                (groups.power_sums.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
-         groups.excess_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
+         groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
 
 // Of every term: its weight, relative, and its path.
@@ -175,22 +175,22 @@ private:
   double relative_m() const {
     return signal_.waveform != shader::waveform_sine || groups_.phased
                ? std::numeric_limits<double>::infinity()
-               : lengths_.detour_m + groups_.excess_m + 2.0 * lengths_.sample_spread_m;
+               : lengths_.detour_m + groups_.path_difference_m + 2.0 * lengths_.sample_spread_m;
   }
 
   // By moments: e^k adds k - 1 products, so that errors of e, and with Horner's rule of each power (11 u),
   // grow as the exponential's derivative does.
   TermError of_tone(double wavenumber_rad_m) const {
-    const double phase_rad = wavenumber_rad_m * groups_.excess_m, growth = std::exp(phase_rad);
+    const double phase_rad = wavenumber_rad_m * groups_.path_difference_m, growth = std::exp(phase_rad);
     double left_out = 1.0;
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
     const PowerSums &powers = groups_.power_sums;
     TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
-    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.excess_m) +
-                   growth * (summation() * powers.growth * groups_.excess_m + left_out / wavenumber_rad_m) +
+    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
+                   growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +
                    powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
-    const double turned_m = lengths_.detour_m + groups_.excess_m;
+    const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first
       error.path_m +=
@@ -203,7 +203,7 @@ private:
     const double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
     const double distance_m =
         groups_.phased ? ambiguity_m
-                       : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.excess_m);
+                       : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.path_difference_m);
     RoundingBound bound{};
     bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
@@ -242,7 +242,7 @@ private:
   RoundingBound of_square(double wavenumber_rad_m) const {
     RoundingBound bound = fixed(wavenumber_rad_m);
     const double place_turns = float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
-                                                    (excess_error_m(groups_) + 2.0 * groups_.excess_m);
+                                                    (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
     const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.

@@ -28,7 +28,7 @@ struct Interval {
 };
 
 // A hair wider, as the shader's q is rounded; a single point where all diodes stand in the reference's place.
-Interval interval_of(const Excess &reach) {
+Interval interval_of(const PathDifference &reach) {
   const double rounding = 1e-6 * std::max(reach.most_stretch, -reach.least_stretch);
   return {reach.least_stretch - rounding, reach.most_stretch + rounding};
 }
@@ -99,7 +99,7 @@ struct Run {
   double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
 };
 
-Run make_run(const Excess &reach, std::uint32_t inverse_powers, std::uint32_t moments, std::uint32_t powers,
+Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments, std::uint32_t powers,
              double wavenumber_rad_m) {
   Run run;
   const Interval interval = interval_of(reach);
@@ -125,20 +125,20 @@ bool is_exact_enough(const Run &run, double phase_rad) {
 }
 
 // With the fewest powers that are exact enough.
-std::optional<std::pair<std::uint32_t, Run>> shortest_run(const Excess &reach, std::uint32_t inverse_powers,
+std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach, std::uint32_t inverse_powers,
                                                           std::uint32_t moments, double wavenumber_rad_m) {
   if (!std::isfinite(reach.most_stretch))
     return std::nullopt;
   for (std::uint32_t powers = 1; powers <= most_powers; ++powers) {
     const Run run = make_run(reach, inverse_powers, moments, powers, wavenumber_rad_m);
-    if (is_exact_enough(run, wavenumber_rad_m * reach.excess_m))
+    if (is_exact_enough(run, wavenumber_rad_m * reach.path_difference_m))
       return std::pair(powers, run);
   }
   return std::nullopt;
 }
 
 // W is a product of an intensity and lengths, each a range times a cosine; q = u rho^2.
-bool fits_floats(const Excess &reach, std::uint32_t lengths, std::uint32_t powers, double least_intensity) {
+bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32_t powers, double least_intensity) {
   const double near_m = std::min(1.0, reach.range_m - reach.radius_m);
   const double far_m = std::max(1.0, reach.farthest_m + reach.radius_m);
   const double of_q = std::max(2.0 * (powers - 1.0), 2.0);
@@ -149,12 +149,12 @@ bool fits_floats(const Excess &reach, std::uint32_t lengths, std::uint32_t power
 
 } // namespace
 
-PowerSums power_sums(std::span<const Excess> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
+PowerSums power_sums(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
                      double wavenumber_rad_m, double least_intensity) {
   if (moments > shader::largest_moments)
     return {};
   PowerSums sums;
-  for (const Excess &reach : reaches) {
+  for (const PathDifference &reach : reaches) {
     if (!sums.tables.empty() && reach == reaches[sums.tables.size() - 1]) {
       sums.tables.push_back(sums.tables.back());
       continue;
@@ -169,7 +169,7 @@ PowerSums power_sums(std::span<const Excess> reaches, std::uint32_t inverse_powe
     sums.angle_error_rad = std::max(sums.angle_error_rad, run.angle_error_rad);
     sums.growth = std::max(sums.growth, run.growth);
   }
-  const bool fits = std::ranges::all_of(reaches, [&](const Excess &reach) {
+  const bool fits = std::ranges::all_of(reaches, [&](const PathDifference &reach) {
     return fits_floats(reach, inverse_powers - 2, sums.powers, least_intensity);
   });
   return fits ? sums : PowerSums{};

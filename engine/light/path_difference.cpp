@@ -43,14 +43,14 @@ double least_difference_m2(const glm::dvec3 &p, const Reach &reach) {
 
 // |r - rho| = |q| / (r + rho) with q = r^2 - rho^2 = |I|^2 - 2 P.I, which is small where the diodes stand
 // across the view (`product_m2` bounds |P.I|); it is never more than |I|.
-double excess_at_most_m(double radius_m, double product_m2, double rho_m) {
+double path_difference_at_most_m(double radius_m, double product_m2, double rho_m) {
   const double q_m2 = radius_m * radius_m + 2.0 * product_m2;
   const double sum_m = rho_m + std::max(0.0, rho_m - radius_m);
   return sum_m > 0.0 ? std::min(radius_m, q_m2 / sum_m) : radius_m;
 }
 
 // q / rho^2; r is between rho - |I| and rho + |I|.
-void widen_stretch(double radius_m, double least_m2, double product_m2, double rho_m, Excess &result) {
+void widen_stretch(double radius_m, double least_m2, double product_m2, double rho_m, PathDifference &result) {
   const double rho2 = rho_m * rho_m, t = radius_m / rho_m;
   if (!(t < 1.0)) {
     result.most_stretch = std::numeric_limits<double>::infinity();
@@ -63,9 +63,9 @@ void widen_stretch(double radius_m, double least_m2, double product_m2, double r
 
 } // namespace
 
-Excess excess_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
+PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
                  const std::vector<VisibleBox> &visible) {
-  Excess result;
+  PathDifference result;
   Reach reach;
   for (const glm::dvec3 &diode_m : diodes_m) {
     result.radius_m = std::max(result.radius_m, glm::distance(reference_m, diode_m));
@@ -78,7 +78,7 @@ Excess excess_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diod
     const double product_m2 = largest_product(farthest_m, reach);
     result.range_m = std::min(result.range_m, rho_m);
     result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
-    result.excess_m = std::max(result.excess_m, excess_at_most_m(result.radius_m, product_m2, rho_m));
+    result.path_difference_m = std::max(result.path_difference_m, path_difference_at_most_m(result.radius_m, product_m2, rho_m));
     widen_stretch(result.radius_m, least_difference_m2(farthest_m, reach), product_m2, rho_m, result);
   }
   return result;

@@ -43,7 +43,7 @@ struct Group {
   std::span<NumberedDiode> diodes;
   double phase_turns; // the illuminator's
   glm::dvec3 reference_m;
-  Excess reach; // of its diodes
+  PathDifference reach; // of its diodes
 };
 
 Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
@@ -53,7 +53,7 @@ Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::v
   std::vector<glm::dvec3> places_m;
   for (const Diode &diode : diodes)
     places_m.push_back(diode.position_m);
-  group.reach = excess_of(group.reference_m, places_m, visible);
+  group.reach = path_difference_of(group.reference_m, places_m, visible);
   return group;
 }
 
@@ -163,7 +163,7 @@ public:
 
 private:
   bool is_small_enough(const Group &group) const {
-    return wavenumber_rad_m_ * group.reach.excess_m <= largest_phase_rad &&
+    return wavenumber_rad_m_ * group.reach.path_difference_m <= largest_phase_rad &&
            group.reach.radius_m <= largest_radius_over_range * group.reach.range_m;
   }
 
@@ -240,13 +240,13 @@ DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
   check_intensities(ordered, result.largest_intensity_w_sr);
 
   for (const Group &group : grouping.groups()) {
-    result.excess_m = std::max(result.excess_m, group.reach.excess_m);
+    result.path_difference_m = std::max(result.path_difference_m, group.reach.path_difference_m);
     result.radius_m = std::max(result.radius_m, group.reach.radius_m);
     if (group.reach.radius_m > 0.0)
       result.radius_over_range =
           std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
   }
-  result.moments = moments_needed(wavenumber_rad_m * result.excess_m, largest_remainder(precision));
+  result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision));
   result.blocks_per_run = cheapest_run_blocks(
       grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks);
   DiagramTables diagrams;

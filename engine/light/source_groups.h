@@ -30,7 +30,7 @@ struct DiodeRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into DiodeGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
-  Excess reach;           // of its group; the radius is at most half of the range to what it lights
+  PathDifference reach;           // of its group; the radius is at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.
@@ -52,7 +52,7 @@ struct DiodeGroups {
   std::vector<SourcePosition> positions;                   // beside `diodes`; those that stand together lie together
   std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
   std::uint32_t diode_count = 0;                    // without the dark ones
-  double excess_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
+  double path_difference_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
   double radius_m = 0.0; // of the largest group
   double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
   PowerSums power_sums;           // what the moments are summed by, run by run

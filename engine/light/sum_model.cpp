@@ -44,7 +44,7 @@ double least_intensity(const DiodeGroups &groups) {
 
 void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
                    const PathForms &allowed) {
-  std::vector<Excess> reaches;
+  std::vector<PathDifference> reaches;
   for (const DiodeRun &run : groups.runs)
     reaches.push_back(run.reach);
   if (const auto powers = inverse_powers(model); powers && allowed.polynomial_moments)

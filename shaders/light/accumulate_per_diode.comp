@@ -19,12 +19,12 @@ void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phas
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
 
-void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_excess, Tone tone) {
-  float excess_turns = weight_excess.y * tone.turns_per_m.x;
+void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_difference, Tone tone) {
+  float difference_turns = weight_difference.y * tone.turns_per_m.x;
   // The triangle wave of x in [-1, 1] turns is 4 ||x| - 1/2| - 1.
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
-    part[k] += weight_excess.x * abs(abs(phases[k] + excess_turns) - 0.5);
-  part[distinct_taps] += weight_excess.x;
+    part[k] += weight_difference.x * abs(abs(phases[k] + difference_turns) - 0.5);
+  part[distinct_taps] += weight_difference.x;
 }
 
 void add_block(inout float total[totals], Point point, float phases[distinct_taps], Tone tone,
@@ -34,7 +34,7 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d)
     add_diode(part, phases,
-              weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u), tone);
+              weight_and_difference(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u), tone);
   [[unroll]] for (uint k = 0; k < totals; ++k)
     total[k] += part[k];
 }

@@ -39,11 +39,11 @@ Real3 way_from(PrecisePoint point, Real3 twice_back) {
                add(point.position.z, half_of(twice_back.z)));
 }
 
-struct WeightAndExcess {
-  Real weight, excess;
+struct WeightAndDifference {
+  Real weight, difference;
 };
 
-WeightAndExcess weight_and_excess(PrecisePoint point, PreciseDiode diode, bool reached) {
+WeightAndDifference weight_and_difference(PrecisePoint point, PreciseDiode diode, bool reached) {
   Real3 twice_back = real3(diode.rounded.position.xyz, diode.position_rest.xyz);
   Real q = add(dot3(point.position, twice_back), real(diode.rounded.position.w, diode.position_rest.w));
   Real r2 = add(point.rho2, q);
@@ -58,7 +58,7 @@ WeightAndExcess weight_and_excess(PrecisePoint point, PreciseDiode diode, bool r
     weight = multiply(weight, radiation(point.position, way_from(point, twice_back), diode, r, r2));
   if (shadowed != 0)
     weight = reached ? weight : real(0.0);
-  return WeightAndExcess(weight, divide(q, add(r, point.rho)));
+  return WeightAndDifference(weight, divide(q, add(r, point.rho)));
 }
 
 // As for floats; the sum stays a pair whose rest is less than half a unit in the last place, however many runs add to it.
@@ -77,11 +77,11 @@ void add_to_plane(uint plane, uint i, float backscatter, RealComplex value) {
 
 void add_block(inout Real total[moments], PrecisePoint point, PreciseDiodes diodes, uint block, uint reached) {
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
-    WeightAndExcess we = weight_and_excess(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u);
+    WeightAndDifference we = weight_and_difference(point, diodes.at[block * diodes_per_block + d], (reached & 1u << d) != 0u);
     Real term = we.weight;
     total[0] = add(total[0], term);
     [[unroll]] for (uint k = 1; k < moments; ++k) {
-      term = multiply(term, we.excess);
+      term = multiply(term, we.difference);
       total[k] = add(total[k], term);
     }
   }

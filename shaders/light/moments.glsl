@@ -31,7 +31,7 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
     GroupDiode diode = load_diode(diodes, block * diodes_per_block + d);
     bool is_reached = (reached & 1u << d) != 0u;
-    vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_excess(point, diode, is_reached);
+    vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_difference(point, diode, is_reached);
     float term = factors.x;
     if (alike == 0)
       part[0] += term;

@@ -31,7 +31,7 @@ struct Point {
 #include "shaders/light/radiation_laws.glsl"
 
 // w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
-vec2 weight_and_excess(Point point, GroupDiode diode, bool reached) {
+vec2 weight_and_difference(Point point, GroupDiode diode, bool reached) {
   float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
   float r2 = point.rho * point.rho + q;
   float r = sqrt(r2);

@@ -63,7 +63,7 @@ double by_powers(const PowerSums &sums, const Light &light, const glm::dvec3 &po
 }
 
 PowerSums sums_of(const Light &light, std::uint32_t p, double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
-  const std::vector<Excess> reaches{excess_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
+  const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
   return power_sums(reaches, p, moments, wavenumber_rad_m, 1.0);
 }
 
@@ -108,8 +108,8 @@ TEST_CASE("A diode in the reference point needs no power of q") {
 TEST_CASE("A diode in its own reference point beside a ring takes as many powers as it needs itself") {
   const Light ring = ring_before_a_wall(0.166, 2.0);
   const std::vector<glm::dvec3> alone_m{glm::dvec3(0.0)};
-  const std::vector<Excess> reaches{excess_of(glm::dvec3(0.0), ring.diodes_m, {ring.box}),
-                                    excess_of(glm::dvec3(0.0), alone_m, {ring.box})};
+  const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), ring.diodes_m, {ring.box}),
+                                    path_difference_of(glm::dvec3(0.0), alone_m, {ring.box})};
   const PowerSums sums = power_sums(reaches, 2, moments, wavenumber_20mhz_rad_m, 1.0);
   REQUIRE(sums.tables.size() == 2);
   CHECK(sums.powers > 1);
