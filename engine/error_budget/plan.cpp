@@ -91,7 +91,7 @@ DiodeGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminato
   DiodeGroups groups = in_runs_of(usual_run_blocks);
   // A window of shadows' bits holds no long run.
   const bool long_runs =
-      view.long_runs && groups.power_sums.alike && groups.runs.size() > 1 && !view.signal.lit;
+      view.long_runs && groups.power_sums.equal_weights && groups.runs.size() > 1 && !view.signal.lit;
   return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 

@@ -187,8 +187,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.summation = summation_of(facts, plan.all);
   path.powers = plan.all.power_sums.powers;
   path.moments = plan.all.moments;
-  path.equal_weights = plan.all.power_sums.alike;
-  path.coplanar = plan.all.power_sums.planar;
+  path.equal_weights = plan.all.power_sums.equal_weights;
+  path.coplanar = plan.all.power_sums.coplanar;
   path.single_batch = plan.all.runs.size() == 1;
   path.painted = facts.paint.painted;
   path.vignetting = sensor.vignetting == Vignetting::cos4;

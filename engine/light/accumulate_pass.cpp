@@ -32,8 +32,8 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
          (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
-bool sums_alike(const DiodeGroups &groups, const SumScope &scope) {
-  return groups.power_sums.alike && !scope.shadowed;
+bool sums_equal_weights(const DiodeGroups &groups, const SumScope &scope) {
+  return groups.power_sums.equal_weights && !scope.shadowed;
 }
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
@@ -55,7 +55,7 @@ void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, co
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, const SumScope &scope) {
   if (scope.precision == Precision::fp64)
     return vulkan::upload(device, groups.precise_diodes);
-  if (!sums_alike(groups, scope))
+  if (!sums_equal_weights(groups, scope))
     return vulkan::upload(device, groups.diodes);
   std::vector<shader::vec4> positions(groups.diodes.size());
   std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupDiode::position);
@@ -67,8 +67,8 @@ vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &gro
           {shader::constant_blocks_per_run, groups.blocks_per_run},
           {shader::constant_moments, groups.moments},
           {shader::constant_powers, groups.power_sums.powers},
-          {shader::constant_alike, sums_alike(groups, scope)},
-          {shader::constant_planar, groups.power_sums.planar},
+          {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
+          {shader::constant_coplanar, groups.power_sums.coplanar},
           {shader::constant_backscatter_model, on.model.backscatter},
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},

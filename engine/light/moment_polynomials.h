@@ -24,10 +24,10 @@ struct PowerSums {
 
   std::uint32_t powers = 0;  // S_0 ... S_(powers - 1) are summed; 0: e and its powers, as they are
   std::vector<Table> tables; // beside the runs
-  bool planar = false;       // the diodes of each run lie in its reference point's plane across the view
+  bool coplanar = false;       // the diodes of each run lie in its reference point's plane across the view
   // Where no shadow falls, the diodes' weights differ by their distances only; those that pad a run have
   // none.
-  bool alike = false;
+  bool equal_weights = false;
   // At most, of any run. What the polynomials are off by, of the sum of the weights: by itself, and as an
   // angle at the highest frequency; and what rounding grows by, as the terms of a moment's sum over i, all
   // taken as positive, may come to more than the weights times the largest |e|^k.

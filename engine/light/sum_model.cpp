@@ -24,7 +24,7 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
 
 namespace {
 
-bool are_alike(const DiodeGroups &groups, const SumModel &model) {
+bool have_equal_weights(const DiodeGroups &groups, const SumModel &model) {
   return model.backscatter == shader::backscatter_flat && model.pattern == shader::pattern_isotropic &&
          std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
            return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
@@ -52,8 +52,8 @@ void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber
         power_sums(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
   if (groups.power_sums.powers == 0)
     return;
-  groups.power_sums.alike = allowed.equal_weights && are_alike(groups, model);
-  groups.power_sums.planar =
+  groups.power_sums.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);
+  groups.power_sums.coplanar =
       allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
         return diode.position.z == 0.0f;
       });

@@ -12,12 +12,12 @@ layout(constant_id = constant_tones) const uint tones = 1;
 
 // What is summed over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
 const uint sums = powers > 0 ? powers : moments;
-// Of alike diodes S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
-const bool linear_known = alike != 0 && powers > 2;
+// Of equal weights S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
+const bool linear_known = equal_weights != 0 && powers > 2;
 
-// Of diodes that are alike only the places are there.
+// Of equal weights only the places are there.
 GroupDiode load_diode(uvec2 diodes, uint i) {
-  if (alike == 0)
+  if (equal_weights == 0)
     return Diodes(diodes).at[i];
   GroupDiode diode;
   diode.position = Vec4s(diodes).at[i];
@@ -33,10 +33,10 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
     bool is_reached = (reached & 1u << d) != 0u;
     vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_difference(point, diode, is_reached);
     float term = factors.x;
-    if (alike == 0)
+    if (equal_weights == 0)
       part[0] += term;
     [[unroll]] for (uint k = 1; k < sums; ++k) {
-      term = k == 1 && alike != 0 ? factors.y : term * factors.y;
+      term = k == 1 && equal_weights != 0 ? factors.y : term * factors.y;
       if (k > 1 || !linear_known)
         part[k] += term;
     }
@@ -53,7 +53,7 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
-  if (alike != 0)
+  if (equal_weights != 0)
     total[0] = run.intensity; // those that pad a run have none, and q = 0
   if (linear_known)
     [[unroll]] for (uint k = 1; k < min(2, sums); ++k)

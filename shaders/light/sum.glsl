@@ -17,8 +17,8 @@ layout(constant_id = constant_blocks_per_run) const uint blocks_per_run = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
 layout(constant_id = constant_shadowed) const uint shadowed = 0;
 layout(constant_id = constant_powers) const uint powers = 0;
-layout(constant_id = constant_alike) const uint alike = 0;
-layout(constant_id = constant_planar) const uint planar = 0;
+layout(constant_id = constant_equal_weights) const uint equal_weights = 0;
+layout(constant_id = constant_coplanar) const uint coplanar = 0;
 
 // A sample's point as the group sees it.
 struct Point {
@@ -54,9 +54,9 @@ vec2 weight_and_difference(Point point, GroupDiode diode, bool reached) {
 // The same by powers: the weight times r^p, p the powers of 1 / r in it, and q = r^2 - rho^2.
 vec2 strength_and_detour(Point point, GroupDiode diode, bool reached) {
   float q = dot(point.position.xy, diode.position.xy) + diode.position.w;
-  if (planar == 0)
+  if (coplanar == 0)
     q += point.position.z * diode.position.z;
-  if (alike != 0)
+  if (equal_weights != 0)
     return vec2(1.0, q);
   float strength = diode.intensity;
   if (backscatter_model != backscatter_flat) {
