@@ -85,13 +85,13 @@ DiodeGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminato
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
     if (precision == Precision::fp32 && view.signal.by_moments())
-      sum_by_powers(groups, view.model, wavenumber_rad_m, view.allowed);
+      choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed);
     return groups;
   };
   DiodeGroups groups = in_runs_of(usual_run_blocks);
   // A window of shadows' bits holds no long run.
   const bool long_runs =
-      view.long_runs && groups.power_sums.equal_weights && groups.runs.size() > 1 && !view.signal.lit;
+      view.long_runs && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.signal.lit;
   return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 

@@ -86,7 +86,7 @@ double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square 
 
 // Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
 // as many sums.
-double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.power_sums.powers; }
+double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.polynomials.powers; }
 
 // a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
 // u)^(-p/2).
@@ -94,7 +94,7 @@ double power_weight_error(const DiodeGroups &groups, const SumModel &model, cons
                           double inverse_powers) {
   const auto [form, t, least_cosine] = law_rounding(groups, model, scope);
   double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
-                 groups.power_sums.growth * polynomial_error(groups) +
+                 groups.polynomials.growth * polynomial_error(groups) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
   error += model.order * (along_error_u(t) / least_cosine + 1.0);
   if (model.backscatter == shader::backscatter_lambert)
@@ -105,7 +105,7 @@ double power_weight_error(const DiodeGroups &groups, const SumModel &model, cons
 // a of I J cos / r^2, u.
 double weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
-  if (groups.power_sums.powers > 0)
+  if (groups.polynomials.powers > 0)
     return power_weight_error(groups, model, scope, inverse_powers(model).value());
   double error = r2 + division_u + 4.0 + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
@@ -116,10 +116,10 @@ double weight_error(const DiodeGroups &groups, const SumModel &model, const Roun
 // b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
 double excess_error_m(const DiodeGroups &groups) {
   const double t = groups.radius_over_range;
-  if (groups.power_sums.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
+  if (groups.polynomials.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
     return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
            groups.path_difference_m *
-               (groups.power_sums.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
+               (groups.polynomials.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
          groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
@@ -185,7 +185,7 @@ private:
     double left_out = 1.0;
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
-    const PowerSums &powers = groups_.power_sums;
+    const MomentPolynomials &powers = groups_.polynomials;
     TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
     error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
                    growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +

@@ -20,7 +20,7 @@ SampleGrid grid_of(const Sensor &sensor) {
 
 Summation summation_of(const FrameFacts &facts, const DiodeGroups &groups) {
   return !facts.signal.by_moments()     ? Summation::per_diode
-         : groups.power_sums.powers > 0 ? Summation::polynomial_moments
+         : groups.polynomials.powers > 0 ? Summation::polynomial_moments
                                         : Summation::moments;
 }
 
@@ -185,10 +185,10 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.backscatter = facts.model.backscatter;
   path.pattern = facts.model.pattern;
   path.summation = summation_of(facts, plan.all);
-  path.powers = plan.all.power_sums.powers;
+  path.powers = plan.all.polynomials.powers;
   path.moments = plan.all.moments;
-  path.equal_weights = plan.all.power_sums.equal_weights;
-  path.coplanar = plan.all.power_sums.coplanar;
+  path.equal_weights = plan.all.polynomials.equal_weights;
+  path.coplanar = plan.all.polynomials.coplanar;
   path.single_batch = plan.all.runs.size() == 1;
   path.painted = facts.paint.painted;
   path.vignetting = sensor.vignetting == Vignetting::cos4;

@@ -33,7 +33,7 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
 }
 
 bool sums_equal_weights(const DiodeGroups &groups, const SumScope &scope) {
-  return groups.power_sums.equal_weights && !scope.shadowed;
+  return groups.polynomials.equal_weights && !scope.shadowed;
 }
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
@@ -66,9 +66,9 @@ vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &gro
   return {{shader::constant_straight, is_straight(on.device, on.options, scope.precision)},
           {shader::constant_blocks_per_run, groups.blocks_per_run},
           {shader::constant_moments, groups.moments},
-          {shader::constant_powers, groups.power_sums.powers},
+          {shader::constant_powers, groups.polynomials.powers},
           {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
-          {shader::constant_coplanar, groups.power_sums.coplanar},
+          {shader::constant_coplanar, groups.polynomials.coplanar},
           {shader::constant_backscatter_model, on.model.backscatter},
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},
@@ -105,8 +105,8 @@ std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorB
     record.heights = static_cast<float>(bound.terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(bound.terms_per_weight_error * diagrams);
     set_rims(groups, run.first, run.first + run_diodes, bound, record);
-    if (groups.power_sums.powers > 0)
-      std::ranges::copy(groups.power_sums.tables[result.size()], record.moments_of_powers);
+    if (groups.polynomials.powers > 0)
+      std::ranges::copy(groups.polynomials.tables[result.size()], record.moments_of_powers);
     result.push_back(record);
   }
   return result;

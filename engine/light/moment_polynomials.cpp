@@ -95,7 +95,7 @@ Fit judge(const Coefficients &a, const Interval &interval, std::uint32_t inverse
 
 // A run's polynomials, judged.
 struct Run {
-  PowerSums::Table table{};
+  MomentPolynomials::Table table{};
   double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
 };
 
@@ -149,11 +149,11 @@ bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32
 
 } // namespace
 
-PowerSums power_sums(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
                      double wavenumber_rad_m, double least_intensity) {
   if (moments > shader::largest_moments)
     return {};
-  PowerSums sums;
+  MomentPolynomials sums;
   for (const PathDifference &reach : reaches) {
     if (!sums.tables.empty() && reach == reaches[sums.tables.size() - 1]) {
       sums.tables.push_back(sums.tables.back());
@@ -172,7 +172,7 @@ PowerSums power_sums(std::span<const PathDifference> reaches, std::uint32_t inve
   const bool fits = std::ranges::all_of(reaches, [&](const PathDifference &reach) {
     return fits_floats(reach, inverse_powers - 2, sums.powers, least_intensity);
   });
-  return fits ? sums : PowerSums{};
+  return fits ? sums : MomentPolynomials{};
 }
 
 } // namespace pmdsim

@@ -18,7 +18,7 @@
 
 namespace pmdsim {
 
-struct PowerSums {
+struct MomentPolynomials {
   // LightRun::moments_of_powers.
   using Table = std::array<glm::vec4, std::size_t{shader::largest_moments} * shader::largest_powers / 4>;
 
@@ -37,7 +37,7 @@ struct PowerSums {
 // `reaches` are the runs'; `moments` and wavenumber_rad_m as in DiodeGroups, `least_intensity` that of a
 // diode that shines, relative. None where the polynomials would be longer than is worth it, or where W could
 // leave float's range.
-PowerSums power_sums(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
                      double wavenumber_rad_m, double least_intensity);
 
 } // namespace pmdsim

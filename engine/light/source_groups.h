@@ -55,10 +55,10 @@ struct DiodeGroups {
   double path_difference_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
   double radius_m = 0.0; // of the largest group
   double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
-  PowerSums power_sums;           // what the moments are summed by, run by run
+  MomentPolynomials polynomials;           // what the moments are summed by, run by run
 };
 
-// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike (PowerSums),
+// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike (MomentPolynomials),
 // which take little of it.
 constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 

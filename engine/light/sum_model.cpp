@@ -42,18 +42,18 @@ double least_intensity(const DiodeGroups &groups) {
 
 } // namespace
 
-void sum_by_powers(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
+void choose_polynomials(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
                    const PathForms &allowed) {
   std::vector<PathDifference> reaches;
   for (const DiodeRun &run : groups.runs)
     reaches.push_back(run.reach);
   if (const auto powers = inverse_powers(model); powers && allowed.polynomial_moments)
-    groups.power_sums =
-        power_sums(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
-  if (groups.power_sums.powers == 0)
+    groups.polynomials =
+        fit_polynomials(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
+  if (groups.polynomials.powers == 0)
     return;
-  groups.power_sums.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);
-  groups.power_sums.coplanar =
+  groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);
+  groups.polynomials.coplanar =
       allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
         return diode.position.z == 0.0f;
       });

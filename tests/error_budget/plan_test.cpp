@@ -119,20 +119,20 @@ TEST_CASE("of many diodes those that are alike stand in long runs") {
       many.lights[0].diodes.push_back(diode);
     }
   const FramePlan alike = plan(many, {});
-  CHECK(alike.all.power_sums.equal_weights);
+  CHECK(alike.all.polynomials.equal_weights);
   CHECK(alike.all.runs.size() == 1);
   CHECK(alike.all.blocks_per_run == 45);
-  CHECK(alike.all.power_sums.tables.size() == 1);
+  CHECK(alike.all.polynomials.tables.size() == 1);
   many.long_runs = false;
   const FramePlan short_runs = plan(many, {});
-  CHECK(short_runs.all.power_sums.equal_weights);
+  CHECK(short_runs.all.polynomials.equal_weights);
   CHECK(short_runs.all.blocks_per_run == 15);
   REQUIRE((alike.claimed_m && short_runs.claimed_m));
   CHECK(*alike.claimed_m < 1.05 * *short_runs.claimed_m); // the rounding of long runs is hardly worse
   many.long_runs = true;
   many.lights[0].diodes[3].intensity_w_sr = 0.5;
   const FramePlan unequal = plan(many, {});
-  CHECK_FALSE(unequal.all.power_sums.equal_weights);
+  CHECK_FALSE(unequal.all.polynomials.equal_weights);
   CHECK(unequal.all.blocks_per_run == 15);
 }
 

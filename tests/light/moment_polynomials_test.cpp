@@ -47,7 +47,7 @@ double direct(const Light &light, const glm::dvec3 &point_m, std::uint32_t p, st
   return moment / weights;
 }
 
-double by_powers(const PowerSums &sums, const Light &light, const glm::dvec3 &point_m, std::uint32_t k) {
+double by_powers(const MomentPolynomials &sums, const Light &light, const glm::dvec3 &point_m, std::uint32_t k) {
   const double rho2 = glm::dot(point_m, point_m);
   const auto moment = [&](std::uint32_t of) {
     double sum = 0.0;
@@ -62,9 +62,9 @@ double by_powers(const PowerSums &sums, const Light &light, const glm::dvec3 &po
   return moment(k) / moment(0);
 }
 
-PowerSums sums_of(const Light &light, std::uint32_t p, double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
+MomentPolynomials sums_of(const Light &light, std::uint32_t p, double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
   const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
-  return power_sums(reaches, p, moments, wavenumber_rad_m, 1.0);
+  return fit_polynomials(reaches, p, moments, wavenumber_rad_m, 1.0);
 }
 
 TEST_CASE("Moments follow from sums of powers, whatever powers of 1 / r are in the weights") {
@@ -72,7 +72,7 @@ TEST_CASE("Moments follow from sums of powers, whatever powers of 1 / r are in t
   for (const std::uint32_t p : {2u, 3u, 5u, 8u})
     for (const double range_m : {0.7, 2.0, 50.0}) {
       const Light light = ring_before_a_wall(0.1, range_m);
-      const PowerSums sums = sums_of(light, p);
+      const MomentPolynomials sums = sums_of(light, p);
       INFO("p " << p << ", range " << range_m << " m, powers " << sums.powers);
       REQUIRE(sums.powers > 0);
       double worst_rad = 0.0;
@@ -110,7 +110,7 @@ TEST_CASE("A diode in its own reference point beside a ring takes as many powers
   const std::vector<glm::dvec3> alone_m{glm::dvec3(0.0)};
   const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), ring.diodes_m, {ring.box}),
                                     path_difference_of(glm::dvec3(0.0), alone_m, {ring.box})};
-  const PowerSums sums = power_sums(reaches, 2, moments, wavenumber_20mhz_rad_m, 1.0);
+  const MomentPolynomials sums = fit_polynomials(reaches, 2, moments, wavenumber_20mhz_rad_m, 1.0);
   REQUIRE(sums.tables.size() == 2);
   CHECK(sums.powers > 1);
   CHECK(sums.tables[1][0] ==
