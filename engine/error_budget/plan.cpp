@@ -36,7 +36,7 @@ double pixel_rad(const Sensor &sensor) {
   return glm::length(sensor.pixel_pitch_m * sensor.fill_factor) / sensor.image_distance_m();
 }
 
-std::optional<RoundingBound> bound_of(const LightFacts &view, const DiodeGroups &groups, Precision precision,
+std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups &groups, Precision precision,
                                       std::uint32_t samples,
                                       std::optional<double> sample_spread_m = std::nullopt) {
   RoundingScope scope;
@@ -79,16 +79,16 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   return a;
 }
 
-DiodeGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
+SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
                       Precision precision) {
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
-    DiodeGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
+    SourceGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
     if (precision == Precision::fp32 && view.signal.by_moments())
       choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed);
     return groups;
   };
-  DiodeGroups groups = in_runs_of(usual_run_blocks);
+  SourceGroups groups = in_runs_of(usual_run_blocks);
   // A window of shadows' bits holds no long run.
   const bool long_runs =
       view.long_runs && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.signal.lit;
@@ -98,7 +98,7 @@ DiodeGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminato
 // All diodes as they are summed in a precision, and what rounding may do to that.
 struct RoundedSum {
   Precision precision;
-  DiodeGroups groups;
+  SourceGroups groups;
   RoundingBound bound;
 };
 
@@ -118,7 +118,7 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   for (const Precision wanted :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     const Precision precision = sum_precision(view.signal, wanted);
-    DiodeGroups groups = groups_of(view, view.lights, precision);
+    SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     if (bound && is_within(*bound, accuracy))
       return {precision, std::move(groups), *bound};

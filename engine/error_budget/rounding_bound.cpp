@@ -41,7 +41,7 @@ double nearest_m(const VisibleBox &box) {
   return glm::length(glm::clamp(glm::dvec3(0.0), box.low_m, box.high_m));
 }
 
-std::vector<glm::dvec3> lit_places(const DiodeGroups &groups) {
+std::vector<glm::dvec3> lit_places(const SourceGroups &groups) {
   std::vector<glm::dvec3> places_m;
   for (const SourcePosition &place : groups.positions)
     if (place.number != no_id)
@@ -49,7 +49,7 @@ std::vector<glm::dvec3> lit_places(const DiodeGroups &groups) {
   return places_m;
 }
 
-Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &visible,
                    const RoundingScope &scope) {
   Lengths result;
   double nearest = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
     nearest = std::min(nearest, nearest_m(box));
   }
   std::vector<glm::dvec3> references_m;
-  for (const DiodeRun &run : groups.runs)
+  for (const SourceRun &run : groups.runs)
     references_m.push_back(run.reference_m);
   result.detour_m = path_difference_of(glm::dvec3(0.0), references_m, visible).path_difference_m;
   const std::vector<glm::dvec3> places_m = lit_places(groups);
@@ -74,7 +74,7 @@ Lengths lengths_of(const DiodeGroups &groups, const std::vector<VisibleBox> &vis
   return result;
 }
 
-LawRounding law_rounding(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
+LawRounding law_rounding(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
   return {model.pattern, groups.radius_over_range,
           scope.rims_are_terms ? beam_cosine : scope.emission_cosine};
 }
@@ -86,11 +86,11 @@ double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square 
 
 // Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
 // as many sums.
-double polynomial_error(const DiodeGroups &groups) { return 3.0 * groups.polynomials.powers; }
+double polynomial_error(const SourceGroups &groups) { return 3.0 * groups.polynomials.powers; }
 
 // a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
 // u)^(-p/2).
-double power_weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope,
+double power_weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope,
                           double inverse_powers) {
   const auto [form, t, least_cosine] = law_rounding(groups, model, scope);
   double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
@@ -103,7 +103,7 @@ double power_weight_error(const DiodeGroups &groups, const SumModel &model, cons
 }
 
 // a of I J cos / r^2, u.
-double weight_error(const DiodeGroups &groups, const SumModel &model, const RoundingScope &scope) {
+double weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
   if (groups.polynomials.powers > 0)
     return power_weight_error(groups, model, scope, inverse_powers(model).value());
@@ -114,7 +114,7 @@ double weight_error(const DiodeGroups &groups, const SumModel &model, const Roun
 }
 
 // b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
-double excess_error_m(const DiodeGroups &groups) {
+double excess_error_m(const SourceGroups &groups) {
   const double t = groups.radius_over_range;
   if (groups.polynomials.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
     return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
@@ -136,7 +136,7 @@ struct TermError {
 
 class Bound {
 public:
-  Bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
+  Bound(const SourceGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
         const Signal &signal, const RoundingScope &scope)
       : groups_(groups), model_(model), signal_(signal), scope_(scope),
         lengths_(lengths_of(groups, visible, scope)),
@@ -166,7 +166,7 @@ private:
 
   // Phases that differ by more than the paths': as bad as any.
   double spread_m() const {
-    const auto other = [&](const DiodeRun &run) { return run.phase_turns != groups_.runs[0].phase_turns; };
+    const auto other = [&](const SourceRun &run) { return run.phase_turns != groups_.runs[0].phase_turns; };
     return std::ranges::any_of(groups_.runs, other) ? std::numeric_limits<double>::infinity()
                                                     : lengths_.spread_m + 2.0 * lengths_.sample_spread_m;
   }
@@ -254,7 +254,7 @@ private:
     return bound;
   }
 
-  const DiodeGroups &groups_;
+  const SourceGroups &groups_;
   const SumModel &model_;
   const Signal &signal_;
   const RoundingScope &scope_;
@@ -286,7 +286,7 @@ std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t
 
 } // namespace
 
-std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std::vector<VisibleBox> &visible,
+std::optional<RoundingBound> rounding_bound(const SourceGroups &groups, const std::vector<VisibleBox> &visible,
                                             const SumModel &model, const Signal &signal,
                                             const RoundingScope &scope) {
   if (!std::ranges::all_of(groups.positions,
@@ -305,7 +305,7 @@ std::optional<RoundingBound> rounding_bound(const DiodeGroups &groups, const std
   return largest;
 }
 
-double least_emission_cosine(const DiodeGroups &groups, const std::vector<VisibleBox> &visible) {
+double least_emission_cosine(const SourceGroups &groups, const std::vector<VisibleBox> &visible) {
   constexpr std::size_t most_boxes = 64;
   const std::vector<VisibleBox> boxes = merged(visible, most_boxes);
   double least = 1.0;

@@ -109,7 +109,7 @@ Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &s
 
 // The bits for the host.
 Pass reached_pass(const Basis &on, const std::vector<SourceWindow> &windows,
-                  const std::shared_ptr<const DiodeGroups> &sources) {
+                  const std::shared_ptr<const SourceGroups> &sources) {
   return {.name = "read_back",
           .reads = visibility_bits,
           .writes = no_resource,
@@ -145,7 +145,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
-  const DiodeGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
+  const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
   SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
   if (on.path.record == SampleRecord::depth)
     scope.depth_records.emplace(on.device, on.request.sensor);
@@ -167,11 +167,11 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   PassSetup setup{on.device,      on.options,        on.request.sensor, signal,
                   on.facts.model, on.memory.buffers, on.memory.scene};
   const Precision precision = *on.path.check;
-  DiodeGroups of_precision;
+  SourceGroups of_precision;
   if (precision != on.plan.precision)
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
                                 signal.largest_wavenumber_rad_m(), precision);
-  const DiodeGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
+  const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
   const SumScope scope{signal.lit, precision, &check.list(), {}, {}};
   graph.add_before(check.list_pass());
   if (on.path.check_makes_points)
@@ -188,7 +188,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   graph.add_after(std::move(read_back));
 }
 
-std::uint32_t shining(const DiodeGroups &groups) {
+std::uint32_t shining(const SourceGroups &groups) {
   return static_cast<std::uint32_t>(
       std::ranges::count_if(groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
@@ -212,7 +212,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
                                                memory->scene.paint.masked, options.precision, grid,
                                                drawn_tags(memory->buffers), std::move(images));
-  const auto sources = std::make_shared<const DiodeGroups>(plan.all);
+  const auto sources = std::make_shared<const SourceGroups>(plan.all);
   std::shared_ptr<const TileShadowPass> shadow;
   if (path.windows > 0)
     shadow = std::make_shared<const TileShadowPass>(device, facts.occluders, plan.all, windows, memory->scene,

@@ -18,7 +18,7 @@ SampleGrid grid_of(const Sensor &sensor) {
                                  : SampleGrid::posed;
 }
 
-Summation summation_of(const FrameFacts &facts, const DiodeGroups &groups) {
+Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
   return !facts.signal.by_moments()     ? Summation::per_diode
          : groups.polynomials.powers > 0 ? Summation::polynomial_moments
                                         : Summation::moments;
@@ -40,7 +40,7 @@ bool has_rest(const FrameFacts &facts) {
 bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.signal.lit || windows == 1; }
 
 // Whether the pass from IDs to channels can sum such groups itself, as one straight line.
-bool can_fuse(const DiodeGroups &groups, const Signal &signal, const Sensor &sensor) {
+bool can_fuse(const SourceGroups &groups, const Signal &signal, const Sensor &sensor) {
   return signal.waveform == shader::waveform_sine && !sensor.has_distortion() &&
          signal.frequencies() <= shader::uniform_tones &&
          groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;

@@ -19,7 +19,7 @@ std::uint32_t lists_of(const UniformPixels &pixels) {
   return pixels.refines ? shader::lists_in_three : shader::lists_in_two;
 }
 
-vulkan::Specialization constants_of(const PassSetup &on, const DiodeGroups &groups,
+vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &groups,
                                     const UniformPixels &pixels) {
   return sum_constants(on, groups, {})
       .merge(resolve_constants(on, {}, true))
@@ -53,7 +53,7 @@ shader::UniformPixelsLight light_record(const LightExtent &extent, const Signal 
 }
 
 // The record, and behind it what the sources share.
-vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
+vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
                             const ErrorBound &bound, bool sums, const vulkan::Buffer &diagrams) {
   shader::UniformPixelsLight light = light_record(extent, on.signal, groups.phased);
   light.diagrams = diagrams.words();
@@ -68,7 +68,7 @@ vulkan::Buffer upload_light(const PassSetup &on, const DiodeGroups &groups, cons
   return vulkan::upload(on.device, bytes);
 }
 
-vulkan::Buffer upload_work(const PassSetup &on, const DiodeGroups &groups, const PixelLists &lists) {
+vulkan::Buffer upload_work(const PassSetup &on, const SourceGroups &groups, const PixelLists &lists) {
   shader::UniformPixelsWork work{};
   work.lit_channel = ChannelLayout(on.signal).lit_channel();
   work.diodes = groups.diode_count;
@@ -79,7 +79,7 @@ vulkan::Buffer upload_work(const PassSetup &on, const DiodeGroups &groups, const
 
 // The pass on the device.
 struct OnDevice {
-  OnDevice(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent, const ErrorBound &bound,
+  OnDevice(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent, const ErrorBound &bound,
            const UniformPixels &pixels, const PixelLists &lists)
       : slope(half_sample_slope(on.sensor)), chip(upload_chip(on.device, on.sensor)),
         diodes(upload_diodes(on.device, groups, {})), diagrams(vulkan::upload(on.device, groups.diagrams)),
@@ -95,7 +95,7 @@ struct OnDevice {
 
 } // namespace
 
-Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
+Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
                          const ErrorBound &bound, const UniformPixels &pixels,
                          const std::shared_ptr<const PixelLists> &lists) {
   const auto made = std::make_shared<const OnDevice>(on, groups, extent, bound, pixels, *lists);

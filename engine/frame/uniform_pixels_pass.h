@@ -20,7 +20,7 @@ struct UniformPixels {
 
 // `groups` stand in for all diodes, whose light has that `extent`; `bound` is what their sum is held
 // against.
-Pass uniform_pixels_pass(const PassSetup &on, const DiodeGroups &groups, const LightExtent &extent,
+Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
                          const ErrorBound &bound, const UniformPixels &pixels,
                          const std::shared_ptr<const PixelLists> &lists);
 

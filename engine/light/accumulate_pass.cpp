@@ -32,13 +32,13 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
          (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
-bool sums_equal_weights(const DiodeGroups &groups, const SumScope &scope) {
+bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
   return groups.polynomials.equal_weights && !scope.shadowed;
 }
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
 // shaders/light/sum.glsl).
-void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
+void set_rims(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
               shader::LightRun &record) {
   double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i)
@@ -52,17 +52,17 @@ void set_rims(const DiodeGroups &groups, std::size_t first, std::size_t last, co
 
 } // namespace
 
-vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, const SumScope &scope) {
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups, const SumScope &scope) {
   if (scope.precision == Precision::fp64)
     return vulkan::upload(device, groups.precise_diodes);
   if (!sums_equal_weights(groups, scope))
     return vulkan::upload(device, groups.diodes);
   std::vector<shader::vec4> positions(groups.diodes.size());
-  std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupDiode::position);
+  std::ranges::transform(groups.diodes, positions.begin(), &shader::GroupSource::position);
   return vulkan::upload(device, positions);
 }
 
-vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope) {
+vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
   return {{shader::constant_straight, is_straight(on.device, on.options, scope.precision)},
           {shader::constant_blocks_per_run, groups.blocks_per_run},
           {shader::constant_moments, groups.moments},
@@ -80,11 +80,11 @@ vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &gro
           {shader::constant_keeps_terms, on.signal.keeps_terms}};
 }
 
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorBound &bound) {
+std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
-  for (const DiodeRun &run : groups.runs) {
+  for (const SourceRun &run : groups.runs) {
     double intensity = 0.0, diagrams = 0.0; // relative; times what the laws are off by
     glm::dvec4 detours(0.0);
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
@@ -117,7 +117,7 @@ namespace {
 // The pass on the device.
 class Sum {
 public:
-  Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+  Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
       const SumScope &scope);
 
   void record(const Recording &at) const;
@@ -127,7 +127,7 @@ public:
   }
 
 private:
-  vulkan::ComputePipeline make_pipeline(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope,
+  vulkan::ComputePipeline make_pipeline(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                                         bool first) const;
   void record_run(const Recording &at, std::uint32_t run) const;
   void record_run_of_depths(const Recording &at, std::uint32_t run) const;
@@ -137,7 +137,7 @@ private:
   std::vector<SourceWindow> windows_;
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
-  std::vector<DiodeRun> runs_;
+  std::vector<SourceRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_, bundles_per_run_;
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
@@ -148,7 +148,7 @@ private:
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
-Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
       depth_records_(scope.depth_records), runs_(groups.runs),
@@ -162,7 +162,7 @@ Sum::Sum(const PassSetup &on, const DiodeGroups &groups, const std::vector<Sourc
     later_ = make_pipeline(on, groups, scope, false);
 }
 
-vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const DiodeGroups &groups,
+vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGroups &groups,
                                            const SumScope &scope, bool first) const {
   vulkan::Specialization constants = sum_constants(on, groups, scope);
   constants.set(shader::constant_is_first, first).set(shader::constant_is_only, runs_.size() == 1);
@@ -229,7 +229,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
 
 } // namespace
 
-Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      const SumScope &scope) {
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",

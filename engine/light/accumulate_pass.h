@@ -41,15 +41,15 @@ struct SumScope {
 };
 
 // `windows` hold the runs of `groups`, and where `shadowed` their visibility bits.
-Pass accumulate_pass(const PassSetup &on, const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      const SumScope &scope);
 
 // What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
 // bound counts as light.
-std::vector<shader::LightRun> light_runs(const DiodeGroups &groups, const ErrorBound &bound);
+std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound);
 
 // Specialization constants of the sum's forms, and the diodes that they read.
-vulkan::Specialization sum_constants(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope);
-vulkan::Buffer upload_diodes(const vulkan::Device &device, const DiodeGroups &groups, const SumScope &scope);
+vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups, const SumScope &scope);
 
 } // namespace pmdsim

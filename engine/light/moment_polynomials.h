@@ -34,7 +34,7 @@ struct MomentPolynomials {
   double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
 };
 
-// `reaches` are the runs'; `moments` and wavenumber_rad_m as in DiodeGroups, `least_intensity` that of a
+// `reaches` are the runs'; `moments` and wavenumber_rad_m as in SourceGroups, `least_intensity` that of a
 // diode that shines, relative. None where the polynomials would be longer than is worth it, or where W could
 // leave float's range.
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,

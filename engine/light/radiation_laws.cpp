@@ -25,7 +25,7 @@ LawForm isotropic_form(const Pattern &) { return {shader::pattern_isotropic, 0};
 constexpr double largest_whole_power = 8.0;
 constexpr double largest_exponent = 87.0; // of e that float holds
 
-void describe_cosine(const Diode &diode, DiagramTables &, shader::GroupDiode &record) {
+void describe_cosine(const Diode &diode, DiagramTables &, shader::GroupSource &record) {
   record.order = static_cast<float>(diode.pattern.order);
 }
 
@@ -101,7 +101,7 @@ double cosine_rim_rounding_u(const LawRounding &sum) {
 
 // A measured diagram: J from a table.
 
-void describe_diagram(const Diode &diode, DiagramTables &tables, shader::GroupDiode &record) {
+void describe_diagram(const Diode &diode, DiagramTables &tables, shader::GroupSource &record) {
   const DiagramGrid grid = tables.grid_of(diode.pattern.diagram);
   // Turned so that phi counts from the grid's first.
   const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
@@ -162,9 +162,9 @@ static_assert(are_in_order(), "laws[kind] is the law of that kind");
 
 // The largest of what each law's function has for the largest order among its diodes; 0 of laws without it.
 template <class Member, class ValueOf>
-double largest_of(std::span<const shader::GroupDiode> diodes, Member member, ValueOf value_of) {
+double largest_of(std::span<const shader::GroupSource> diodes, Member member, ValueOf value_of) {
   std::array<std::optional<float>, laws.size()> orders;
-  for (const shader::GroupDiode &diode : diodes) {
+  for (const shader::GroupSource &diode : diodes) {
     std::optional<float> &order = orders[static_cast<std::size_t>(law_of(diode).kind)];
     order = std::max(order.value_or(diode.order), diode.order);
   }
@@ -179,7 +179,7 @@ double largest_of(std::span<const shader::GroupDiode> diodes, Member member, Val
 
 const RadiationLaw &law_of(const Pattern &pattern) { return laws[static_cast<std::size_t>(pattern.kind)]; }
 
-const RadiationLaw &law_of(const shader::GroupDiode &diode) {
+const RadiationLaw &law_of(const shader::GroupSource &diode) {
   return *std::ranges::find(laws, std::min(diode.order, 0.0f), &RadiationLaw::number);
 }
 
@@ -190,7 +190,7 @@ double law_error(const Pattern &pattern, DiagramTables &tables) {
   return law.error != nullptr ? law.error(pattern, tables) : 0.0;
 }
 
-std::optional<BeamRim> beam_rim(const shader::GroupDiode &diode) {
+std::optional<BeamRim> beam_rim(const shader::GroupSource &diode) {
   const RadiationLaw &law = law_of(diode);
   return law.rim != nullptr ? law.rim(diode.order) : std::nullopt;
 }
@@ -225,12 +225,12 @@ double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
   return largest;
 }
 
-double law_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum) {
+double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
   return largest_of(diodes, &RadiationLaw::rounding_u,
                     [&](auto rounding_u, float order) { return rounding_u(order, sum); });
 }
 
-double rim_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum) {
+double rim_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
   return largest_of(diodes, &RadiationLaw::rim_rounding_u,
                     [&](auto rounding_u, float) { return rounding_u(sum); });
 }

@@ -26,7 +26,7 @@ struct LawForm {
 // The sum in which J is rounded.
 struct LawRounding {
   std::uint32_t pattern;    // its form, shader::pattern_*
-  double radius_over_range; // as in DiodeGroups
+  double radius_over_range; // as in SourceGroups
   double least_cosine;      // to the axis of any diode, of all that it lights
 };
 
@@ -45,11 +45,11 @@ struct LawSeries {
 // alone, with no bound of its error, and its diodes are never reduced.
 struct RadiationLaw {
   Pattern::Kind kind;
-  // GroupDiode::order of its diodes, by which shaders/light/radiation_laws.glsl knows the law: below 0, as
+  // GroupSource::order of its diodes, by which shaders/light/radiation_laws.glsl knows the law: below 0, as
   // numbers from 0 on are orders of cosines.
   float number;
   // Writes what J is made of into a diode's record, which has the law's number.
-  void (*describe)(const Diode &, DiagramTables &, shader::GroupDiode &) = nullptr;
+  void (*describe)(const Diode &, DiagramTables &, shader::GroupSource &) = nullptr;
   // The cheapest form for diodes that are alike in this; left out: pattern_any.
   LawForm (*form)(const Pattern &) = nullptr;
   // And the one beside others: shader::pattern_general, or pattern_any for what that does not know.
@@ -57,13 +57,13 @@ struct RadiationLaw {
   // The largest slope of ln J over what is visible, per radian, and such that its square bounds the
   // curvature. Left out: infinite, and no pixel of several samples is summed at fewer points.
   double (*slope)(const Diode &, const std::vector<VisibleBox> &) = nullptr;
-  // What J is off by, relative to itself, u; `order` is the largest GroupDiode::order.
+  // What J is off by, relative to itself, u; `order` is the largest GroupSource::order.
   double (*rounding_u)(float order, const LawRounding &) = nullptr;
   // And beside that, as such; left out: 0. Infinite where there is no bound of it.
   double (*error)(const Pattern &, DiagramTables &) = nullptr;
   // Why an error cannot be promised where there is no bound.
   const char *unbounded = "a diode has a radiation law whose rounding has no bound";
-  // Where beams have a rim: how steep it is, for GroupDiode::order, nothing where it is an edge; and J's own
+  // Where beams have a rim: how steep it is, for GroupSource::order, nothing where it is an edge; and J's own
   // rounding there, over the order and times the cosine, u.
   std::optional<BeamRim> (*rim)(float order) = nullptr;
   double (*rim_rounding_u)(const LawRounding &) = nullptr;
@@ -71,13 +71,13 @@ struct RadiationLaw {
 };
 
 const RadiationLaw &law_of(const Pattern &pattern);
-const RadiationLaw &law_of(const shader::GroupDiode &diode);
+const RadiationLaw &law_of(const shader::GroupSource &diode);
 
 // What J of a diode is off by beside its rounding; infinite where its law claims nothing.
 double law_error(const Pattern &pattern, DiagramTables &tables);
 
 // Of a diode's beam, and how the reduction expands its J; nothing where its law has none.
-std::optional<BeamRim> beam_rim(const shader::GroupDiode &diode);
+std::optional<BeamRim> beam_rim(const shader::GroupSource &diode);
 std::optional<LawSeries> law_series(const Pattern &pattern);
 
 // The cheapest form that knows the laws of all diodes.
@@ -89,7 +89,7 @@ double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
 
 // The largest rounding of J of any diode, u, and that at the rims of beams, as in RadiationLaw; 0
 // of laws that claim none.
-double law_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum);
-double rim_rounding_u(std::span<const shader::GroupDiode> diodes, const LawRounding &sum);
+double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
+double rim_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 
 } // namespace pmdsim

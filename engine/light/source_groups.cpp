@@ -57,17 +57,17 @@ Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::v
   return group;
 }
 
-shader::GroupDiode dark_diode() {
-  shader::GroupDiode diode{};
+shader::GroupSource dark_diode() {
+  shader::GroupSource diode{};
   diode.axis = {0, 0, 1, 0};
   diode.order = law_of(Pattern{}).number;
   return diode;
 }
 
-shader::GroupDiode group_diode(const Diode &diode, const glm::dvec3 &reference_m,
+shader::GroupSource group_diode(const Diode &diode, const glm::dvec3 &reference_m,
                                double largest_intensity_w_sr, DiagramTables &diagrams) {
   const glm::dvec3 position_m = diode.position_m - reference_m;
-  shader::GroupDiode record = dark_diode();
+  shader::GroupSource record = dark_diode();
   record.position = glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m));
   record.axis = glm::vec4(diode.axis, glm::dot(diode.axis, position_m));
   if (largest_intensity_w_sr > 0.0)
@@ -95,9 +95,9 @@ glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
 }
 
 // What rounding to `rounded` took; nothing of a dark one.
-shader::PreciseDiode precise_diode(const shader::GroupDiode &rounded, const Diode &diode,
+shader::PreciseSource precise_diode(const shader::GroupSource &rounded, const Diode &diode,
                                    const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
-  shader::PreciseDiode record{};
+  shader::PreciseSource record{};
   record.rounded = rounded;
   if (rounded.intensity == 0.0f)
     return record;
@@ -191,7 +191,7 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
-void add_runs(const Group &group, Precision precision, DiodeGroups &result, DiagramTables &diagrams) {
+void add_runs(const Group &group, Precision precision, SourceGroups &result, DiagramTables &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
@@ -221,13 +221,13 @@ std::uint32_t moments_needed(double phase_rad, double remainder) {
   return k;
 }
 
-DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
                          std::uint32_t most_blocks) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
-  DiodeGroups result;
+  SourceGroups result;
   result.diode_count = static_cast<std::uint32_t>(ordered.size());
   for (const auto &[diodes, phase_rad] : illuminators) {
     const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);

@@ -26,9 +26,9 @@ inline double largest_term(double phase_rad, double remainder) {
 }
 
 // One dispatch of the accumulate pass: a run of whole blocks of diodes that share a reference point.
-struct DiodeRun {
+struct SourceRun {
   glm::dvec3 reference_m; // camera frame
-  std::uint32_t first;    // index into DiodeGroups::diodes
+  std::uint32_t first;    // index into SourceGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
   PathDifference reach;           // of its group; the radius is at most half of the range to what it lights
 };
@@ -40,15 +40,15 @@ struct SourcePosition {
   double law_error = 0.0;       // of its J, beside what rounding does (radiation_laws.h)
 };
 
-struct DiodeGroups {
+struct SourceGroups {
   std::uint32_t moments = 1; // K, the same for every group
   std::uint32_t blocks_per_run =
       1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
-  double largest_intensity_w_sr = 0; // what GroupDiode::intensity is relative to
+  double largest_intensity_w_sr = 0; // what GroupSource::intensity is relative to
   bool phased = false;               // an illuminator has a modulation phase
-  std::vector<DiodeRun> runs;
-  std::vector<shader::GroupDiode> diodes;
-  std::vector<shader::PreciseDiode> precise_diodes; // the same; only for fp64
+  std::vector<SourceRun> runs;
+  std::vector<shader::GroupSource> diodes;
+  std::vector<shader::PreciseSource> precise_diodes; // the same; only for fp64
   std::vector<SourcePosition> positions;                   // beside `diodes`; those that stand together lie together
   std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
   std::uint32_t diode_count = 0;                    // without the dark ones
@@ -64,7 +64,7 @@ constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
 // that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
-DiodeGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                          Precision precision = Precision::fp32, std::uint32_t most_blocks = usual_run_blocks);
 

@@ -58,16 +58,16 @@ void add_bundle(WindowDiodes &diodes, std::span<const SourcePosition> places) {
 
 } // namespace
 
-std::uint32_t bundles_per_run(const DiodeGroups &groups) {
+std::uint32_t bundles_per_run(const SourceGroups &groups) {
   return (groups.blocks_per_run * shader::diodes_per_block - 1) / shader::diodes_per_bundle + 1;
 }
 
-SourceWindow all_runs(const DiodeGroups &groups) {
+SourceWindow all_runs(const SourceGroups &groups) {
   const auto runs = static_cast<std::uint32_t>(groups.runs.size());
   return {0, runs, runs * bundles_per_run(groups)};
 }
 
-std::vector<SourceWindow> plan_windows(const DiodeGroups &groups) {
+std::vector<SourceWindow> plan_windows(const SourceGroups &groups) {
   const std::uint32_t runs_per_window = std::max(1u, shader::bundles_per_window / bundles_per_run(groups));
   const auto runs = static_cast<std::uint32_t>(groups.runs.size());
   std::vector<SourceWindow> windows;
@@ -79,7 +79,7 @@ std::vector<SourceWindow> plan_windows(const DiodeGroups &groups) {
 }
 
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
-                                      const DiodeGroups &groups) {
+                                      const SourceGroups &groups) {
   const std::uint32_t run = window.first_run + bundle / bundles_per_run(groups);
   const std::uint32_t within = bundle % bundles_per_run(groups) * shader::diodes_per_bundle;
   const std::uint32_t left = groups.blocks_per_run * shader::diodes_per_block - within;
@@ -87,7 +87,7 @@ std::span<const SourcePosition> positions_of(const SourceWindow &window, std::ui
       .subspan(groups.runs[run].first + within, std::min(left, shader::diodes_per_bundle));
 }
 
-WindowDiodes diodes_of(const SourceWindow &window, const DiodeGroups &groups) {
+WindowDiodes diodes_of(const SourceWindow &window, const SourceGroups &groups) {
   WindowDiodes diodes;
   diodes.boxes.push_back(empty_box);
   for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)

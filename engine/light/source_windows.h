@@ -15,17 +15,17 @@ struct SourceWindow {
   std::uint32_t bundles;             // of all its runs
 };
 
-std::uint32_t bundles_per_run(const DiodeGroups &groups);
+std::uint32_t bundles_per_run(const SourceGroups &groups);
 
 // One for all runs.
-SourceWindow all_runs(const DiodeGroups &groups);
+SourceWindow all_runs(const SourceGroups &groups);
 
 // As many runs each as fit shader::bundles_per_window.
-std::vector<SourceWindow> plan_windows(const DiodeGroups &groups);
+std::vector<SourceWindow> plan_windows(const SourceGroups &groups);
 
 // The places of a bundle's diodes.
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
-                                      const DiodeGroups &groups);
+                                      const SourceGroups &groups);
 
 // What the shaders know of a window's diodes.
 struct WindowDiodes {
@@ -34,6 +34,6 @@ struct WindowDiodes {
   std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
 };
 
-WindowDiodes diodes_of(const SourceWindow &window, const DiodeGroups &groups);
+WindowDiodes diodes_of(const SourceWindow &window, const SourceGroups &groups);
 
 } // namespace pmdsim

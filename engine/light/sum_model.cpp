@@ -24,17 +24,17 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
 
 namespace {
 
-bool have_equal_weights(const DiodeGroups &groups, const SumModel &model) {
+bool have_equal_weights(const SourceGroups &groups, const SumModel &model) {
   return model.backscatter == shader::backscatter_flat && model.pattern == shader::pattern_isotropic &&
-         std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+         std::ranges::all_of(groups.diodes, [](const shader::GroupSource &diode) {
            return diode.intensity == 1.0f || diode.position == glm::vec4(0.0f);
          });
 }
 
 // Of a diode that shines, relative to the strongest.
-double least_intensity(const DiodeGroups &groups) {
+double least_intensity(const SourceGroups &groups) {
   double least = 1.0;
-  for (const shader::GroupDiode &diode : groups.diodes)
+  for (const shader::GroupSource &diode : groups.diodes)
     if (diode.intensity > 0.0f)
       least = std::min(least, static_cast<double>(diode.intensity));
   return least;
@@ -42,10 +42,10 @@ double least_intensity(const DiodeGroups &groups) {
 
 } // namespace
 
-void choose_polynomials(DiodeGroups &groups, const SumModel &model, double wavenumber_rad_m,
+void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
                    const PathForms &allowed) {
   std::vector<PathDifference> reaches;
-  for (const DiodeRun &run : groups.runs)
+  for (const SourceRun &run : groups.runs)
     reaches.push_back(run.reach);
   if (const auto powers = inverse_powers(model); powers && allowed.polynomial_moments)
     groups.polynomials =
@@ -54,7 +54,7 @@ void choose_polynomials(DiodeGroups &groups, const SumModel &model, double waven
     return;
   groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);
   groups.polynomials.coplanar =
-      allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupDiode &diode) {
+      allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupSource &diode) {
         return diode.position.z == 0.0f;
       });
 }

@@ -87,7 +87,7 @@ LitDiodes upload_diodes(const vulkan::Device &device, const WindowDiodes &diodes
 } // namespace
 
 TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &occluders,
-                               const DiodeGroups &groups, const std::vector<SourceWindow> &windows,
+                               const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                                const SceneBuffers &scene, std::span<const PlannedStrip> strips, bool tiled,
                                SamplePrecision precision)
     : windows_(windows), slots_(std::min(most_slots, most_parts(strips))),

@@ -26,7 +26,7 @@ struct LitScene {
 class TileShadowPass {
 public:
   // `tiled` as in LitForm. Throws Error (out_of_memory).
-  TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const DiodeGroups &groups,
+  TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const SourceGroups &groups,
                  const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);
 

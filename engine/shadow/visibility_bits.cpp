@@ -9,7 +9,7 @@
 namespace pmdsim {
 namespace {
 
-std::size_t words_a_sample(const DiodeGroups &groups) { return (groups.diode_count + 31) / 32; }
+std::size_t words_a_sample(const SourceGroups &groups) { return (groups.diode_count + 31) / 32; }
 
 vk::DeviceSize bytes_of(const SourceWindow &window, const shader::Strip &strip) {
   return vk::DeviceSize{window.bundles} * sample_count(strip) * sizeof(std::uint32_t);
@@ -32,12 +32,12 @@ void set_bits(std::uint32_t bundle, std::span<const SourcePosition> places, std:
 
 } // namespace
 
-std::vector<std::uint32_t> none_reached(const Sensor &sensor, const DiodeGroups &groups) {
+std::vector<std::uint32_t> none_reached(const Sensor &sensor, const SourceGroups &groups) {
   return std::vector<std::uint32_t>(sensor.pixel_count() * sensor.samples * sensor.samples *
                                     words_a_sample(groups));
 }
 
-void all_reached(const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
+void all_reached(const SourceGroups &groups, std::vector<std::uint32_t> &to) {
   const std::size_t words = words_a_sample(groups);
   const std::uint32_t last = groups.diode_count % 32 == 0 ? ~0u : (1u << groups.diode_count % 32) - 1u;
   for (std::size_t i = 0; i < to.size(); ++i)
@@ -56,7 +56,7 @@ void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip
 }
 
 void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
-                   const DiodeGroups &groups, std::vector<std::uint32_t> &to) {
+                   const SourceGroups &groups, std::vector<std::uint32_t> &to) {
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
   std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);

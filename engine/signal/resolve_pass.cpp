@@ -39,7 +39,7 @@ std::uint32_t frequencies_at_once(const Signal &signal, const SumScope &scope) {
 // The pass on the device.
 class Resolve {
 public:
-  Resolve(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth);
+  Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth);
 
   void record(const Recording &at) const;
 
@@ -60,7 +60,7 @@ private:
   vulkan::ComputePipeline later_;      // all the others; empty where there are none
 };
 
-Resolve::Resolve(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth)
+Resolve::Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth)
     : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.signal.frequencies()),
       at_once_(frequencies_at_once(on.signal, scope)), lit_channel_(ChannelLayout(on.signal).lit_channel()),
       diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
@@ -148,7 +148,7 @@ void Resolve::record_depths(const Recording &at, std::uint32_t first_frequency) 
 
 } // namespace
 
-Pass resolve_pass(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope, bool leaves_truth) {
+Pass resolve_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth) {
   const auto resolve = std::make_shared<const Resolve>(on, groups, scope, leaves_truth);
   return {.name = "resolve",
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |

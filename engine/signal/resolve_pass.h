@@ -7,7 +7,7 @@ namespace pmdsim {
 
 // Of the pixels that `groups` were summed for within `scope`. `leaves_truth`: to the host, which finds it in
 // records of depths (TruthOfRecords).
-Pass resolve_pass(const PassSetup &on, const DiodeGroups &groups, const SumScope &scope,
+Pass resolve_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                   bool leaves_truth = false);
 
 // The specialization constants of the resolve pass, for what resolves likewise; `first` of the frequencies.

@@ -8,7 +8,7 @@
 layout(constant_id = constant_moments) const uint moments = 4;
 layout(constant_id = constant_tones) const uint tones = 1;
 
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PreciseDiodes { PreciseDiode at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PreciseDiodes { PreciseSource at[]; };
 
 // A sample's point as the group sees it.
 struct PrecisePoint {
@@ -43,7 +43,7 @@ struct WeightAndDifference {
   Real weight, difference;
 };
 
-WeightAndDifference weight_and_difference(PrecisePoint point, PreciseDiode diode, bool reached) {
+WeightAndDifference weight_and_difference(PrecisePoint point, PreciseSource diode, bool reached) {
   Real3 twice_back = real3(diode.rounded.position.xyz, diode.position_rest.xyz);
   Real q = add(dot3(point.position, twice_back), real(diode.rounded.position.w, diode.position_rest.w));
   Real r2 = add(point.rho2, q);

@@ -16,10 +16,10 @@ const uint sums = powers > 0 ? powers : moments;
 const bool linear_known = equal_weights != 0 && powers > 2;
 
 // Of equal weights only the places are there.
-GroupDiode load_diode(uvec2 diodes, uint i) {
+GroupSource load_diode(uvec2 diodes, uint i) {
   if (equal_weights == 0)
     return Diodes(diodes).at[i];
-  GroupDiode diode;
+  GroupSource diode;
   diode.position = Vec4s(diodes).at[i];
   return diode;
 }
@@ -29,7 +29,7 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
   [[unroll]] for (uint k = 0; k < sums; ++k)
     part[k] = 0.0;
   [[unroll]] for (uint d = 0; d < diodes_per_block; ++d) {
-    GroupDiode diode = load_diode(diodes, block * diodes_per_block + d);
+    GroupSource diode = load_diode(diodes, block * diodes_per_block + d);
     bool is_reached = (reached & 1u << d) != 0u;
     vec2 factors = powers > 0 ? strength_and_detour(point, diode, is_reached) : weight_and_difference(point, diode, is_reached);
     float term = factors.x;

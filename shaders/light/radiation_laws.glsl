@@ -35,7 +35,7 @@ Real whole_power(Real x) {
 
 // cos^n = exp(n/2 * log(1 - sin^2)): near the axis, where a narrow beam's light is, the sine of the angle keeps its
 // digits and the cosine does not.
-float real_power(Point point, GroupDiode diode, float along_m, float inverse_r2) {
+float real_power(Point point, GroupSource diode, float along_m, float inverse_r2) {
   vec3 d = point.position + 0.5 * diode.position.xyz; // from the diode to the point
   vec3 across = cross(diode.axis.xyz, d);
   float sine2 = min(dot(across, across) * inverse_r2, 1.0);
@@ -107,18 +107,18 @@ struct Way {
   float off_axis;
 };
 
-Way way_from(GroupDiode diode, Point point, float along_m, float r) {
+Way way_from(GroupSource diode, Point point, float along_m, float r) {
   vec3 way = point.position + 0.5 * diode.position.xyz;
   vec3 around = cross(diode.axis.xyz, way); // which keeps its digits near the axis, where a narrow beam's light is
   return Way(way, around, r, along_m, sqrt(dot(around, around)));
 }
 
-Place theta_place(Way way, GroupDiode diode) {
+Place theta_place(Way way, GroupSource diode) {
   float theta = half_plane_angle(way.along, way.off_axis, way.r);
   return place_at((theta - diode.first_theta) * diode.theta_steps_per_rad, diode.theta_steps);
 }
 
-Place phi_place(Way way, GroupDiode diode) {
+Place phi_place(Way way, GroupSource diode) {
   float x = dot(diode.across.xyz, way.way);
   float y = -dot(diode.across.xyz, way.around); // along axis x across
   float turns = 0.159154943 * half_plane_angle(x, abs(y), way.off_axis);
@@ -126,7 +126,7 @@ Place phi_place(Way way, GroupDiode diode) {
 }
 
 // J where it is the same for all phi.
-float axial_diagram(Way way, GroupDiode diode) {
+float axial_diagram(Way way, GroupSource diode) {
   Place theta = theta_place(way, diode);
   float j = interpolated(diode.diagram, theta);
   return theta.inside ? j : 0.0;
@@ -134,7 +134,7 @@ float axial_diagram(Way way, GroupDiode diode) {
 
 // Of any kind. One that is not the same for all phi is kept at its own angles, and the even grids tell which of them lie
 // around: first that of theta, then that of phi, then a row of thetas for each phi.
-float diagram(Way way, GroupDiode diode) {
+float diagram(Way way, GroupSource diode) {
   Place theta = theta_place(way, diode), phi = phi_place(way, diode);
   bool axial = diode.row_length == 0u;
   uint of_phi = axial ? diode.diagram : diode.diagram + uint(diode.theta_steps) + 1u;
@@ -148,13 +148,13 @@ float diagram(Way way, GroupDiode diode) {
 }
 
 // The laws of which there is a form for floats only.
-float law_of_floats(Way way, GroupDiode diode) {
+float law_of_floats(Way way, GroupSource diode) {
   return pattern_model == pattern_axial ? axial_diagram(way, diode) : diagram(way, diode);
 }
 
-// J of a diode, whose law GroupDiode::order tells.
+// J of a diode, whose law GroupSource::order tells.
 
-float radiation(Point point, GroupDiode diode, float r, float inverse_r, float inverse_r2) {
+float radiation(Point point, GroupSource diode, float r, float inverse_r, float inverse_r2) {
   float along_m = dot(diode.axis.xyz, point.position) - diode.axis.w;
   if (pattern_model == pattern_power)
     return whole_power(max(0.0, along_m * inverse_r));
@@ -167,14 +167,14 @@ float radiation(Point point, GroupDiode diode, float r, float inverse_r, float i
 }
 
 #ifdef SUM_IN_REAL
-Real law_of_floats(Real3 from_reference, GroupDiode diode, Real along_m, Real r) {
+Real law_of_floats(Real3 from_reference, GroupSource diode, Real along_m, Real r) {
   Point rounded;
   rounded.position = high3(from_reference);
   return real(law_of_floats(way_from(diode, rounded, high(along_m), high(r)), diode));
 }
 
 // `from_reference`: P - G; `way`: from the diode to the point; m.
-Real radiation(Real3 from_reference, Real3 way, PreciseDiode diode, Real r, Real r2) {
+Real radiation(Real3 from_reference, Real3 way, PreciseSource diode, Real r, Real r2) {
   Real3 axis = real3(diode.rounded.axis.xyz, diode.axis_rest.xyz);
   Real along_m = add(dot3(axis, from_reference), negate(real(diode.rounded.axis.w, diode.axis_rest.w)));
   if (pattern_model == pattern_power)

@@ -31,7 +31,7 @@ struct Point {
 #include "shaders/light/radiation_laws.glsl"
 
 // w = I * J * (backscatter's cosine) / r^2 and e = r - rho, without the cancellation of a difference of two lengths.
-vec2 weight_and_difference(Point point, GroupDiode diode, bool reached) {
+vec2 weight_and_difference(Point point, GroupSource diode, bool reached) {
   float q = dot(point.position, diode.position.xyz) + diode.position.w; // r^2 - rho^2
   float r2 = point.rho * point.rho + q;
   float r = sqrt(r2);
@@ -52,7 +52,7 @@ vec2 weight_and_difference(Point point, GroupDiode diode, bool reached) {
 }
 
 // The same by powers: the weight times r^p, p the powers of 1 / r in it, and q = r^2 - rho^2.
-vec2 strength_and_detour(Point point, GroupDiode diode, bool reached) {
+vec2 strength_and_detour(Point point, GroupSource diode, bool reached) {
   float q = dot(point.position.xy, diode.position.xy) + diode.position.w;
   if (coplanar == 0)
     q += point.position.z * diode.position.z;

@@ -18,7 +18,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Le
 };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer BlockPlanes { BlockPlane at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Views { RasterView at; };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupDiode at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupSource at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRuns { LightRun at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Frequencies { Frequency at[]; };

@@ -131,7 +131,7 @@ struct RasterView {
 };
 
 // A diode, relative to the reference point of its group, camera frame.
-struct GroupDiode {
+struct GroupSource {
   vec4 position;   // -2 * position_m, |position_m|^2
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
@@ -147,8 +147,8 @@ struct GroupDiode {
 };
 
 // The same for the precise sum, with what rounding to float took.
-struct PreciseDiode {
-  GroupDiode rounded;
+struct PreciseSource {
+  GroupSource rounded;
   vec4 position_rest;
   vec4 axis_rest;
   float intensity_rest;
@@ -168,7 +168,7 @@ struct LightRun {
   float diagrams; // likewise of measured diagrams, times r^2
   float rims;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-rim_root
   float rim_root; // W = sum of weights / (I / r^2)
-  vec4 detours;   // sum of the diodes' GroupDiode::position, where they are alike (constant_equal_weights)
+  vec4 detours;   // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
   // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i) (moment_polynomials.h).
   vec4 moments_of_powers[27];
 };
@@ -276,7 +276,7 @@ struct AccumulateConstants {
   uvec2 backscatter;
   uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
   uvec2 run;      // in: LightRun
-  uvec2 diodes;   // in: the run's, GroupDiode[] or, precise, PreciseDiode[]; of alike ones (constant_equal_weights) only the
+  uvec2 diodes;   // in: the run's, GroupSource[] or, precise, PreciseSource[]; of alike ones (constant_equal_weights) only the
                   // positions, vec4[], which take a fifth of a processor's cache
   uvec2 tones;    // in: Tone[]
   uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's

@@ -8,7 +8,7 @@
 namespace pmdsim::test {
 
 // A bound from below over all that is visible, at least grazing_cosine.
-inline double least_incidence_cosine(const CameraScene &camera, const DiodeGroups &groups,
+inline double least_incidence_cosine(const CameraScene &camera, const SourceGroups &groups,
                                      const std::vector<VisibleBox> &visible) {
   const auto farthest_m = [](const VisibleBox &box) {
     return glm::length(glm::max(glm::abs(box.low_m), glm::abs(box.high_m)));

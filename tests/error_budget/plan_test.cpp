@@ -51,7 +51,7 @@ Accuracy automatic(double max_error_m) {
   return accuracy;
 }
 
-std::size_t shining(const DiodeGroups &groups) {
+std::size_t shining(const SourceGroups &groups) {
   return static_cast<std::size_t>(
       std::ranges::count_if(groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
@@ -137,9 +137,9 @@ TEST_CASE("of many diodes those that are alike stand in long runs") {
 }
 
 TEST_CASE("stand-ins shine as much as all diodes do") {
-  const auto light_of = [](const DiodeGroups &groups) {
+  const auto light_of = [](const SourceGroups &groups) {
     double sum_w_sr = 0.0;
-    for (const shader::GroupDiode &diode : groups.diodes)
+    for (const shader::GroupSource &diode : groups.diodes)
       sum_w_sr += groups.largest_intensity_w_sr * double{diode.intensity};
     return sum_w_sr;
   };

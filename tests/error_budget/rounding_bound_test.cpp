@@ -38,7 +38,7 @@ std::optional<RoundingBound> bound_of(const Light &light, const RoundingScope &s
   sensor.modulation_hz = light.modulation_hz;
   sensor.waveform = light.waveform;
   const Signal signal = signal_of(sensor, {});
-  const DiodeGroups groups =
+  const SourceGroups groups =
       group_diodes(light.illuminators, light.visible, signal.largest_wavenumber_rad_m(), scope.precision);
   SumModel model = sum_model(light.illuminators, Backscatter::constant, true);
   model.backscatter = light.backscatter;
@@ -145,7 +145,7 @@ TEST_CASE("least cosines of a wall") {
   // 45 degrees off the axis at the box's corners; from the diodes' box a little less.
   const std::vector<VisibleBox> wall{{{-2.0, 0.0, 2.0}, {2.0, 0.0, 2.0}}};
   const auto lights = diodes_at(pair, {Pattern::Kind::cosine, 1.0});
-  const DiodeGroups groups = group_diodes(lights, wall, 0.4);
+  const SourceGroups groups = group_diodes(lights, wall, 0.4);
   CHECK(least_emission_cosine(groups, wall) == Approx(2.0 / std::hypot(2.0, 2.1)));
   CameraScene camera;
   camera.triangles.push_back({{glm::dvec3{-2, 0, 2}, {2, 0, 2}, {0, 1, 2}}, 0});

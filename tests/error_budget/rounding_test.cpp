@@ -39,7 +39,7 @@ RoundingBound bound_of(const Case &of, Precision precision) {
   const std::vector<CameraIlluminator> lights = to_camera(of.lights, of.sensor);
   const Projection projection = project(camera, chip_blocks(of.sensor, one_block));
   const Signal signal = signal_of(of.sensor, {});
-  const DiodeGroups groups =
+  const SourceGroups groups =
       group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m(), precision);
   const SumModel model = sum_model(lights, of.backscatter, all_face_the_light(camera, lights));
   return rounding_bound(groups, projection.visible, model, signal,

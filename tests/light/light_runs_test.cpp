@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<VisibleBox> point_at_2m{{{0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}}};
 
-DiodeGroups pair_of(const Pattern &pattern, Precision precision) {
+SourceGroups pair_of(const Pattern &pattern, Precision precision) {
   CameraIlluminator light;
   for (const double x_m : {-0.3, 0.3}) {
     light.diodes.emplace_back().position_m = {x_m, 0.4, 0.0};
@@ -39,7 +39,7 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
   const Pattern measured{Pattern::Kind::diagram, 0.0, table};
   for (const auto &[precision, rounding] :
        {std::pair{Precision::fp32, 0x1p-24}, std::pair{Precision::fp64, 0x1p-45}}) {
-    const DiodeGroups groups = pair_of(measured, precision);
+    const SourceGroups groups = pair_of(measured, precision);
     const std::vector<shader::LightRun> runs = light_runs(groups, weights_of_100);
     REQUIRE(runs.size() == 1);
     CHECK(runs[0].intensity == 1.5f); // of 2, of which weights are parts
@@ -52,7 +52,7 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
 }
 
 TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
-  DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
+  SourceGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
   const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
   CHECK(alike.rims == 30.0f);
   CHECK(alike.rim_root == Approx(1.0 / 3.0));
@@ -65,7 +65,7 @@ TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
 
 TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") {
   for (const auto &orders : {std::vector{3.0, 3.0}, std::vector{1.0, 8.0}, std::vector{40.0, 60.0}}) {
-    DiodeGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
+    SourceGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
     for (std::size_t i = 0; i < 2; ++i)
       groups.diodes[i].order = static_cast<float>(orders[i]);
     const shader::LightRun run = light_runs(groups, counting(0.0, 1.0))[0];

@@ -72,12 +72,12 @@ TEST_CASE("a measured diagram has edges") {
 TEST_CASE("a record's number tells its law") {
   CHECK(law_of(Pattern{}).kind == Pattern::Kind::isotropic);
   for (const float order : {0.0f, 0.5f, 3.0f, 1e6f}) {
-    shader::GroupDiode diode{};
+    shader::GroupSource diode{};
     diode.order = order;
     CHECK(law_of(diode).kind == Pattern::Kind::cosine);
   }
   for (const Pattern::Kind kind : {Pattern::Kind::isotropic, Pattern::Kind::diagram}) {
-    shader::GroupDiode diode{};
+    shader::GroupSource diode{};
     diode.order = law_of(Pattern{kind}).number;
     CHECK(diode.order < 0.0f);
     CHECK(law_of(diode).kind == kind);

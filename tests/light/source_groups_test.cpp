@@ -49,9 +49,9 @@ double bundle_diagonals_m(const std::vector<glm::dvec3> &positions_m) {
 }
 
 // The diodes of a run with light, put back to where they stand in the camera frame.
-std::vector<glm::dvec3> lit_positions(const DiodeGroups &groups) {
+std::vector<glm::dvec3> lit_positions(const SourceGroups &groups) {
   std::vector<glm::dvec3> positions;
-  for (const DiodeRun &run : groups.runs)
+  for (const SourceRun &run : groups.runs)
     for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
       if (const auto &diode = groups.diodes[run.first + i]; diode.intensity > 0.0f)
         positions.push_back(run.reference_m - 0.5 * glm::dvec3(diode.position));
@@ -114,7 +114,7 @@ TEST_CASE("the remainder is within its bound over everything visible") {
       diode.position_m = 0.2 * somewhere();
     const auto groups = group_diodes(one(diodes), visible, wavenumber_rad_m);
     double largest_phase_rad = 0.0;
-    for (const DiodeRun &run : groups.runs)
+    for (const SourceRun &run : groups.runs)
       for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
         for (const VisibleBox &box : visible) {
           if (groups.diodes[run.first + i].intensity == 0.0f)
@@ -229,7 +229,7 @@ TEST_CASE("places name every diode of all illuminators once, and stand beside wh
     REQUIRE(groups.diode_count == positions_m.size());
     REQUIRE(groups.positions.size() == groups.diodes.size());
     std::vector<int> times(positions_m.size());
-    for (const DiodeRun &run : groups.runs)
+    for (const SourceRun &run : groups.runs)
       for (std::uint32_t i = run.first; i < run.first + groups.blocks_per_run * shader::diodes_per_block;
            ++i) {
         const SourcePosition &at = groups.positions[i];

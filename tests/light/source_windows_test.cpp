@@ -17,7 +17,7 @@ using namespace pmdsim::test;
 namespace {
 
 // A cloud, and a second illuminator of three diodes aside.
-DiodeGroups groups_of(int count, double reach_m, double wavenumber_rad_m) {
+SourceGroups groups_of(int count, double reach_m, double wavenumber_rad_m) {
   Random random(61);
   std::vector<CameraIlluminator> lights(2);
   for (int i = 0; i < count; ++i) {
@@ -31,12 +31,12 @@ DiodeGroups groups_of(int count, double reach_m, double wavenumber_rad_m) {
   return group_diodes(lights, {{{-0.5, -0.5, 2.0}, {0.5, 0.5, 3.0}}}, wavenumber_rad_m);
 }
 
-std::uint32_t diodes_per_run(const DiodeGroups &groups) {
+std::uint32_t diodes_per_run(const SourceGroups &groups) {
   return groups.blocks_per_run * shader::diodes_per_block;
 }
 
 // Every run in one window, in order, and no more bundles than there may be.
-void check_windows(const std::vector<SourceWindow> &windows, const DiodeGroups &groups) {
+void check_windows(const std::vector<SourceWindow> &windows, const SourceGroups &groups) {
   REQUIRE(bundles_per_run(groups) * shader::diodes_per_bundle >= diodes_per_run(groups));
   std::uint32_t next_run = 0;
   for (const SourceWindow &window : windows) {
@@ -51,7 +51,7 @@ void check_windows(const std::vector<SourceWindow> &windows, const DiodeGroups &
 }
 
 // Its bundles hold the run's diodes one after the other.
-void check_bundles_of_run(const SourceWindow &window, std::uint32_t run, const DiodeGroups &groups) {
+void check_bundles_of_run(const SourceWindow &window, std::uint32_t run, const SourceGroups &groups) {
   std::uint32_t next = groups.runs[run].first;
   for (std::uint32_t i = 0; i < bundles_per_run(groups); ++i) {
     const auto places = positions_of(window, (run - window.first_run) * bundles_per_run(groups) + i, groups);
@@ -88,7 +88,7 @@ void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const 
   }
 }
 
-void check_diodes(const SourceWindow &window, const DiodeGroups &groups, std::vector<int> &times) {
+void check_diodes(const SourceWindow &window, const SourceGroups &groups, std::vector<int> &times) {
   const WindowDiodes told = diodes_of(window, groups);
   REQUIRE(told.boxes.size() == window.bundles + 1);
   REQUIRE(told.bundles.size() == window.bundles);
@@ -107,7 +107,7 @@ TEST_CASE("windows hold whole runs and every diode once") {
   for (const int count : {1, 15, 16, 17, 240, 256, 257, 5000})
     for (const double wavenumber_factor : {1.0, 5.0, 100.0})
       for (const double reach_m : {1e-6, 0.15, 1.0}) {
-        const DiodeGroups groups = groups_of(count, reach_m, wavenumber_factor * wavenumber_20mhz_rad_m);
+        const SourceGroups groups = groups_of(count, reach_m, wavenumber_factor * wavenumber_20mhz_rad_m);
         const auto windows = plan_windows(groups);
         check_windows(windows, groups);
         std::vector<int> times(groups.diode_count);
@@ -136,7 +136,7 @@ TEST_CASE("the paper's ring is one window") {
 }
 
 TEST_CASE("without shadows one window is all runs") {
-  const DiodeGroups groups = groups_of(5000, 1.0, wavenumber_20mhz_rad_m);
+  const SourceGroups groups = groups_of(5000, 1.0, wavenumber_20mhz_rad_m);
   const SourceWindow window = all_runs(groups);
   CHECK(window.first_run == 0);
   CHECK(window.last_run == groups.runs.size());
@@ -144,7 +144,7 @@ TEST_CASE("without shadows one window is all runs") {
 }
 
 TEST_CASE("a bundle's box is not much larger than its diodes need") {
-  const DiodeGroups groups = groups_of(240, 0.15, wavenumber_20mhz_rad_m);
+  const SourceGroups groups = groups_of(240, 0.15, wavenumber_20mhz_rad_m);
   for (const SourceWindow &window : plan_windows(groups)) {
     const WindowDiodes diodes = diodes_of(window, groups);
     for (std::size_t b = 0; b < window.bundles; ++b) {

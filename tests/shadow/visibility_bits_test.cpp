@@ -8,8 +8,8 @@ using namespace pmdsim;
 
 namespace {
 
-DiodeGroups groups_of(std::uint32_t diodes) {
-  DiodeGroups groups;
+SourceGroups groups_of(std::uint32_t diodes) {
+  SourceGroups groups;
   groups.diode_count = diodes;
   return groups;
 }
