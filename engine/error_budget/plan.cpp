@@ -80,7 +80,7 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
 }
 
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                      Precision precision) {
+                       Precision precision) {
   const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     SourceGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);

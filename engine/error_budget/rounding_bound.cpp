@@ -65,7 +65,8 @@ Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &vi
   VisibleBox box;
   for (const glm::dvec3 &place_m : places_m)
     box.add(place_m);
-  const double about_middle_m = path_difference_of(0.5 * (box.low_m + box.high_m), places_m, visible).path_difference_m;
+  const double about_middle_m =
+      path_difference_of(0.5 * (box.low_m + box.high_m), places_m, visible).path_difference_m;
   const double about_lens_m = path_difference_of(glm::dvec3(0.0), places_m, visible).path_difference_m;
   const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
   result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.path_difference_m;
@@ -187,9 +188,10 @@ private:
       left_out *= phase_rad / k;
     const MomentPolynomials &powers = groups_.polynomials;
     TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
-    error.path_m = growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
-                   growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +
-                   powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
+    error.path_m =
+        growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
+        growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +
+        powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first
@@ -202,8 +204,9 @@ private:
   RoundingBound fixed(double wavenumber_rad_m) const {
     const double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
     const double distance_m =
-        groups_.phased ? ambiguity_m
-                       : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.path_difference_m);
+        groups_.phased
+            ? ambiguity_m
+            : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.path_difference_m);
     RoundingBound bound{};
     bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
@@ -241,8 +244,9 @@ private:
   // A tap sums 4 w ||x| - 1/2| - w, x in turns, |x| <= 1; z is 2 / N times the sum of N taps.
   RoundingBound of_square(double wavenumber_rad_m) const {
     RoundingBound bound = fixed(wavenumber_rad_m);
-    const double place_turns = float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
-                                                    (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
+    const double place_turns =
+        float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
+                             (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
     const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.
@@ -286,9 +290,9 @@ std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t
 
 } // namespace
 
-std::optional<RoundingBound> rounding_bound(const SourceGroups &groups, const std::vector<VisibleBox> &visible,
-                                            const SumModel &model, const Signal &signal,
-                                            const RoundingScope &scope) {
+std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
+                                            const std::vector<VisibleBox> &visible, const SumModel &model,
+                                            const Signal &signal, const RoundingScope &scope) {
   if (!std::ranges::all_of(groups.positions,
                            [](const SourcePosition &place) { return std::isfinite(place.law_error); }))
     return std::nullopt;

@@ -189,8 +189,8 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
 }
 
 std::uint32_t shining(const SourceGroups &groups) {
-  return static_cast<std::uint32_t>(
-      std::ranges::count_if(groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
 
 // What is known before the frame.

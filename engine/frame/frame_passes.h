@@ -23,7 +23,7 @@ struct FramePasses {
   Sensor sensor;
   Signal signal;
   std::vector<PlannedStrip> strips;
-  std::size_t windows;                        // of visibility bits; 1 where there are none
+  std::size_t windows;                         // of visibility bits; 1 where there are none
   std::shared_ptr<const SourceGroups> sources; // all of them
   std::unique_ptr<FrameMemory> memory;
   std::shared_ptr<IdRasterPass> raster;

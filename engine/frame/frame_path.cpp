@@ -19,9 +19,9 @@ SampleGrid grid_of(const Sensor &sensor) {
 }
 
 Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
-  return !facts.signal.by_moments()     ? Summation::per_diode
+  return !facts.signal.by_moments()      ? Summation::per_diode
          : groups.polynomials.powers > 0 ? Summation::polynomial_moments
-                                        : Summation::moments;
+                                         : Summation::moments;
 }
 
 // Within a pixel the light has to change as a known function does: paint may not, nor where beams end.

@@ -79,8 +79,8 @@ vulkan::Buffer upload_work(const PassSetup &on, const SourceGroups &groups, cons
 
 // The pass on the device.
 struct OnDevice {
-  OnDevice(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent, const ErrorBound &bound,
-           const UniformPixels &pixels, const PixelLists &lists)
+  OnDevice(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
+           const ErrorBound &bound, const UniformPixels &pixels, const PixelLists &lists)
       : slope(half_sample_slope(on.sensor)), chip(upload_chip(on.device, on.sensor)),
         diodes(upload_diodes(on.device, groups, {})), diagrams(vulkan::upload(on.device, groups.diagrams)),
         light(upload_light(on, groups, extent, bound, pixels.sums, diagrams)),

@@ -52,7 +52,8 @@ void set_rims(const SourceGroups &groups, std::size_t first, std::size_t last, c
 
 } // namespace
 
-vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups, const SumScope &scope) {
+vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups,
+                             const SumScope &scope) {
   if (scope.precision == Precision::fp64)
     return vulkan::upload(device, groups.precise_diodes);
   if (!sums_equal_weights(groups, scope))
@@ -127,8 +128,8 @@ public:
   }
 
 private:
-  vulkan::ComputePipeline make_pipeline(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
-                                        bool first) const;
+  vulkan::ComputePipeline make_pipeline(const PassSetup &on, const SourceGroups &groups,
+                                        const SumScope &scope, bool first) const;
   void record_run(const Recording &at, std::uint32_t run) const;
   void record_run_of_depths(const Recording &at, std::uint32_t run) const;
 
@@ -229,8 +230,8 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
 
 } // namespace
 
-Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                     const SumScope &scope) {
+Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
+                     const std::vector<SourceWindow> &windows, const SumScope &scope) {
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |

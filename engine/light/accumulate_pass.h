@@ -41,8 +41,8 @@ struct SumScope {
 };
 
 // `windows` hold the runs of `groups`, and where `shadowed` their visibility bits.
-Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                     const SumScope &scope);
+Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
+                     const std::vector<SourceWindow> &windows, const SumScope &scope);
 
 // What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
 // bound counts as light.

@@ -99,8 +99,8 @@ struct Run {
   double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
 };
 
-Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments, std::uint32_t powers,
-             double wavenumber_rad_m) {
+Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments,
+             std::uint32_t powers, double wavenumber_rad_m) {
   Run run;
   const Interval interval = interval_of(reach);
   const double largest = std::max(std::sqrt(1.0 + interval.high) - 1.0, 1.0 - std::sqrt(1.0 + interval.low));
@@ -125,8 +125,9 @@ bool is_exact_enough(const Run &run, double phase_rad) {
 }
 
 // With the fewest powers that are exact enough.
-std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach, std::uint32_t inverse_powers,
-                                                          std::uint32_t moments, double wavenumber_rad_m) {
+std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach,
+                                                          std::uint32_t inverse_powers, std::uint32_t moments,
+                                                          double wavenumber_rad_m) {
   if (!std::isfinite(reach.most_stretch))
     return std::nullopt;
   for (std::uint32_t powers = 1; powers <= most_powers; ++powers) {
@@ -138,7 +139,8 @@ std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &
 }
 
 // W is a product of an intensity and lengths, each a range times a cosine; q = u rho^2.
-bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32_t powers, double least_intensity) {
+bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32_t powers,
+                 double least_intensity) {
   const double near_m = std::min(1.0, reach.range_m - reach.radius_m);
   const double far_m = std::max(1.0, reach.farthest_m + reach.radius_m);
   const double of_q = std::max(2.0 * (powers - 1.0), 2.0);
@@ -149,8 +151,8 @@ bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32
 
 } // namespace
 
-MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
-                     double wavenumber_rad_m, double least_intensity) {
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
+                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity) {
   if (moments > shader::largest_moments)
     return {};
   MomentPolynomials sums;

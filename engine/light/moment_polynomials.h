@@ -24,7 +24,7 @@ struct MomentPolynomials {
 
   std::uint32_t powers = 0;  // S_0 ... S_(powers - 1) are summed; 0: e and its powers, as they are
   std::vector<Table> tables; // beside the runs
-  bool coplanar = false;       // the diodes of each run lie in its reference point's plane across the view
+  bool coplanar = false;     // the diodes of each run lie in its reference point's plane across the view
   // Where no shadow falls, the diodes' weights differ by their distances only; those that pad a run have
   // none.
   bool equal_weights = false;
@@ -37,7 +37,7 @@ struct MomentPolynomials {
 // `reaches` are the runs'; `moments` and wavenumber_rad_m as in SourceGroups, `least_intensity` that of a
 // diode that shines, relative. None where the polynomials would be longer than is worth it, or where W could
 // leave float's range.
-MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers, std::uint32_t moments,
-                     double wavenumber_rad_m, double least_intensity);
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
+                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity);
 
 } // namespace pmdsim

@@ -50,7 +50,8 @@ double path_difference_at_most_m(double radius_m, double product_m2, double rho_
 }
 
 // q / rho^2; r is between rho - |I| and rho + |I|.
-void widen_stretch(double radius_m, double least_m2, double product_m2, double rho_m, PathDifference &result) {
+void widen_stretch(double radius_m, double least_m2, double product_m2, double rho_m,
+                   PathDifference &result) {
   const double rho2 = rho_m * rho_m, t = radius_m / rho_m;
   if (!(t < 1.0)) {
     result.most_stretch = std::numeric_limits<double>::infinity();
@@ -64,7 +65,7 @@ void widen_stretch(double radius_m, double least_m2, double product_m2, double r
 } // namespace
 
 PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
-                 const std::vector<VisibleBox> &visible) {
+                                  const std::vector<VisibleBox> &visible) {
   PathDifference result;
   Reach reach;
   for (const glm::dvec3 &diode_m : diodes_m) {
@@ -78,7 +79,8 @@ PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const
     const double product_m2 = largest_product(farthest_m, reach);
     result.range_m = std::min(result.range_m, rho_m);
     result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
-    result.path_difference_m = std::max(result.path_difference_m, path_difference_at_most_m(result.radius_m, product_m2, rho_m));
+    result.path_difference_m =
+        std::max(result.path_difference_m, path_difference_at_most_m(result.radius_m, product_m2, rho_m));
     widen_stretch(result.radius_m, least_difference_m2(farthest_m, reach), product_m2, rho_m, result);
   }
   return result;

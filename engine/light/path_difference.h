@@ -13,7 +13,8 @@ struct PathDifference {
   double radius_m = 0.0; // of the sphere around the reference point that holds all the diodes
   double range_m =
       std::numeric_limits<double>::infinity(); // at least, from the reference point to what is visible
-  double path_difference_m = 0.0; // at most, |r_nm - rho| over the diodes and all that is visible; <= radius_m
+  double path_difference_m =
+      0.0; // at most, |r_nm - rho| over the diodes and all that is visible; <= radius_m
   // Bounds of u = r_nm^2 / rho^2 - 1, likewise; infinite where a point may be as near as the radius.
   double least_stretch = 0.0, most_stretch = 0.0;
   double farthest_m = 0.0; // at most, from the reference point to what is visible
@@ -23,6 +24,6 @@ struct PathDifference {
 
 // Camera frame.
 PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
-                 const std::vector<VisibleBox> &visible);
+                                  const std::vector<VisibleBox> &visible);
 
 } // namespace pmdsim

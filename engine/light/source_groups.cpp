@@ -65,7 +65,7 @@ shader::GroupSource dark_diode() {
 }
 
 shader::GroupSource group_diode(const Diode &diode, const glm::dvec3 &reference_m,
-                               double largest_intensity_w_sr, DiagramTables &diagrams) {
+                                double largest_intensity_w_sr, DiagramTables &diagrams) {
   const glm::dvec3 position_m = diode.position_m - reference_m;
   shader::GroupSource record = dark_diode();
   record.position = glm::vec4(-2.0 * position_m, glm::dot(position_m, position_m));
@@ -96,7 +96,7 @@ glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
 
 // What rounding to `rounded` took; nothing of a dark one.
 shader::PreciseSource precise_diode(const shader::GroupSource &rounded, const Diode &diode,
-                                   const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
+                                    const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
   shader::PreciseSource record{};
   record.rounded = rounded;
   if (rounded.intensity == 0.0f)
@@ -222,8 +222,8 @@ std::uint32_t moments_needed(double phase_rad, double remainder) {
 }
 
 SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
-                         std::uint32_t most_blocks) {
+                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                          Precision precision, std::uint32_t most_blocks) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);

@@ -30,7 +30,7 @@ struct SourceRun {
   glm::dvec3 reference_m; // camera frame
   std::uint32_t first;    // index into SourceGroups::diodes
   double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
-  PathDifference reach;           // of its group; the radius is at most half of the range to what it lights
+  PathDifference reach;   // of its group; the radius is at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.
@@ -49,24 +49,26 @@ struct SourceGroups {
   std::vector<SourceRun> runs;
   std::vector<shader::GroupSource> diodes;
   std::vector<shader::PreciseSource> precise_diodes; // the same; only for fp64
-  std::vector<SourcePosition> positions;                   // beside `diodes`; those that stand together lie together
-  std::vector<glm::vec2> diagrams;                  // the values of all, each with the next theta's
-  std::uint32_t diode_count = 0;                    // without the dark ones
-  double path_difference_m = 0.0; // at most, of any group: |r_nm - rho| over its diodes and all that is visible
+  std::vector<SourcePosition> positions; // beside `diodes`; those that stand together lie together
+  std::vector<glm::vec2> diagrams;       // the values of all, each with the next theta's
+  std::uint32_t diode_count = 0;         // without the dark ones
+  double path_difference_m =
+      0.0;               // at most, of any group: |r_nm - rho| over its diodes and all that is visible
   double radius_m = 0.0; // of the largest group
   double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
-  MomentPolynomials polynomials;           // what the moments are summed by, run by run
+  MomentPolynomials polynomials;  // what the moments are summed by, run by run
 };
 
-// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike (MomentPolynomials),
-// which take little of it.
+// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike
+// (MomentPolynomials), which take little of it.
 constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
 // that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
 SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                         const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                         Precision precision = Precision::fp32, std::uint32_t most_blocks = usual_run_blocks);
+                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                          Precision precision = Precision::fp32,
+                          std::uint32_t most_blocks = usual_run_blocks);
 
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);

@@ -79,7 +79,7 @@ std::vector<SourceWindow> plan_windows(const SourceGroups &groups) {
 }
 
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
-                                      const SourceGroups &groups) {
+                                             const SourceGroups &groups) {
   const std::uint32_t run = window.first_run + bundle / bundles_per_run(groups);
   const std::uint32_t within = bundle % bundles_per_run(groups) * shader::diodes_per_bundle;
   const std::uint32_t left = groups.blocks_per_run * shader::diodes_per_block - within;

@@ -25,7 +25,7 @@ std::vector<SourceWindow> plan_windows(const SourceGroups &groups);
 
 // The places of a bundle's diodes.
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
-                                      const SourceGroups &groups);
+                                             const SourceGroups &groups);
 
 // What the shaders know of a window's diodes.
 struct WindowDiodes {

@@ -43,7 +43,7 @@ double least_intensity(const SourceGroups &groups) {
 } // namespace
 
 void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
-                   const PathForms &allowed) {
+                        const PathForms &allowed) {
   std::vector<PathDifference> reaches;
   for (const SourceRun &run : groups.runs)
     reaches.push_back(run.reach);

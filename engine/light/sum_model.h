@@ -33,7 +33,7 @@ std::optional<std::uint32_t> inverse_powers(const SumModel &model);
 // Has the moments of `groups` summed by powers where the model allows and it is worth it
 // (moment_polynomials.h).
 void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
-                   const PathForms &allowed = {});
+                        const PathForms &allowed = {});
 
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);

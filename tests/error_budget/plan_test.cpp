@@ -52,8 +52,8 @@ Accuracy automatic(double max_error_m) {
 }
 
 std::size_t shining(const SourceGroups &groups) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
 
 void check_refused(const PlannedSetup &setup, const Accuracy &accuracy) {

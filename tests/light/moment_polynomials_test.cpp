@@ -47,7 +47,8 @@ double direct(const Light &light, const glm::dvec3 &point_m, std::uint32_t p, st
   return moment / weights;
 }
 
-double by_powers(const MomentPolynomials &sums, const Light &light, const glm::dvec3 &point_m, std::uint32_t k) {
+double by_powers(const MomentPolynomials &sums, const Light &light, const glm::dvec3 &point_m,
+                 std::uint32_t k) {
   const double rho2 = glm::dot(point_m, point_m);
   const auto moment = [&](std::uint32_t of) {
     double sum = 0.0;
@@ -62,7 +63,8 @@ double by_powers(const MomentPolynomials &sums, const Light &light, const glm::d
   return moment(k) / moment(0);
 }
 
-MomentPolynomials sums_of(const Light &light, std::uint32_t p, double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
+MomentPolynomials sums_of(const Light &light, std::uint32_t p,
+                          double wavenumber_rad_m = wavenumber_20mhz_rad_m) {
   const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
   return fit_polynomials(reaches, p, moments, wavenumber_rad_m, 1.0);
 }
@@ -109,7 +111,7 @@ TEST_CASE("A diode in its own reference point beside a ring takes as many powers
   const Light ring = ring_before_a_wall(0.166, 2.0);
   const std::vector<glm::dvec3> alone_m{glm::dvec3(0.0)};
   const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), ring.diodes_m, {ring.box}),
-                                    path_difference_of(glm::dvec3(0.0), alone_m, {ring.box})};
+                                            path_difference_of(glm::dvec3(0.0), alone_m, {ring.box})};
   const MomentPolynomials sums = fit_polynomials(reaches, 2, moments, wavenumber_20mhz_rad_m, 1.0);
   REQUIRE(sums.tables.size() == 2);
   CHECK(sums.powers > 1);

@@ -122,7 +122,8 @@ TEST_CASE("the remainder is within its bound over everything visible") {
           const glm::dvec3 diode_m =
               run.reference_m - 0.5 * glm::dvec3(groups.diodes[run.first + i].position);
           const glm::dvec3 point_m = glm::mix(box.low_m, box.high_m, 0.5 + 0.5 * somewhere());
-          const double path_difference_m = glm::distance(point_m, diode_m) - glm::distance(point_m, run.reference_m);
+          const double path_difference_m =
+              glm::distance(point_m, diode_m) - glm::distance(point_m, run.reference_m);
           largest_phase_rad = std::max(largest_phase_rad, wavenumber_rad_m * std::abs(path_difference_m));
         }
     CHECK(largest_phase_rad <= 0.5);
