@@ -31,9 +31,9 @@ void Frame::finish_visibility(Measurement &measurement) const {
     measurement.lit.resize(measurement.coverage.size());
     std::ranges::transform(measurement.coverage, measurement.lit.begin(),
                            [](float coverage) { return coverage > 0.0f ? 1.0f : 0.0f; });
-    all_reached(*on_.sources, measurement.sample_reached);
+    full_visibility(*on_.sources, measurement.sample_visibility);
   }
-  if (!measurement.sample_reached.empty())
+  if (!measurement.sample_visibility.empty())
     clear_unseen(measurement);
 }
 
@@ -58,8 +58,8 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
   const bool shaded = shadows_ == Shadows::automatic;
   if (!shaded)
     measurement.lit.clear();
-  else if (options_.keep_reached)
-    measurement.sample_reached = none_reached(on_.sensor, *on_.sources);
+  else if (options_.keep_visibility)
+    measurement.sample_visibility = no_visibility(on_.sensor, *on_.sources);
   if (on_.signal.keeps_terms)
     clear_violations(recorder);
   for (std::size_t i = 0; i < on_.strips.size(); ++i) {

@@ -65,7 +65,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Signal &signal = facts.signal;
-  return {.host_reads_tags = path.host_reads_truth || options.keep_sample_tags || options.keep_reached,
+  return {.host_reads_tags = path.host_reads_truth || options.keep_sample_tags || options.keep_visibility,
           .tag_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
@@ -108,18 +108,18 @@ Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &s
 }
 
 // The bits for the host.
-Pass reached_pass(const Basis &on, const std::vector<SourceWindow> &windows,
+Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> &windows,
                   const std::shared_ptr<const SourceGroups> &sources) {
   return {.name = "read_back",
           .reads = visibility_bits,
           .writes = no_resource,
           .record =
               [=, &buffers = on.memory.buffers](const Recording &at) {
-                record_reached(at.commands, at.of_strip(), buffers, windows[at.window]);
+                record_visibility(at.commands, at.of_strip(), buffers, windows[at.window]);
               },
           .store =
               [=, &buffers = on.memory.buffers](const Recording &at, Measurement &to) {
-                store_reached(at.of_strip(), buffers, windows[at.window], *sources, to.sample_reached);
+                store_visibility(at.of_strip(), buffers, windows[at.window], *sources, to.sample_visibility);
               }};
 }
 
@@ -227,8 +227,8 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   list_view(on, raster, graph);
   if (shadow)
     graph.add_to_window(shadow_pass(on, shadow, true));
-  if (shadow && options.keep_reached)
-    graph.add_to_window(reached_pass(on, windows, sources));
+  if (shadow && options.keep_visibility)
+    graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   list_class(on, PixelsOf::all, windows, nullptr, graph);
   if (path.is_sorted()) {
     const auto lists = std::make_shared<const PixelLists>(device, strips);

@@ -198,7 +198,7 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
         diodes_.words(runs_[run].first * diode_bytes_),
         tones_.words(d * sizeof(shader::Tone)),
         diagrams_.words(),
-        buffers_.reached.words(bundle * plane * sizeof(std::uint32_t)),
+        buffers_.visibility.words(bundle * plane * sizeof(std::uint32_t)),
         buffers_.terms.words(),
         address_of(list_),
         blocks_per_run_,

@@ -42,7 +42,7 @@ struct Measurement {
   std::vector<std::uint32_t> sample_pixel_id;
   // Which diodes reach it, Shadows::automatic only: ceil(diodes / 32) words a sample, diode m (counted
   // through all illuminators) in bit m % 32 of word m / 32.
-  std::vector<std::uint32_t> sample_reached;
+  std::vector<std::uint32_t> sample_visibility;
 
   AccuracyReport accuracy;
   double frame_ms = 0.0;        // first pass to results in host memory, by the clock

@@ -63,8 +63,8 @@ public:
                      glm::length(sensor.world_from_camera.translation_m),
                      std::bind_front(is_there, std::cref(scene)));
     frame_.lit = frame_.coverage; // 0
-    if (options.keep_reached)
-      frame_.sample_reached.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);
+    if (options.keep_visibility)
+      frame_.sample_visibility.assign(frame_.sample_triangle_id.size() * every_diode_.words().size(), 0);
   }
 
   std::uint32_t rows() const { return frame_.resolution.y; }
@@ -122,18 +122,18 @@ private:
     sums.z_m.add(point.position_m.z);
     const DiodeSet reached = shadows_ ? shadows_->reached(point, hit->id) : every_diode_;
     sums.reached += reached.count();
-    keep_reached(index, reached);
+    keep_visibility(index, reached);
     const auto paths = light_paths(point, lights_, reached, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);
   }
 
-  void keep_reached(std::size_t sample, const DiodeSet &reached) {
-    if (frame_.sample_reached.empty())
+  void keep_visibility(std::size_t sample, const DiodeSet &reached) {
+    if (frame_.sample_visibility.empty())
       return;
     const auto &words = reached.words();
     const auto first = static_cast<std::ptrdiff_t>(sample * words.size());
-    std::copy(words.begin(), words.end(), frame_.sample_reached.begin() + first);
+    std::copy(words.begin(), words.end(), frame_.sample_visibility.begin() + first);
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {

@@ -33,13 +33,13 @@ struct Frame {
   std::vector<double> lit;                           // as in Measurement
   std::vector<std::uint32_t> triangle_id, object_id; // a disc's id is as Scene::surface_of takes it
   std::vector<std::uint32_t> sample_triangle_id;     // (S*rows) x (S*columns)
-  std::vector<std::uint32_t> sample_reached;         // as in Measurement, only filled on request
+  std::vector<std::uint32_t> sample_visibility;         // as in Measurement, only filled on request
   double frame_ms = 0.0;
 };
 
 struct Options {
   Shadows shadows = Shadows::off;
-  bool keep_reached = false; // fill Frame::sample_reached
+  bool keep_visibility = false; // fill Frame::sample_visibility
   // Only these, row * columns + column, in this order, as a frame of one column; all where there are none.
   std::vector<std::uint32_t> pixels{};
 };

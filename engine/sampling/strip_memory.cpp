@@ -49,7 +49,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize violation_bytes = layout.keeps_terms ? sizeof(shader::BudgetViolations) : 0;
-  const vk::DeviceSize reached_bytes = lit_bytes * layout.visibility_words;
+  const vk::DeviceSize visibility_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;
   B made;
   made.fragments = storage(&B::fragments, fragments * sizeof(shader::uvec2), Usage::eTransferDst);
@@ -57,7 +57,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.position = storage(&B::position, samples * layout.position_bytes);
   made.surface = storage(&B::surface, samples * layout.surface_vectors * sizeof(shader::vec4));
   made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
-  made.reached = storage(&B::reached, reached_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.visibility = storage(&B::visibility, visibility_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.lit = storage(&B::lit, lit_bytes);
   made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
   made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
@@ -66,7 +66,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
   made.violations_read = read(&B::violations_read, violation_bytes);
   made.tags_read = read(&B::tags_read, layout.host_reads_tags && !made.tags.is_mapped() ? tag_bytes : 0);
-  made.reached_read = read(&B::reached_read, options.keep_reached ? reached_bytes : 0);
+  made.visibility_read = read(&B::visibility_read, options.keep_visibility ? visibility_bytes : 0);
   made.tag_bytes = layout.tag_bytes;
   return made;
 }

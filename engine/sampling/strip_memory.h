@@ -20,7 +20,7 @@ struct StripBuffers {
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer
-      reached;          // a window's bundles (source_windows.h), a word a sample each; empty without shadows
+      visibility;          // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
   vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
@@ -29,7 +29,7 @@ struct StripBuffers {
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
   vulkan::Buffer tags_read;    // empty where `tags` is mapped itself, or the host has no use for them
-  vulkan::Buffer reached_read; // empty unless the samples' diodes are asked for
+  vulkan::Buffer visibility_read; // empty unless the samples' diodes are asked for
   std::size_t tag_bytes = 0;   // a sample, of `tags`
 };
 

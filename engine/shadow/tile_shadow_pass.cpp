@@ -123,7 +123,7 @@ void TileShadowPass::record(const vk::raii::CommandBuffer &commands, const shade
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
   const vk::DeviceSize words_bytes =
       vk::DeviceSize{windows_[window].bundles} * sample_count(strip) * sizeof(std::uint32_t);
-  commands.fillBuffer(buffers.reached.get(), 0, words_bytes, ~0u);
+  commands.fillBuffer(buffers.visibility.get(), 0, words_bytes, ~0u);
   const shader::LitWork work = no_work();
   commands.updateBuffer<shader::LitWork>(work_.get(), 0, work);
   const vk::DeviceSize list_bytes = vk::DeviceSize{parts_of(strip)} * sizeof(std::uint32_t);
@@ -171,7 +171,7 @@ void TileShadowPass::record_decide(const vk::raii::CommandBuffer &commands, cons
       diodes_[window].bundles.words(bundle * sizeof(shader::BundleDiodes)),
       work_.words(),
       candidates_.words(),
-      buffers.reached.words(vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
+      buffers.visibility.words(vk::DeviceSize{bundle} * sample_count(strip) * sizeof(std::uint32_t)),
       bundle,
       parts_of(strip),
       slots_,
@@ -193,7 +193,7 @@ void TileShadowPass::record_count(const vk::raii::CommandBuffer &commands, const
                                   const StripBuffers &buffers, std::size_t window) const {
   vulkan::compute_barrier(commands);
   const std::uint32_t plane = sample_count(strip);
-  const shader::LitCountConstants constants{buffers.reached.words(), diodes_[window].bits.words(),
+  const shader::LitCountConstants constants{buffers.visibility.words(), diodes_[window].bits.words(),
                                             buffers.lit.words(), plane};
   pipelines_.counts[window].dispatch(commands, constants, plane, shader::workgroup_size);
 }

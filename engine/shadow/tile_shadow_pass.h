@@ -33,7 +33,7 @@ public:
   // Cuts the strip into tiles, once for all windows.
   void record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     const StripBuffers &buffers) const;
-  // Leaves the window's bits in buffers.reached and adds its diodes to buffers.lit.
+  // Leaves the window's bits in buffers.visibility and adds its diodes to buffers.lit.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
               const StripBuffers &buffers, std::size_t window) const;
 

@@ -32,33 +32,33 @@ void set_bits(std::uint32_t bundle, std::span<const SourcePosition> places, std:
 
 } // namespace
 
-std::vector<std::uint32_t> none_reached(const Sensor &sensor, const SourceGroups &groups) {
+std::vector<std::uint32_t> no_visibility(const Sensor &sensor, const SourceGroups &groups) {
   return std::vector<std::uint32_t>(sensor.pixel_count() * sensor.samples * sensor.samples *
                                     words_a_sample(groups));
 }
 
-void all_reached(const SourceGroups &groups, std::vector<std::uint32_t> &to) {
+void full_visibility(const SourceGroups &groups, std::vector<std::uint32_t> &to) {
   const std::size_t words = words_a_sample(groups);
   const std::uint32_t last = groups.diode_count % 32 == 0 ? ~0u : (1u << groups.diode_count % 32) - 1u;
   for (std::size_t i = 0; i < to.size(); ++i)
     to[i] = i % words + 1 == words ? last : ~0u;
 }
 
-void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void record_visibility(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     const StripBuffers &buffers, const SourceWindow &window) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
-  commands.copyBuffer(buffers.reached.get(), buffers.reached_read.get(),
+  commands.copyBuffer(buffers.visibility.get(), buffers.visibility_read.get(),
                       vk::BufferCopy(0, 0, bytes_of(window, strip)));
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
+void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
                    const SourceGroups &groups, std::vector<std::uint32_t> &to) {
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
-  std::memcpy(bits.data(), buffers.reached_read.mapped().data(), bytes_of(window, strip));
+  std::memcpy(bits.data(), buffers.visibility_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);
   for (std::uint32_t subsample = 0; subsample < strip.samples * strip.samples; ++subsample)
     for (std::uint32_t pixel = 0; pixel < strip.columns * strip.rows; ++pixel) {
@@ -70,10 +70,10 @@ void store_reached(const shader::Strip &strip, const StripBuffers &buffers, cons
 }
 
 void clear_unseen(Measurement &measurement) {
-  const std::size_t words = measurement.sample_reached.size() / measurement.sample_pixel_id.size();
+  const std::size_t words = measurement.sample_visibility.size() / measurement.sample_pixel_id.size();
   for (std::size_t i = 0; i < measurement.sample_pixel_id.size(); ++i)
     if (measurement.sample_pixel_id[i] == 0)
-      std::fill_n(measurement.sample_reached.begin() + static_cast<std::ptrdiff_t>(i * words), words, 0u);
+      std::fill_n(measurement.sample_visibility.begin() + static_cast<std::ptrdiff_t>(i * words), words, 0u);
 }
 
 } // namespace pmdsim

@@ -10,17 +10,17 @@
 namespace pmdsim {
 
 // Every bit 0.
-std::vector<std::uint32_t> none_reached(const Sensor &sensor, const SourceGroups &groups);
+std::vector<std::uint32_t> no_visibility(const Sensor &sensor, const SourceGroups &groups);
 
 // Sets the bits of all diodes of all samples in `to`, where there are any.
-void all_reached(const SourceGroups &groups, std::vector<std::uint32_t> &to);
+void full_visibility(const SourceGroups &groups, std::vector<std::uint32_t> &to);
 
 // Copies a window's bits to memory that the host can read.
-void record_reached(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+void record_visibility(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     const StripBuffers &buffers, const SourceWindow &window);
 
 // Once that is done: sets the bits of the window's diodes in `to`, those of samples that see nothing as well.
-void store_reached(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
+void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
                    const SourceGroups &groups, std::vector<std::uint32_t> &to);
 
 // Where the sample sees nothing (sample_pixel_id is 0) nothing is reached.

@@ -178,10 +178,10 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
     if (layout.holds(of.row)) // what else there is, the host fills or clears
       values.resize(pixels);
   });
-  const bool keeps_tags = options.keep_sample_tags || options.keep_reached;
+  const bool keeps_tags = options.keep_sample_tags || options.keep_visibility;
   for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
     ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
-  measurement.sample_reached.clear();
+  measurement.sample_visibility.clear();
   return measurement;
 }
 

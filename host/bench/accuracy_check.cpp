@@ -45,18 +45,18 @@ std::size_t diodes_apart(const Measurement &found, const reference::Frame &truth
                          std::size_t words) {
   std::size_t apart = 0;
   for (std::size_t i = sample * words; i < (sample + 1) * words; ++i)
-    apart += static_cast<std::size_t>(std::popcount(found.sample_reached[i] ^ truth.sample_reached[i]));
+    apart += static_cast<std::size_t>(std::popcount(found.sample_visibility[i] ^ truth.sample_visibility[i]));
   return apart;
 }
 
 SampleDifferences differences(const Measurement &found, const reference::Frame &truth, const Sensor &sensor,
                               std::size_t diodes) {
   if (found.sample_triangle_id.size() != truth.sample_triangle_id.size() ||
-      found.sample_reached.size() != truth.sample_reached.size())
+      found.sample_visibility.size() != truth.sample_visibility.size())
     throw Error(ExitCode::internal, "the device and the reference do not tell of the same samples");
   const std::vector<bool> none(sensor.pixel_count(), false);
   SampleDifferences result{none, none};
-  const std::size_t words = truth.sample_reached.size() / truth.sample_triangle_id.size();
+  const std::size_t words = truth.sample_visibility.size() / truth.sample_triangle_id.size();
   const std::size_t columns = std::size_t{sensor.resolution.x} * sensor.samples;
   for (std::size_t sample = 0; sample < truth.sample_triangle_id.size(); ++sample) {
     const std::size_t pixel =
@@ -168,7 +168,7 @@ std::vector<ReferenceFrame> reference_frames(const Setup &setup) {
     bar.begin("measuring the reference", 1.0);
     frames.push_back({sensor, reference::simulate(scene, sensor, illuminators, setup.backscatter,
                                                   {.shadows = setup.shadows,
-                                                   .keep_reached = setup.shadows == Shadows::automatic},
+                                                   .keep_visibility = setup.shadows == Shadows::automatic},
                                                   interruptible_progress(bar))});
   }
   return frames;

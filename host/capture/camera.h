@@ -9,7 +9,7 @@ namespace pmdsim {
 // What a measurement shall hold beside its other channels.
 struct Extras {
   bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
-  bool reached = false;          // Measurement::sample_reached, not from the reference
+  bool reached = false;          // Measurement::sample_visibility, not from the reference
   bool taps = false;             // Return::taps
 };
 

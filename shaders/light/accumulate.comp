@@ -7,7 +7,7 @@
 #include "shaders/light/accumulate_depths.glsl"
 #else
 #include "shaders/light/accumulate.glsl"
-#define REACHED_OF_BLOCK(i, block) reached_of_block(i, block)
+#define VISIBILITY_OF_BLOCK(i, block) visibility_of_block(i, block)
 #endif
 #include "shaders/light/moments.glsl"
 

@@ -22,11 +22,11 @@ uint sample_of_invocation() {
 }
 
 // Of the block's diodes, those that reach sample i, a bit each.
-uint reached_of_block(uint i, uint block) {
+uint visibility_of_block(uint i, uint block) {
   if (shadowed == 0)
     return 0u;
   uint first = block * diodes_per_block;
-  return Words(constants.reached).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
+  return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
 ReferencePath load_point(uint i, LightRun run, out Point point) {

@@ -61,10 +61,10 @@ void main() {
   Diodes diodes = Diodes(constants.diodes);
   if (straight != 0) {
     [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
-      add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+      add_block(total, point, phases, tone, diodes, block, visibility_of_block(i, block));
   } else {
     for (uint block = 0; block < constants.blocks; ++block)
-      add_block(total, point, phases, tone, diodes, block, reached_of_block(i, block));
+      add_block(total, point, phases, tone, diodes, block, visibility_of_block(i, block));
   }
 
   float backscatter = load_backscatter(i);

@@ -116,10 +116,10 @@ void main() {
   PreciseDiodes diodes = PreciseDiodes(constants.diodes);
   if (straight != 0) {
     [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
-      add_block(total, point, diodes, block, reached_of_block(i, block));
+      add_block(total, point, diodes, block, visibility_of_block(i, block));
   } else {
     for (uint block = 0; block < constants.blocks; ++block)
-      add_block(total, point, diodes, block, reached_of_block(i, block));
+      add_block(total, point, diodes, block, visibility_of_block(i, block));
   }
 
   Real detour = add(path.rho, negate(path.range));

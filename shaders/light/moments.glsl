@@ -70,8 +70,8 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
 }
 
 // Of the diodes of a run's block, counted from the run's first, those that reach sample i, a bit each; only asked where `shadowed`.
-#ifndef REACHED_OF_BLOCK
-#define REACHED_OF_BLOCK(i, block) 0u
+#ifndef VISIBILITY_OF_BLOCK
+#define VISIBILITY_OF_BLOCK(i, block) 0u
 #endif
 
 // Adds a block to a stretch, and the stretch, where it ends, to the run's sums.
@@ -93,10 +93,10 @@ void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint b
     total[k] = stretch[k] = 0.0;
   if (straight != 0) {
     [[unroll]] for (uint block = 0; block < blocks_per_run; ++block)
-      add_block_of_run(total, stretch, point, diodes, first, block, REACHED_OF_BLOCK(i, block));
+      add_block_of_run(total, stretch, point, diodes, first, block, VISIBILITY_OF_BLOCK(i, block));
   } else {
     for (uint block = 0; block < blocks; ++block)
-      add_block_of_run(total, stretch, point, diodes, first, block, REACHED_OF_BLOCK(i, block));
+      add_block_of_run(total, stretch, point, diodes, first, block, VISIBILITY_OF_BLOCK(i, block));
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] += stretch[k];

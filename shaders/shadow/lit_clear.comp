@@ -50,7 +50,7 @@ void main() {
   uint reached = 0u;
   [[unroll]] for (uint d = 0; d < diodes_per_bundle; ++d)
     reached |= affine_at(at.surface, diodes[d], false) > 0.0 ? 1u << d : 0u;
-  Words(constants.reached).at[at.i] = reached;
+  Words(constants.visibility).at[at.i] = reached;
   if (reached == 0u || !is_blocked_perhaps(LitScenes(constants.scene).at, at.point, frame, extent))
     return;
   if (part < constants.slots)

@@ -15,7 +15,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   uint count = 0u;
   [[unroll]] for (uint bundle = 0; bundle < bundles; ++bundle)
-    count += bitCount(Words(constants.reached).at[bundle * constants.plane + i] & Words(constants.diodes).at[bundle]);
+    count += bitCount(Words(constants.visibility).at[bundle * constants.plane + i] & Words(constants.diodes).at[bundle]);
   Words lit = Words(constants.lit);
   lit.at[i] = is_first != 0 ? count : lit.at[i] + count;
 }

@@ -121,7 +121,7 @@ struct LitDecideConstants {
   uvec2 diodes;     // in: BundleDiodes
   uvec2 work;       // in, trace: and out
   uvec2 candidates; // in, try
-  uvec2 reached;    // in and out: the bundle's word of each sample
+  uvec2 visibility;    // in and out: the bundle's word of each sample
   uint bundle;      // of the window
   uint part_count;
   uint slots;                 // clear, trace: parts that `candidates` has room for
@@ -129,7 +129,7 @@ struct LitDecideConstants {
 };
 
 struct LitCountConstants {
-  uvec2 reached;
+  uvec2 visibility;
   uvec2 diodes; // in: for each bundle the bits of its diodes
   uvec2 lit;    // out, and but for the first window in: uint a sample, the diodes that reach it
   uint plane;   // samples

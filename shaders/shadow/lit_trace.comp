@@ -97,5 +97,5 @@ void main() {
     }
   }
   if (blocked)
-    atomicAnd(Words(constants.reached).at[at.i], ~(1u << gl_WorkGroupID.y));
+    atomicAnd(Words(constants.visibility).at[at.i], ~(1u << gl_WorkGroupID.y));
 }

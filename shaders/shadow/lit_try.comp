@@ -43,5 +43,5 @@ void main() {
 
   [[unroll]] for (uint s = 0; s < samples_per_lane; ++s)
     if (samples[s].is_there)
-      Words(constants.reached).at[samples[s].i] = ~blocked[s];
+      Words(constants.visibility).at[samples[s].i] = ~blocked[s];
 }

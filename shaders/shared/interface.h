@@ -280,7 +280,7 @@ struct AccumulateConstants {
                   // positions, vec4[], which take a fifth of a processor's cache
   uvec2 tones;    // in: Tone[]
   uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
-  uvec2 reached;  // in, where shadowed: the words of the run's bundles, bundle by bundle
+  uvec2 visibility;  // in, where shadowed: the words of the run's bundles, bundle by bundle
   uvec2 terms; // in (but for the first run) and out, where terms are kept: float[], sum of |terms| of each sample
   uvec2 list;  // in, where listed: PixelList and its pixels
   uint blocks; // blocks of diodes to sum, for the looped variant

@@ -74,10 +74,10 @@ Agreement agreement(const View &view) {
   sensor.samples = 1;
   const reference::Frame truth = reference::simulate(view.scene, sensor, view.illuminators, view.backscatter,
                                                      {Shadows::automatic, true});
-  Simulator simulator({.device = {}, .keep_reached = true});
+  Simulator simulator({.device = {}, .keep_visibility = true});
   simulator.prepare(view.scene, sensor, view.illuminators, view.backscatter, Shadows::automatic);
   const Measurement found = simulator.measure();
-  const std::size_t words = truth.sample_reached.size() / sensor.pixel_count();
+  const std::size_t words = truth.sample_visibility.size() / sensor.pixel_count();
   Agreement result;
   std::size_t reached = 0;
   for (std::size_t pixel = 0; pixel < sensor.pixel_count(); ++pixel) {
@@ -85,8 +85,8 @@ Agreement agreement(const View &view) {
       continue;
     std::size_t different = 0;
     for (std::size_t i = pixel * words; i < (pixel + 1) * words; ++i) {
-      different += static_cast<std::size_t>(std::popcount(found.sample_reached[i] ^ truth.sample_reached[i]));
-      reached += static_cast<std::size_t>(std::popcount(truth.sample_reached[i]));
+      different += static_cast<std::size_t>(std::popcount(found.sample_visibility[i] ^ truth.sample_visibility[i]));
+      reached += static_cast<std::size_t>(std::popcount(truth.sample_visibility[i]));
     }
     result.pairs += diode_count(view.illuminators);
     result.different += different;

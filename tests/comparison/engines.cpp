@@ -33,10 +33,10 @@ Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor,
                     const SimulatorOptions &options, Shadows shadows) {
   if (engine == Engine::reference) {
     const auto frame =
-        reference::simulate(scene, sensor, illuminators, backscatter, {shadows, options.keep_reached});
+        reference::simulate(scene, sensor, illuminators, backscatter, {shadows, options.keep_visibility});
     Measurement measured = reference::to_measurement(frame);
     measured.sample_triangle_id = frame.sample_triangle_id;
-    measured.sample_reached = frame.sample_reached;
+    measured.sample_visibility = frame.sample_visibility;
     return measured;
   }
   Simulator simulator = make_simulator(options);

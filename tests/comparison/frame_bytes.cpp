@@ -124,7 +124,7 @@ std::string bytes_of(const Measurement &measurement) {
        {&measurement.range_m, &measurement.z_m, &measurement.coverage, &measurement.lit})
     append(bytes, *channel);
   for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id,
-                          &measurement.sample_pixel_id, &measurement.sample_reached})
+                          &measurement.sample_pixel_id, &measurement.sample_visibility})
     append(bytes, *ids);
   return bytes;
 }
@@ -163,7 +163,7 @@ SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
   return {.device = {},
           .max_strip_samples = max_strip_samples,
           .keep_sample_tags = true,
-          .keep_reached = true,
+          .keep_visibility = true,
           .keep_taps = true};
 }
 

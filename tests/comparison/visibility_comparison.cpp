@@ -21,8 +21,8 @@ public:
         words_((diodes_ + 31) / 32), clearances_(scene, sensor, illuminators) {
     result_.differing_pixels.assign(sensor.pixel_count(), false);
     const std::size_t samples = sensor.pixel_count() * sensor.samples * sensor.samples;
-    REQUIRE(measured.sample_reached.size() == samples * words_);
-    REQUIRE(expected.sample_reached.size() == samples * words_);
+    REQUIRE(measured.sample_visibility.size() == samples * words_);
+    REQUIRE(expected.sample_visibility.size() == samples * words_);
     REQUIRE(measured.lit.size() == sensor.pixel_count());
     REQUIRE(expected.lit.size() == sensor.pixel_count());
   }
@@ -34,7 +34,7 @@ public:
       for (std::uint32_t column = 0; column < sensor_.samples; ++column) {
         const glm::uvec2 sample = pixel * sensor_.samples + glm::uvec2(column, row);
         hits += measured_.sample_triangle_id[index_of(sample)] != no_id;
-        reached += reached_count(measured_.sample_reached, sample);
+        reached += reached_count(measured_.sample_visibility, sample);
         compare_sample(sample);
       }
     const std::size_t index = std::size_t{pixel.y} * sensor_.resolution.x + pixel.x;
@@ -64,10 +64,10 @@ private:
       return;
     ++result_.samples;
     result_.pairs += diodes_;
-    result_.reached += reached_count(expected_.sample_reached, sample);
+    result_.reached += reached_count(expected_.sample_visibility, sample);
     for (std::size_t word = 0; word < words_; ++word) {
       std::uint32_t differing =
-          measured_.sample_reached[index * words_ + word] ^ expected_.sample_reached[index * words_ + word];
+          measured_.sample_visibility[index * words_ + word] ^ expected_.sample_visibility[index * words_ + word];
       for (; differing != 0; differing &= differing - 1)
         count_differing(sample, id, 32 * word + static_cast<std::size_t>(std::countr_zero(differing)));
     }

@@ -126,7 +126,7 @@ TEST_CASE("chosen pixels measure what they measure in the whole frame") {
     return reference::simulate(
         builder.scene(), sensor,
         {diode_beside_lens(sensor, diode_at({0.1, 0, 0})), monostatic_illuminator(sensor.world_from_camera)},
-        Backscatter::lambert, {.shadows = Shadows::automatic, .keep_reached = true, .pixels = pixels});
+        Backscatter::lambert, {.shadows = Shadows::automatic, .keep_visibility = true, .pixels = pixels});
   };
   const std::vector<std::uint32_t> pixels{17, 3, 4, 11, 12};
   const auto whole = measured({}), chosen = measured(pixels);
@@ -142,7 +142,7 @@ TEST_CASE("chosen pixels measure what they measure in the whole frame") {
     for (std::size_t k = 0; k < 9; ++k) {
       const std::size_t row = pixels[i] / 5 * 3 + k / 3, column = pixels[i] % 5 * 3 + k % 3;
       CHECK(chosen.sample_triangle_id[9 * i + k] == whole.sample_triangle_id[15 * row + column]);
-      CHECK(chosen.sample_reached[9 * i + k] == whole.sample_reached[15 * row + column]);
+      CHECK(chosen.sample_visibility[9 * i + k] == whole.sample_visibility[15 * row + column]);
     }
   }
 }

@@ -16,7 +16,7 @@ using reference::Frame;
 namespace {
 
 bool reaches(const Frame &frame, std::size_t sample, std::size_t words, std::size_t diode) {
-  return (frame.sample_reached[sample * words + diode / 32] >> diode % 32 & 1U) != 0;
+  return (frame.sample_visibility[sample * words + diode / 32] >> diode % 32 & 1U) != 0;
 }
 
 using Real = long double;

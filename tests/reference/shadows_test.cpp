@@ -162,7 +162,7 @@ TEST_CASE("a small plate hides the diode behind it and no other") {
   const glm::dvec3 behind_m(1, 0, 0), beside_m(0.7, 0, 0);
   const Frame both = frame_of(builder.scene(), sensor, {diodes_at(sensor, {behind_m, beside_m})});
   CHECK(both.lit[0] == 0.5);
-  CHECK(both.sample_reached == std::vector<std::uint32_t>{2});
+  CHECK(both.sample_visibility == std::vector<std::uint32_t>{2});
   CHECK(both.returns[0].distance_m[0] == Approx((2 + std::hypot(2, 0.7)) / 2).epsilon(1e-10));
 
   const Frame dark = frame_of(builder.scene(), sensor, {diodes_at(sensor, {behind_m})});
@@ -179,7 +179,7 @@ TEST_CASE("a culled face between lens and point is not seen but hides the light 
   const Sensor sensor = axial_sensor();
   const Frame frame = frame_of(builder.scene(), sensor, {diodes_at(sensor, {{0, 0, 0}, {0.5, 0, 0}})});
   CHECK(frame.object_id[0] == 0);
-  CHECK(frame.sample_reached == std::vector<std::uint32_t>{2});
+  CHECK(frame.sample_visibility == std::vector<std::uint32_t>{2});
 }
 
 TEST_CASE("what lies beyond the diode, behind the point or beside the way does not block") {
@@ -200,7 +200,7 @@ TEST_CASE("a diode behind the surface does not reach, whatever stands between") 
   const Sensor sensor = axial_sensor();
   const Frame frame =
       frame_of(wall_at(2), sensor, {diodes_at(sensor, {{0, 0, 3}, {1, 0, 2}, {1, 0, 1.999999}})});
-  CHECK(frame.sample_reached == std::vector<std::uint32_t>{4});
+  CHECK(frame.sample_visibility == std::vector<std::uint32_t>{4});
   CHECK(frame.lit[0] == 1 / 3.0);
 }
 
@@ -219,10 +219,10 @@ TEST_CASE("lit is the mean over the samples that hit, and no sample's bits are a
   CHECK(frame.lit[0] == 1);
   CHECK(frame.lit[1] == (40 + 35) / 80.0);
   const std::uint32_t all = ~0U;
-  CHECK(frame.sample_reached == std::vector<std::uint32_t>{all, 0xff, all, 0xff, all, 0xff, all, 7, //
+  CHECK(frame.sample_visibility == std::vector<std::uint32_t>{all, 0xff, all, 0xff, all, 0xff, all, 7, //
                                                            0, 0, 0, 0, 0, 0, 0, 0});
   CHECK(reference::to_measurement(frame).lit == std::vector<float>{1.0f, 75 / 80.0f});
-  CHECK(frame_of(builder.scene(), sensor, {first, second}, {Shadows::automatic}).sample_reached.empty());
+  CHECK(frame_of(builder.scene(), sensor, {first, second}, {Shadows::automatic}).sample_visibility.empty());
 }
 
 TEST_CASE("without shadows lit is empty, and where nothing blocks they change no bit") {
@@ -234,7 +234,7 @@ TEST_CASE("without shadows lit is empty, and where nothing blocks they change no
   builder.add_wall({2});
   const Frame off = frame_of(builder.scene(), sensor, {light}, {Shadows::off, true});
   CHECK(off.lit.empty());
-  CHECK(off.sample_reached.empty());
+  CHECK(off.sample_visibility.empty());
   CHECK(reference::to_measurement(off).lit.empty());
   const Frame on = frame_of(builder.scene(), sensor, {light});
   CHECK(all_lit(on));
@@ -382,7 +382,7 @@ TEST_CASE("a mask blocks where it is opaque") {
                                                    {0.6, 0.11, 0},
                                                    {0.71, 0, 0},
                                                    {0.91, 0, 0}})});
-  CHECK(frame.sample_reached == std::vector<std::uint32_t>{0b1000111});
+  CHECK(frame.sample_visibility == std::vector<std::uint32_t>{0b1000111});
 }
 
 TEST_CASE("a disc blocks what passes within its radius, its rim included") {

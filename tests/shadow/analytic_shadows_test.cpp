@@ -446,9 +446,9 @@ TEST_CASE("without shadows there is no channel lit, and nothing blocks") {
   HalfPlane{{0.3, -4, 1}, {0.3, 4, 1}}.add_to(builder);
   const Sensor sensor = wall_sensor();
   const Measurement measured = measure(engine, builder.scene(), sensor, diodes_at(sensor, {{0.5, 0, 0}}),
-                                       Backscatter::lambert, {.device = {}, .keep_reached = true});
+                                       Backscatter::lambert, {.device = {}, .keep_visibility = true});
   CHECK(measured.lit.empty());
-  CHECK(measured.sample_reached.empty());
+  CHECK(measured.sample_visibility.empty());
   for (const float amplitude : measured.returns[0].amplitude)
     REQUIRE(amplitude > 0);
 }

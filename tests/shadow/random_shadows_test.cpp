@@ -28,7 +28,7 @@ constexpr reference::Options reference_options{Shadows::automatic, true};
 SimulatorOptions options_of(const Variant &variant) {
   return {.device = {},
           .keep_sample_tags = true,
-          .keep_reached = true,
+          .keep_visibility = true,
           .precision = variant.precision,
           .loop = variant.loop};
 }
@@ -243,7 +243,7 @@ TEST_CASE("where nothing can block, shadows change no bit") {
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, Shadows::off);
   const Measurement off = simulator.measure();
   CHECK(off.lit.empty());
-  CHECK(off.sample_reached.empty());
+  CHECK(off.sample_visibility.empty());
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, Shadows::automatic);
   const Measurement automatic = simulator.measure();
   check_same_light(automatic, off);

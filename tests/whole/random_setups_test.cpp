@@ -85,9 +85,9 @@ private:
     if (id == no_id)
       return false;
     const std::size_t words = (diodes_.size() + 31) / 32;
-    for (std::size_t word = index * words; word < (index + 1) * words && !expected_.sample_reached.empty();
+    for (std::size_t word = index * words; word < (index + 1) * words && !expected_.sample_visibility.empty();
          ++word)
-      if (measured_.sample_reached[word] != expected_.sample_reached[word])
+      if (measured_.sample_visibility[word] != expected_.sample_visibility[word])
         return true;
     const SeenPlane plane = plane_of(id, setup_.scene, setup_.sensor, triangles_);
     const glm::dvec3 point_m = plane.meeting_point_m(*lens_.sample_ray(sample));
@@ -133,7 +133,7 @@ Outcome outcome_of(Simulator &simulator, const RandomSetup &setup) {
   }
   const auto expected =
       reference::simulate(setup.scene, setup.sensor, setup.illuminators, setup.backscatter,
-                          {.shadows = setup.shadows, .keep_reached = setup.shadows == Shadows::automatic});
+                          {.shadows = setup.shadows, .keep_visibility = setup.shadows == Shadows::automatic});
   const std::vector<bool> left_out = LeftOut(setup, measured, expected).pixels();
   const Comparison comparison = compare(measured, expected, setup.scene, setup.sensor, left_out);
   CHECK(comparison.disagreements == 0);
@@ -177,7 +177,7 @@ bool same_bits(const std::vector<float> &a, const std::vector<float> &b) {
 
 SimulatorOptions keeping_everything() {
   SimulatorOptions options;
-  options.keep_sample_tags = options.keep_reached = true;
+  options.keep_sample_tags = options.keep_visibility = true;
   options.loop = DiodeLoop::looped; // compiles in a fraction of the time of a straight line
   return options;
 }

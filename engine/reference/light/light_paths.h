@@ -29,7 +29,7 @@ public:
       count += static_cast<std::size_t>(std::popcount(word));
     return count;
   }
-  // As Measurement::sample_reached holds them.
+  // As Measurement::sample_visibility holds them.
   const std::vector<std::uint32_t> &words() const { return words_; }
 
 private:

@@ -55,17 +55,17 @@ struct ShadowedFrames : Frames {
     sensor.samples = 2;
     truth = reference::simulate(wall_at(2.0), sensor, {monostatic_illuminator(sensor.world_from_camera)},
                                 Backscatter::lambert);
-    truth.sample_reached.assign(2 * truth.sample_triangle_id.size(), 0xffffffffu);
-    for (std::size_t i = 1; i < truth.sample_reached.size(); i += 2)
-      truth.sample_reached[i] = 0xffu; // diodes 32 to 39
+    truth.sample_visibility.assign(2 * truth.sample_triangle_id.size(), 0xffffffffu);
+    for (std::size_t i = 1; i < truth.sample_visibility.size(); i += 2)
+      truth.sample_visibility[i] = 0xffu; // diodes 32 to 39
     found = reference::to_measurement(truth);
     found.sample_triangle_id = truth.sample_triangle_id;
-    found.sample_reached = truth.sample_reached;
+    found.sample_visibility = truth.sample_visibility;
   }
 
   // `diode` of a sample, counted through the frame, as the device sees it.
   void flip(std::size_t sample, std::size_t diode) {
-    found.sample_reached[2 * sample + diode / 32] ^= 1u << diode % 32;
+    found.sample_visibility[2 * sample + diode / 32] ^= 1u << diode % 32;
   }
 };
 
@@ -170,14 +170,14 @@ TEST_CASE("other diodes are forgiven in a thousandth of the pairs, in dark pixel
 
 TEST_CASE("in a small frame the edge of a shadow may run through a line of pixels") {
   Frames frames;
-  frames.truth.sample_reached.assign(16, 1);
-  frames.found.sample_reached = frames.truth.sample_reached;
+  frames.truth.sample_visibility.assign(16, 1);
+  frames.found.sample_visibility = frames.truth.sample_visibility;
   for (std::size_t row = 0; row < 4; ++row)
-    frames.found.sample_reached[4 * row + 1] = 0;
+    frames.found.sample_visibility[4 * row + 1] = 0;
   CHECK(frames.check().pairs_apart == 4);
   CHECK(frames.check().pixels == 12);
   CHECK(frames.failure() == "none");
-  frames.found.sample_reached[0] = 0;
+  frames.found.sample_visibility[0] = 0;
   CHECK(frames.failure().find("5 of 16 pairs") != std::string::npos);
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("which diodes reach another triangle, or nothing, is not compared") {
 
 TEST_CASE("a device that does not tell which diodes reach a sample is not compared") {
   ShadowedFrames frames;
-  frames.found.sample_reached.clear();
+  frames.found.sample_visibility.clear();
   CHECK_THROWS_WITH(frames.check(), "the device and the reference do not tell of the same samples");
 }
 

@@ -128,18 +128,18 @@ void check_shadow_counts(const std::vector<std::size_t> &counts) {
   builder.add_wall({1.2, {0.5, true}, {-0.07, -0.1}, {-0.05, 0.1}});
   for (const std::size_t count : counts) {
     const Illuminator illuminator = diodes_beside_lens(count, sensor);
-    Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_reached = true});
+    Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_visibility = true});
     simulator.prepare(builder.scene(), sensor, {illuminator}, Backscatter::lambert, Shadows::automatic);
     const Measurement measured = simulator.measure();
     const auto expected = reference::simulate(builder.scene(), sensor, {illuminator}, Backscatter::lambert,
                                               {Shadows::automatic, true});
     std::size_t differing = 0;
-    REQUIRE(measured.sample_reached.size() == expected.sample_reached.size());
-    for (std::size_t word = 0; word < expected.sample_reached.size(); ++word)
-      differing += measured.sample_reached[word] != expected.sample_reached[word];
+    REQUIRE(measured.sample_visibility.size() == expected.sample_visibility.size());
+    for (std::size_t word = 0; word < expected.sample_visibility.size(); ++word)
+      differing += measured.sample_visibility[word] != expected.sample_visibility[word];
     fmt::print("{} diodes: {} of {} words of 32 diodes differ\n", count, differing,
-               expected.sample_reached.size());
-    CHECK(static_cast<double>(differing) <= 1e-4 * static_cast<double>(expected.sample_reached.size()));
+               expected.sample_visibility.size());
+    CHECK(static_cast<double>(differing) <= 1e-4 * static_cast<double>(expected.sample_visibility.size()));
     REQUIRE(measured.sample_triangle_id == expected.sample_triangle_id);
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("64 ways past 20,000 slanting slivers and 300 plates") {
   Illuminator eight = diode_beside_lens(sensor, diode_at(beset_m));
   for (int k = 1; k < 8; ++k)
     eight.diodes.push_back(diode_at(beset_m + static_cast<double>(k) * glm::dvec3(0.02, -0.015, 0)));
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_reached = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_visibility = true});
   simulator.prepare(scene, sensor, {eight}, Backscatter::lambert, Shadows::automatic);
   const Measurement measured = simulator.measure();
   const auto expected =
@@ -186,8 +186,8 @@ TEST_CASE("64 ways past 20,000 slanting slivers and 300 plates") {
         measured.sample_triangle_id[i] > 1)
       continue; // a sliver or a plate is seen
     ++on_the_wall;
-    blocked += 8 - static_cast<std::size_t>(std::popcount(expected.sample_reached[i]));
-    CHECK(measured.sample_reached[i] == expected.sample_reached[i]);
+    blocked += 8 - static_cast<std::size_t>(std::popcount(expected.sample_visibility[i]));
+    CHECK(measured.sample_visibility[i] == expected.sample_visibility[i]);
   }
   fmt::print("64 ways past slivers: {} pixels of the wall, {} pairs blocked, frame {:.0f} ms\n", on_the_wall,
              blocked, measured.frame_ms);
