@@ -46,7 +46,7 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   scope.pixel_rad = pixel_rad(view.sensor);
   scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
-  scope.rims_are_terms = scope.emission_cosine < beam_cosine;
+  scope.beam_edges_are_terms = scope.emission_cosine < beam_cosine;
   scope.backscatter_error = painted_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.signal, scope);
 }
@@ -74,7 +74,7 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
 ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   for (const auto part : {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
                           &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
-                          &ErrorBound::terms_of_rims})
+                          &ErrorBound::terms_of_beam_edges})
     a.*part = std::max(a.*part, b.*part);
   return a;
 }
@@ -144,7 +144,7 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
   if (std::isfinite(bound.amplitude_limit))
     bound.terms_per_weight_error =
         std::max(bound.terms_per_weight_error, rounding.amplitude_per_weight / bound.amplitude_per_condition);
-  bound.terms_of_rims = bound.terms_per_weight_error * rounding.rim_error;
+  bound.terms_of_beam_edges = bound.terms_per_weight_error * rounding.beam_edge_error;
   return bound;
 }
 
@@ -169,7 +169,7 @@ struct SureBound {
 // As errors_of in shaders/signal/resolve.glsl.
 std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bound, const FramePlan &plan) {
   const auto condition = largest_condition(view, plan);
-  if (!condition || bound.terms_of_rims > 0.0)
+  if (!condition || bound.terms_of_beam_edges > 0.0)
     return std::nullopt;
   const double relative = bound.amplitude_per_condition * *condition;
   if (!(relative < 1.0))

@@ -77,7 +77,7 @@ Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &vi
 
 LawRounding law_rounding(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
   return {model.pattern, groups.radius_over_range,
-          scope.rims_are_terms ? beam_cosine : scope.emission_cosine};
+          scope.beam_edges_are_terms ? beam_cosine : scope.emission_cosine};
 }
 
 // What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and three in its
@@ -211,8 +211,8 @@ private:
     bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
-    if (scope_.rims_are_terms)
-      bound.rim_error = u_ * rim_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
+    if (scope_.beam_edges_are_terms)
+      bound.beam_edge_error = u_ * beam_edge_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
     return bound;
   }
 
@@ -303,7 +303,7 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
     using Bound = RoundingBound;
     for (const auto part :
          {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
-          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::rim_error})
+          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error})
       largest.*part = std::max(largest.*part, of_frequency.*part);
   }
   return largest;
@@ -315,7 +315,7 @@ double least_emission_cosine(const SourceGroups &groups, const std::vector<Visib
   double least = 1.0;
   for (std::size_t i = 0; i < groups.diodes.size() && least > grazing_cosine; ++i) {
     const glm::dvec3 &place_m = groups.positions[i].position_m;
-    if (groups.positions[i].number == no_id || law_of(groups.diodes[i]).rim == nullptr)
+    if (groups.positions[i].number == no_id || law_of(groups.diodes[i]).edge == nullptr)
       continue;
     for (const VisibleBox &box : boxes)
       least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));

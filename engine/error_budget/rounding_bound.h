@@ -20,9 +20,9 @@ struct RoundingBound {
   double amplitude_fixed, amplitude_per_condition;
   // Included above: what a relative error of every weight does, over that error.
   double per_weight_m, amplitude_per_weight;
-  // Not included where RoundingScope::rims_are_terms: the relative error of J, times the cosine to the
+  // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
-  double rim_error;
+  double beam_edge_error;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
@@ -44,7 +44,7 @@ struct RoundingScope {
   // matters to Lambert's law, and to its own axis.
   double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
   // What is more than 45 degrees off a diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
-  bool rims_are_terms = false;
+  bool beam_edges_are_terms = false;
   // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
   double backscatter_error = 0x1p-24;
 };

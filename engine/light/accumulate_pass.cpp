@@ -36,18 +36,18 @@ bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
   return groups.polynomials.equal_weights && !scope.shadowed;
 }
 
-// What a run's diodes at `first` to `last` - 1 come to where their beams end (rim_terms in
+// What a run's diodes at `first` to `last` - 1 come to where their beams end (beam_edge_terms in
 // shaders/light/sum.glsl).
-void set_rims(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
+void set_beam_edges(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
               shader::LightRun &record) {
   double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i)
-    if (const auto rim = beam_rim(groups.diodes[i])) {
-      steepest = std::max(steepest, rim->steepness);
-      least_power = std::min(least_power, rim->power);
+    if (const auto edge = beam_edge(groups.diodes[i])) {
+      steepest = std::max(steepest, edge->steepness);
+      least_power = std::min(least_power, edge->power);
     }
-  record.rims = static_cast<float>(bound.terms_of_rims * steepest);
-  record.rim_root = static_cast<float>(1.0 / least_power);
+  record.beam_edges = static_cast<float>(bound.terms_of_beam_edges * steepest);
+  record.beam_edge_root = static_cast<float>(1.0 / least_power);
 }
 
 } // namespace
@@ -105,7 +105,7 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
     record.detours = detours;
     record.heights = static_cast<float>(bound.terms_per_weight_error * height_rounding * rounding * size_m);
     record.diagrams = static_cast<float>(bound.terms_per_weight_error * diagrams);
-    set_rims(groups, run.first, run.first + run_diodes, bound, record);
+    set_beam_edges(groups, run.first, run.first + run_diodes, bound, record);
     if (groups.polynomials.powers > 0)
       std::ranges::copy(groups.polynomials.tables[result.size()], record.moments_of_powers);
     result.push_back(record);

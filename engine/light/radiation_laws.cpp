@@ -86,15 +86,15 @@ double cosine_rounding_u(float order, const LawRounding &sum) {
 
 // At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
 // as a step. A half-space, order 0, has no rim but an edge.
-std::optional<BeamRim> cosine_rim(float order) {
+std::optional<BeamEdge> cosine_edge(float order) {
   const auto power = static_cast<double>(order);
   if (power <= 0.0)
     return std::nullopt;
-  return BeamRim{power < 1.0 ? 54.0 : power, std::max(power, 1.0)};
+  return BeamEdge{power < 1.0 ? 54.0 : power, std::max(power, 1.0)};
 }
 
 // A power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14 / (e cos).
-double cosine_rim_rounding_u(const LawRounding &sum) {
+double cosine_edge_rounding_u(const LawRounding &sum) {
   return along_error_u(sum.radius_over_range) +
          (sum.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
 }
@@ -140,8 +140,8 @@ constexpr std::array laws{
                  .form_beside_others = shader::pattern_general,
                  .slope = cosine_slope,
                  .rounding_u = cosine_rounding_u,
-                 .rim = cosine_rim,
-                 .rim_rounding_u = cosine_rim_rounding_u,
+                 .edge = cosine_edge,
+                 .beam_edge_rounding_u = cosine_edge_rounding_u,
                  .series = [](const Pattern &cosine) { return std::optional(LawSeries{cosine.order}); }},
     RadiationLaw{.kind = Kind::diagram,
                  .number = -2.0f,
@@ -190,9 +190,9 @@ double law_error(const Pattern &pattern, DiagramTables &tables) {
   return law.error != nullptr ? law.error(pattern, tables) : 0.0;
 }
 
-std::optional<BeamRim> beam_rim(const shader::GroupSource &diode) {
+std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode) {
   const RadiationLaw &law = law_of(diode);
-  return law.rim != nullptr ? law.rim(diode.order) : std::nullopt;
+  return law.edge != nullptr ? law.edge(diode.order) : std::nullopt;
 }
 
 std::optional<LawSeries> law_series(const Pattern &pattern) {
@@ -230,8 +230,8 @@ double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRoun
                     [&](auto rounding_u, float order) { return rounding_u(order, sum); });
 }
 
-double rim_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
-  return largest_of(diodes, &RadiationLaw::rim_rounding_u,
+double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
+  return largest_of(diodes, &RadiationLaw::beam_edge_rounding_u,
                     [&](auto rounding_u, float) { return rounding_u(sum); });
 }
 

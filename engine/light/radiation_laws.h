@@ -30,8 +30,8 @@ struct LawRounding {
   double least_cosine;      // to the axis of any diode, of all that it lights
 };
 
-// How the light ends beyond 45 degrees off a diode's axis (rim_terms in shaders/light/sum.glsl).
-struct BeamRim {
+// How the light ends beyond 45 degrees off a diode's axis (beam_edge_terms in shaders/light/sum.glsl).
+struct BeamEdge {
   double steepness; // how many times its own relative error a cosine's is in J, at most
   double power;     // J falls like this power of the cosine, >= 1, or more slowly
 };
@@ -65,8 +65,8 @@ struct RadiationLaw {
   const char *unbounded = "a diode has a radiation law whose rounding has no bound";
   // Where beams have a rim: how steep it is, for GroupSource::order, nothing where it is an edge; and J's own
   // rounding there, over the order and times the cosine, u.
-  std::optional<BeamRim> (*rim)(float order) = nullptr;
-  double (*rim_rounding_u)(const LawRounding &) = nullptr;
+  std::optional<BeamEdge> (*edge)(float order) = nullptr;
+  double (*beam_edge_rounding_u)(const LawRounding &) = nullptr;
   std::optional<LawSeries> (*series)(const Pattern &) = nullptr;
 };
 
@@ -77,7 +77,7 @@ const RadiationLaw &law_of(const shader::GroupSource &diode);
 double law_error(const Pattern &pattern, DiagramTables &tables);
 
 // Of a diode's beam, and how the reduction expands its J; nothing where its law has none.
-std::optional<BeamRim> beam_rim(const shader::GroupSource &diode);
+std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode);
 std::optional<LawSeries> law_series(const Pattern &pattern);
 
 // The cheapest form that knows the laws of all diodes.
@@ -90,6 +90,6 @@ double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
 // The largest rounding of J of any diode, u, and that at the rims of beams, as in RadiationLaw; 0
 // of laws that claim none.
 double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
-double rim_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
+double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 
 } // namespace pmdsim

@@ -48,7 +48,7 @@ struct ErrorBound {
   // A diode's weight that is off by its own size is as bad as this many times its term in the condition.
   double terms_per_weight_error = 0.0;
   // Where beams may end in view: the same of what rounding does to a cosine to a diode's axis, of order 1.
-  double terms_of_rims = 0.0;
+  double terms_of_beam_edges = 0.0;
 };
 
 } // namespace pmdsim

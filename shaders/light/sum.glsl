@@ -98,11 +98,11 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
 // What rounding does to cosines to the diodes' axes beyond 45 degrees, as terms. Of cos^n it is n / cos times as much as of the
 // cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n. Where less than 1e-4
 // is left of the cosine a beam ends: an edge as any other.
-float rim_terms(float weights, float height, float inverse, LightRun run) {
+float beam_edge_terms(float weights, float height, float inverse, LightRun run) {
   float all = run.intensity * inverse * inverse; // without cosines
   if (backscatter_model == backscatter_lambert)
     all *= clamp((height + run.radius_m) * inverse, 1e-6, 1.0);
-  return run.rims * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.rim_root), 1e4);
+  return run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
 }
 
 // What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, to the
@@ -119,7 +119,7 @@ float terms_of(float weights, float rho, float height, LightRun run) {
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;
   if (pattern_model != pattern_isotropic && pattern_model != pattern_axial)
-    terms += rim_terms(weights, height, inverse, run);
+    terms += beam_edge_terms(weights, height, inverse, run);
   return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
 }
 

@@ -166,8 +166,8 @@ struct LightRun {
   float heights;  // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
                   // I / r^3, m
   float diagrams; // likewise of measured diagrams, times r^2
-  float rims;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-rim_root
-  float rim_root; // W = sum of weights / (I / r^2)
+  float beam_edges;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-beam_edge_root
+  float beam_edge_root; // W = sum of weights / (I / r^2)
   vec4 detours;   // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
   // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i) (moment_polynomials.h).
   vec4 moments_of_powers[27];

@@ -23,10 +23,10 @@ SourceGroups pair_of(const Pattern &pattern, Precision precision) {
   return group_diodes({light}, point_at_2m, 0.42, precision);
 }
 
-ErrorBound counting(double terms_per_weight_error, double terms_of_rims = 0.0) {
+ErrorBound counting(double terms_per_weight_error, double terms_of_beam_edges = 0.0) {
   ErrorBound promise{};
   promise.terms_per_weight_error = terms_per_weight_error;
-  promise.terms_of_rims = terms_of_rims;
+  promise.terms_of_beam_edges = terms_of_beam_edges;
   return promise;
 }
 
@@ -54,13 +54,13 @@ TEST_CASE("a run's intensity, and what heights and diagrams may be off by, as te
 TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
   SourceGroups groups = pair_of({Pattern::Kind::cosine, 3.0}, Precision::fp32);
   const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(alike.rims == 30.0f);
-  CHECK(alike.rim_root == Approx(1.0 / 3.0));
-  CHECK(light_runs(groups, ErrorBound{})[0].rims == 0.0f);
+  CHECK(alike.beam_edges == 30.0f);
+  CHECK(alike.beam_edge_root == Approx(1.0 / 3.0));
+  CHECK(light_runs(groups, ErrorBound{})[0].beam_edges == 0.0f);
   groups.diodes[0].order = 1.5f;
   const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
-  CHECK(mixed.rims == 30.0f);
-  CHECK(mixed.rim_root == Approx(1.0 / 1.5));
+  CHECK(mixed.beam_edges == 30.0f);
+  CHECK(mixed.beam_edge_root == Approx(1.0 / 1.5));
 }
 
 TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") {
@@ -74,8 +74,8 @@ TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") 
         const double of_first = std::pow(first, orders[0]), of_second = 0.5 * std::pow(second, orders[1]);
         const double weights = of_first + of_second;
         const double rounding = orders[0] * of_first / first + orders[1] * of_second / second;
-        const double terms = static_cast<double>(run.rims) * weights *
-                             std::pow(weights / 1.5, -static_cast<double>(run.rim_root));
+        const double terms = static_cast<double>(run.beam_edges) * weights *
+                             std::pow(weights / 1.5, -static_cast<double>(run.beam_edge_root));
         CHECK(rounding <= terms * 1.0001);
       }
   }
@@ -88,10 +88,10 @@ TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
     steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));
   const auto rims = [](double order) {
     const Pattern pattern{Pattern::Kind::cosine, order};
-    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].rims);
+    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].beam_edges);
   };
   CHECK(rims(0.0) == 0.0);
   CHECK(rims(0.5) >= steepest);
   CHECK(rims(0.5) <= 1.05 * steepest);
-  CHECK(light_runs(pair_of({}, Precision::fp32), counting(0.0, 1.0))[0].rims == 0.0f);
+  CHECK(light_runs(pair_of({}, Precision::fp32), counting(0.0, 1.0))[0].beam_edges == 0.0f);
 }
