@@ -14,7 +14,7 @@ namespace {
 SampleGrid grid_of(const Sensor &sensor) {
   return sensor.has_distortion() ? SampleGrid::distorted
          : is_tiled(sensor)      ? SampleGrid::tiled
-         : is_plain(sensor)      ? SampleGrid::nominal
+         : is_nominal(sensor)      ? SampleGrid::nominal
                                  : SampleGrid::posed;
 }
 

@@ -25,7 +25,7 @@ vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &gro
       .merge(resolve_constants(on, {}, true))
       .merge({{shader::constant_surface_vectors, 1},
               {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
-              {shader::constant_general_chip, !is_plain(on.sensor)},
+              {shader::constant_general_chip, !is_nominal(on.sensor)},
               {shader::constant_painted, on.scene.paint.painted},
               {shader::constant_runs, pixels.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
               {shader::constant_side, on.sensor.samples},

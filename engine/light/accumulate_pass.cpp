@@ -170,7 +170,7 @@ vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGrou
   if (depth_records_)
     constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
   return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.signal, scope)),
-          depth_records_ ? sizeof(shader::PlainSumConstants) : sizeof(shader::AccumulateConstants),
+          depth_records_ ? sizeof(shader::DepthSumConstants) : sizeof(shader::AccumulateConstants),
           constants};
 }
 
@@ -212,7 +212,7 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
 void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::PlainSumConstants constants{depth_records_->of(strip),
+  const shader::DepthSumConstants constants{depth_records_->of(strip),
                                             depth_records_->chip(),
                                             buffers_.tags.words(),
                                             scene_.planes.words(),

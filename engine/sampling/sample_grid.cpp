@@ -16,7 +16,7 @@ Sensor filled(Sensor sensor) {
 
 } // namespace
 
-bool is_plain(const Sensor &sensor) {
+bool is_nominal(const Sensor &sensor) {
   return sensor.chip.is_nominal() && sensor.fill_factor == glm::dvec2(1.0);
 }
 

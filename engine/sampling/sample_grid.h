@@ -12,7 +12,7 @@ namespace pmdsim {
 
 // True where the samples lie evenly over an upright chip in its nominal place: then their rays are multiples
 // of one slope.
-bool is_plain(const Sensor &sensor);
+bool is_nominal(const Sensor &sensor);
 
 shader::ChipPlace chip_place(const Sensor &sensor);
 

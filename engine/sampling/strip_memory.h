@@ -16,7 +16,7 @@ struct StripBuffers {
   vulkan::Buffer
       tags; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4
   vulkan::Buffer position;    // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
-                              // long, but for `sum` on the plain way, which is row by row as the records
+                              // long, but for `sum` on as depth records, which is row by row as the records
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer

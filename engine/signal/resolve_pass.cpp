@@ -89,7 +89,7 @@ vulkan::ComputePipeline Resolve::make_pipeline(const PassSetup &on, bool first, 
                    {shader::constant_side, side_},
                    {shader::constant_frequencies, at_once_},
                    {shader::constant_one_backscatter, on.scene.backscatter.has_value()}});
-  return {on.device, module("resolve_plain"), sizeof(shader::PlainResolveConstants), constants};
+  return {on.device, module("resolve_depths"), sizeof(shader::DepthResolveConstants), constants};
 }
 
 void Resolve::record(const Recording &at) const {
@@ -128,7 +128,7 @@ void Resolve::record_samples(const Recording &at, std::uint32_t frequency) const
 void Resolve::record_depths(const Recording &at, std::uint32_t first_frequency) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::PlainResolveConstants constants{scope_.depth_records->of(strip),
+  const shader::DepthResolveConstants constants{scope_.depth_records->of(strip),
                                                 scope_.depth_records->chip(),
                                                 buffers_.tags.words(),
                                                 scene_.planes.words(),

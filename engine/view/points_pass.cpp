@@ -100,7 +100,7 @@ Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const 
                                    sizeof(shader::PointsConstants),
                                    {{shader::constant_surface_vectors, surface_vectors},
                                     {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
-                                    {shader::constant_general_chip, !is_plain(sensor)},
+                                    {shader::constant_general_chip, !is_nominal(sensor)},
                                     {shader::constant_tiled, is_tiled(sensor)},
                                     {shader::constant_painted, scene.paint.painted},
                                     {shader::constant_listed, list != nullptr}});

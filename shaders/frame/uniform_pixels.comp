@@ -115,7 +115,7 @@ uvec2 in_frame(uint pixel) {
 // To a point of the pixel, from its centre in half steps between samples.
 Real3 ray_to(uint pixel, vec2 from_centre) {
   return general_chip != 0 ? chip_ray(Chips(constants.chip).at, constants.strip, in_frame(pixel), from_centre)
-                           : plain_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
+                           : nominal_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
 }
 
 // `z`: of each tone.

@@ -9,7 +9,7 @@
 #include "shaders/shared/constants.h"
 #include "shaders/view/meet.glsl"
 
-layout(push_constant, std430) uniform Constants { PlainSumConstants constants; };
+layout(push_constant, std430) uniform Constants { DepthSumConstants constants; };
 layout(constant_id = constant_is_only) const uint is_only = 0;
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 

@@ -26,7 +26,7 @@ Real3 place_on_chip(ChipPlace chip, Strip strip, uvec2 pixel, vec2 from_centre) 
 }
 
 // The ray (x, y, 1) through a nominal chip; `slope` as in PointsConstants.
-Real3 plain_ray(vec4 slope, Strip strip, uvec2 pixel, vec2 from_centre) {
+Real3 nominal_ray(vec4 slope, Strip strip, uvec2 pixel, vec2 from_centre) {
   vec2 centre = vec2(from_middle_of(pixel, strip) * int(strip.samples)); // in half samples, exact in float
   Real x = multiply(add(real(centre.x), real(from_centre.x)), real(slope.x, slope.y));
   Real y = multiply(add(real(centre.y), real(from_centre.y)), real(slope.z, slope.w));

@@ -324,9 +324,9 @@ struct ResolveConstants {
   uint diodes; // of all illuminators
 };
 
-// The sum and what becomes of it the plain way: all samples alike, row by row, each with a record of two words of tag and two of
+// The sum and what becomes of it as depth records: all samples alike, row by row, each with a record of two words of tag and two of
 // depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as above, or, of a frame's only run, a vec2.
-struct PlainSumConstants {
+struct DepthSumConstants {
   SampleGrid grid;
   uvec2 chip; // in: ChipPlace
   uvec2 records;
@@ -342,7 +342,7 @@ struct PlainSumConstants {
   uint is_first; // of the frame's runs: nothing is in the sum yet
 };
 
-struct PlainResolveConstants {
+struct DepthResolveConstants {
   SampleGrid grid;
   uvec2 chip;
   uvec2 records;

@@ -17,7 +17,7 @@ Real3 sample_ray(Sample at) {
   Strip strip = constants.strip;
   vec2 from_centre = from_centre_of(at.subsample, strip);
   return general_chip != 0 ? chip_ray(Chips(constants.chip).at, strip, at.in_frame, from_centre)
-                           : plain_ray(constants.slope, strip, at.in_frame, from_centre);
+                           : nominal_ray(constants.slope, strip, at.in_frame, from_centre);
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// What the plain way leaves out changes nothing: a backscatter that is not looked up, ground truth that has
+// What as depth records leaves out changes nothing: a backscatter that is not looked up, ground truth that has
 // no channels.
 
 #include "tests/comparison/frame_bytes.h"

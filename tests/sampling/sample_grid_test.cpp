@@ -50,13 +50,13 @@ TEST_CASE("every sample's place on any chip is where eq. 1 puts it") {
 
 TEST_CASE("only an upright chip in its place, filled wholly, is plain") {
   Sensor sensor;
-  CHECK(is_plain(sensor));
+  CHECK(is_nominal(sensor));
   sensor.fill_factor.y = 0.5;
-  CHECK_FALSE(is_plain(sensor));
+  CHECK_FALSE(is_nominal(sensor));
   sensor.fill_factor.y = 1.0;
   sensor.chip.rotation_rad.z = 1e-9;
-  CHECK_FALSE(is_plain(sensor));
+  CHECK_FALSE(is_nominal(sensor));
   sensor.chip = {};
   sensor.chip.translation_m.x = 1e-9;
-  CHECK_FALSE(is_plain(sensor));
+  CHECK_FALSE(is_nominal(sensor));
 }
