@@ -22,9 +22,9 @@ constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 // Of paint, texture and vignetting, relative.
 constexpr double painted_backscatter_error = 0x1p-21;
 
-std::vector<double> wavenumbers_rad_m(const Signal &signal) {
+std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
   std::vector<double> result;
-  for (const double modulation_hz : signal.modulation_hz)
+  for (const double modulation_hz : modulation.modulation_hz)
     result.push_back(2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s);
   return result;
 }
@@ -48,7 +48,7 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
   scope.beam_edges_are_terms = scope.emission_cosine < beam_cosine;
   scope.backscatter_error = painted_backscatter_error;
-  return rounding_bound(groups, view.visible, view.model, view.signal, scope);
+  return rounding_bound(groups, view.visible, view.model, view.modulation, scope);
 }
 
 bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
@@ -81,17 +81,17 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
 
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
                        Precision precision) {
-  const double wavenumber_rad_m = view.signal.largest_wavenumber_rad_m();
+  const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     SourceGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
-    if (precision == Precision::fp32 && view.signal.by_moments())
+    if (precision == Precision::fp32 && view.modulation.by_moments())
       choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed);
     return groups;
   };
   SourceGroups groups = in_runs_of(usual_run_blocks);
   // A window of shadows' bits holds no long run.
   const bool long_runs =
-      view.long_runs && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.signal.lit;
+      view.long_runs && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
   return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 
@@ -117,7 +117,7 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   for (const Precision wanted :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    const Precision precision = sum_precision(view.signal, wanted);
+    const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     if (bound && is_within(*bound, accuracy))
@@ -151,10 +151,10 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
 // At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
 // counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
 std::optional<double> largest_condition(const LightFacts &view, const FramePlan &plan) {
-  const double wavenumber = view.signal.largest_wavenumber_rad_m();
+  const double wavenumber = view.modulation.largest_wavenumber_rad_m();
   const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
   if (view.sensor.samples > 1 || plan.all.phased || half_rad > 1.0 ||
-      view.signal.waveform != shader::waveform_sine ||
+      view.modulation.waveform != shader::waveform_sine ||
       view.model.backscatter == shader::backscatter_lambert || view.model.pattern == shader::pattern_axial ||
       view.model.pattern == shader::pattern_any)
     return std::nullopt;
@@ -189,9 +189,9 @@ void claim_within_limits(const LightFacts &view, const ErrorBound &bound, FrameP
 
 ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
                           double share) {
-  if (share == 0.0 || view.signal.waveform != shader::waveform_sine)
+  if (share == 0.0 || view.modulation.waveform != shader::waveform_sine)
     return whole_light(view.lights);
-  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.signal),
+  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
                        share * (accuracy.max_error_m - rounding.distance_m(1.0)),
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }
@@ -225,7 +225,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
 
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
   FramePlan plan;
-  plan.precision = sum_precision(view.signal, accuracy.precision.value_or(Precision::fp32));
+  plan.precision = sum_precision(view.modulation, accuracy.precision.value_or(Precision::fp32));
   plan.all = plan.reduced = groups_of(view, view.lights, plan.precision);
   const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
@@ -274,7 +274,7 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.bound = error_bound_of(accuracy, of_reduced.value_or(sum.bound), light);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
-  if (view.signal.lit || view.model.backscatter != shader::backscatter_flat)
+  if (view.modulation.lit || view.model.backscatter != shader::backscatter_flat)
     worst = worse_of(worst, *plan.bound_of_all);
   claim_within_limits(view, worst, plan);
   return plan;

@@ -17,7 +17,7 @@ struct LightFacts {
   const std::vector<CameraIlluminator> &lights;
   const std::vector<VisibleBox> &visible;
   const Sensor &sensor;
-  const Signal &signal;
+  const Modulation &modulation;
   SumModel model; // of all diodes
   Backscatter backscatter;
   bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short

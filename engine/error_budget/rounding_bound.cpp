@@ -138,8 +138,8 @@ struct TermError {
 class Bound {
 public:
   Bound(const SourceGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
-        const Signal &signal, const RoundingScope &scope)
-      : groups_(groups), model_(model), signal_(signal), scope_(scope),
+        const Modulation &modulation, const RoundingScope &scope)
+      : groups_(groups), model_(model), signal_(modulation), scope_(scope),
         lengths_(lengths_of(groups, visible, scope)),
         u_(scope.precision == Precision::fp64 ? precise_rounding : float_rounding),
         // One sample's backscatter is common to all its terms.
@@ -148,7 +148,7 @@ public:
 
   RoundingBound of(double frequency_hz) const {
     const double wavenumber_rad_m = 2.0 * std::numbers::pi * frequency_hz / speed_of_light_m_s;
-    return signal_.waveform == shader::waveform_square ? of_square(wavenumber_rad_m)
+    return modulation_.waveform == shader::waveform_square ? of_square(wavenumber_rad_m)
                                                        : of_tones(wavenumber_rad_m);
   }
 
@@ -174,7 +174,7 @@ private:
 
   // z's own angle, over kappa: relative to twice a range for a sine without a phase.
   double relative_m() const {
-    return signal_.waveform != shader::waveform_sine || groups_.phased
+    return modulation_.waveform != shader::waveform_sine || groups_.phased
                ? std::numeric_limits<double>::infinity()
                : lengths_.detour_m + groups_.path_difference_m + 2.0 * lengths_.sample_spread_m;
   }
@@ -191,7 +191,7 @@ private:
     error.path_m =
         growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
         growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +
-        powers.angle_error_rad / signal_.largest_wavenumber_rad_m();
+        powers.angle_error_rad / modulation_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first
@@ -219,13 +219,13 @@ private:
   // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
   // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
-    const double rotation = signal_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const double rotation = modulation_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
     const TermError fundamental = of_tone(wavenumber_rad_m);
     double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
     double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;
     double amplitude = fundamental.angle_rad(wavenumber_rad_m, 1.0) + rotation;
-    for (std::uint32_t h = 2; h <= signal_.tones; ++h) {
-      if (h % signal_.taps != 1 && h % signal_.taps != signal_.taps - 1)
+    for (std::uint32_t h = 2; h <= modulation_.tones; ++h) {
+      if (h % modulation_.taps != 1 && h % modulation_.taps != modulation_.taps - 1)
         continue;
       const TermError alias = of_tone(h * wavenumber_rad_m);
       const double any_rad = alias.angle_rad(h * wavenumber_rad_m, 1.0) + rotation;
@@ -248,7 +248,7 @@ private:
         float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
                              (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
     const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
-    const double z = 2.0 * (tap + (6.0 + signal_.taps) * float_rounding);
+    const double z = 2.0 * (tap + (6.0 + modulation_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.
     const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
     bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
@@ -260,7 +260,7 @@ private:
 
   const SourceGroups &groups_;
   const SumModel &model_;
-  const Signal &signal_;
+  const Modulation &modulation_;
   const RoundingScope &scope_;
   Lengths lengths_;
   double u_;
@@ -292,13 +292,13 @@ std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t
 
 std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
                                             const std::vector<VisibleBox> &visible, const SumModel &model,
-                                            const Signal &signal, const RoundingScope &scope) {
+                                            const Modulation &modulation, const RoundingScope &scope) {
   if (!std::ranges::all_of(groups.positions,
                            [](const SourcePosition &place) { return std::isfinite(place.law_error); }))
     return std::nullopt;
-  const Bound bound(groups, visible, model, signal, scope);
+  const Bound bound(groups, visible, model, modulation, scope);
   RoundingBound largest{};
-  for (const double frequency_hz : signal.modulation_hz) {
+  for (const double frequency_hz : modulation.modulation_hz) {
     const RoundingBound of_frequency = bound.of(frequency_hz);
     using Bound = RoundingBound;
     for (const auto part :

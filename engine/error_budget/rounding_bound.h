@@ -53,7 +53,7 @@ struct RoundingScope {
 // (shaders/light/sum.glsl), as grazing light is where the scope's cosine is 1.
 std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
                                             const std::vector<VisibleBox> &visible, const SumModel &model,
-                                            const Signal &signal, const RoundingScope &scope);
+                                            const Modulation &modulation, const RoundingScope &scope);
 
 // For RoundingScope: a bound from below over all that is visible, at least grazing_cosine; where that is more
 // than is true, pixels in grazing light have no bound.

@@ -51,7 +51,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
                            const std::function<void(double)> &progress) const {
   const auto start = std::chrono::steady_clock::now();
   recorder.reset();
-  Measurement measurement = make_measurement(on_.sensor, on_.signal, options_, std::move(memory));
+  Measurement measurement = make_measurement(on_.sensor, on_.modulation, options_, std::move(memory));
   const double memory_ms =
       vulkan::milliseconds_since(start); // of a first frame, to which the system gives it
   measurement.accuracy = on_.report;
@@ -60,7 +60,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
     measurement.lit.clear();
   else if (options_.keep_visibility)
     measurement.sample_visibility = no_visibility(on_.sensor, *on_.sources);
-  if (on_.signal.keeps_terms)
+  if (on_.modulation.keeps_terms)
     clear_violations(recorder);
   for (std::size_t i = 0; i < on_.strips.size(); ++i) {
     const auto of_strip = [&](double fraction) {

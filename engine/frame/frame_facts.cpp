@@ -18,9 +18,9 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
 }
 
 // With shadows a quarter of the usual on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
-std::uint32_t largest_strip(const vulkan::Device &device, const Signal &signal, const Sensor &sensor) {
-  const std::uint32_t usual = signal.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;
-  return samples_of_a_strip(usual, signal.sum_planes(), ChannelLayout(signal).channels(),
+std::uint32_t largest_strip(const vulkan::Device &device, const Modulation &modulation, const Sensor &sensor) {
+  const std::uint32_t usual = modulation.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;
+  return samples_of_a_strip(usual, modulation.sum_planes(), ChannelLayout(modulation).channels(),
                             sensor.samples * sensor.samples);
 }
 
@@ -34,12 +34,12 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   const bool facing = all_face_the_light(facts.camera, facts.lights);
   if (shaded)
     facts.occluders = find_occluders(facts.camera, request.scene, facts.lights);
-  facts.signal = signal_of(request.sensor, options);
-  facts.signal.lit = shaded && (!facts.occluders.shapes.empty() || !facing);
-  facts.signal.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
+  facts.modulation = modulation_of(request.sensor, options);
+  facts.modulation.lit = shaded && (!facts.occluders.shapes.empty() || !facing);
+  facts.modulation.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   facts.model = sum_model(facts.lights, request.backscatter, facing);
   facts.paint = paint_use(facts.camera, request.scene);
-  facts.largest_strip = largest_strip(device, facts.signal, request.sensor);
+  facts.largest_strip = largest_strip(device, facts.modulation, request.sensor);
   facts.projection = project_blocks(device, facts.camera, request.sensor, facts.largest_strip);
   return facts;
 }

@@ -28,7 +28,7 @@ struct FrameFacts {
   CameraScene camera;
   std::vector<CameraIlluminator> lights;
   Occluders occluders; // empty with Shadows::off
-  Signal signal;
+  Modulation modulation;
   SumModel model;
   Projection projection;
   PaintUse paint;

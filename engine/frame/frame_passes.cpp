@@ -25,7 +25,7 @@ struct Basis {
   const FrameMemory &memory;
 
   PassSetup setup() const {
-    return {device, options, request.sensor, facts.signal, facts.model, memory.buffers, memory.scene};
+    return {device, options, request.sensor, facts.modulation, facts.model, memory.buffers, memory.scene};
   }
 };
 
@@ -64,17 +64,17 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
   const Precision of_check = path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
-  const Signal &signal = facts.signal;
+  const Modulation &modulation = facts.modulation;
   return {.host_reads_tags = path.host_reads_truth || options.keep_sample_tags || options.keep_visibility,
           .tag_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
           .sum_bytes = depth_only && path.single_batch ? sizeof(shader::vec2) : sizeof(shader::vec4),
-          .sum_planes = signal.sum_planes(),
-          .channels = ChannelLayout(signal).channels(),
-          .visibility_words = signal.lit ? shader::bundles_per_window : 0,
-          .keeps_terms = signal.keeps_terms};
+          .sum_planes = modulation.sum_planes(),
+          .channels = ChannelLayout(modulation).channels(),
+          .visibility_words = modulation.lit ? shader::bundles_per_window : 0,
+          .keeps_terms = modulation.keeps_terms};
 }
 
 // What each sample sees, and where.
@@ -162,17 +162,17 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
                 const std::shared_ptr<const TileShadowPass> &shadow, FrameGraph &graph) {
-  Signal signal = on.facts.signal;
-  signal.keeps_terms = false;
-  PassSetup setup{on.device,      on.options,        on.request.sensor, signal,
+  Modulation modulation = on.facts.modulation;
+  modulation.keeps_terms = false;
+  PassSetup setup{on.device,      on.options,        on.request.sensor, modulation,
                   on.facts.model, on.memory.buffers, on.memory.scene};
   const Precision precision = *on.path.check;
   SourceGroups of_precision;
   if (precision != on.plan.precision)
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
-                                signal.largest_wavenumber_rad_m(), precision);
+                                modulation.largest_wavenumber_rad_m(), precision);
   const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
-  const SumScope scope{signal.lit, precision, &check.list(), {}, {}};
+  const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
   graph.add_before(check.list_pass());
   if (on.path.check_makes_points)
     graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor,
@@ -183,7 +183,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(resolve_pass(setup, groups, scope));
-  Pass read_back = read_back_pass(on.request.sensor, on.facts.signal, on.memory.buffers, {});
+  Pass read_back = read_back_pass(on.request.sensor, on.facts.modulation, on.memory.buffers, {});
   read_back.store = {}; // it is only compared
   graph.add_after(std::move(read_back));
 }
@@ -221,7 +221,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   if (path.host_reads_truth)
     truth = truth_of_records(device, options, request.scene);
 
-  FramePasses made{path,    request.sensor,    facts.signal, strips, windows.size(),
+  FramePasses made{path,    request.sensor,    facts.modulation, strips, windows.size(),
                    sources, std::move(memory), raster,       {},     report_of(plan, path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, graph);
@@ -236,7 +236,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
     list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_unshadowed), graph);
     list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
   }
-  graph.add_after(read_back_pass(request.sensor, facts.signal, on.memory.buffers, truth));
+  graph.add_after(read_back_pass(request.sensor, facts.modulation, on.memory.buffers, truth));
   if (path.check) {
     made.check.emplace(on.setup(), strips);
     list_check(on, *made.check, windows, shadow, made.check_graph);
@@ -250,12 +250,12 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                         const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
                         SpareMemory &&spare) {
   FrameFacts facts = look(device, options, request);
-  const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.signal,
+  const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation,
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
-  facts.signal.keeps_terms = plan.bound.has_value();
+  facts.modulation.keeps_terms = plan.bound.has_value();
   std::vector<SourceWindow> windows =
-      facts.signal.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
+      facts.modulation.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);
   const FramePath path = choose_path(facts, plan, request, windows.size(), backscatter, options.allowed);

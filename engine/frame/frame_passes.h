@@ -21,7 +21,7 @@ struct FrameMemory {
 struct FramePasses {
   FramePath path;
   Sensor sensor;
-  Signal signal;
+  Modulation modulation;
   std::vector<PlannedStrip> strips;
   std::size_t windows;                         // of visibility bits; 1 where there are none
   std::shared_ptr<const SourceGroups> sources; // all of them

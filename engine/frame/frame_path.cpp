@@ -19,7 +19,7 @@ SampleGrid grid_of(const Sensor &sensor) {
 }
 
 Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
-  return !facts.signal.by_moments()      ? Summation::per_diode
+  return !facts.modulation.by_moments()      ? Summation::per_diode
          : groups.polynomials.powers > 0 ? Summation::polynomial_moments
                                          : Summation::moments;
 }
@@ -32,17 +32,17 @@ bool is_smooth(const FrameFacts &facts, const FramePlan &plan, const Sensor &sen
 
 // Some pixels may not face or be lit by all sources.
 bool has_rest(const FrameFacts &facts) {
-  return facts.signal.lit || facts.model.backscatter != shader::backscatter_flat;
+  return facts.modulation.lit || facts.model.backscatter != shader::backscatter_flat;
 }
 
 // The bits of several windows are never there together, so that nothing is known of a sample before it is
 // summed.
-bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.signal.lit || windows == 1; }
+bool can_sort(const FrameFacts &facts, std::size_t windows) { return !facts.modulation.lit || windows == 1; }
 
 // Whether the pass from IDs to channels can sum such groups itself, as one straight line.
-bool can_fuse(const SourceGroups &groups, const Signal &signal, const Sensor &sensor) {
-  return signal.waveform == shader::waveform_sine && !sensor.has_distortion() &&
-         signal.frequencies() <= shader::uniform_tones &&
+bool can_fuse(const SourceGroups &groups, const Modulation &modulation, const Sensor &sensor) {
+  return modulation.waveform == shader::waveform_sine && !sensor.has_distortion() &&
+         modulation.frequencies() <= shader::uniform_tones &&
          groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;
 }
 
@@ -50,7 +50,7 @@ bool can_fuse(const SourceGroups &groups, const Signal &signal, const Sensor &se
 std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
                                             const FrameRequest &request, const PathForms &allowed) {
   const Sensor &sensor = request.sensor;
-  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.uniform_groups, facts.signal, sensor))
+  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.uniform_groups, facts.modulation, sensor))
     return std::nullopt;
   const bool may_thin_out = sensor.adaptive_samples || request.accuracy.mode == Mode::automatic;
   if (sensor.samples == 1)
@@ -71,7 +71,7 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
   if (!points || samples > 1 || !plan.surely_kept)
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
   if (has_rest(facts))
-    classes.push_back({PixelsOf::rest, false, samples, plan.precision, facts.signal.lit, plan.bound_of_all});
+    classes.push_back({PixelsOf::rest, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all});
   return classes;
 }
 
@@ -85,7 +85,7 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
   // Where all samples are alike, what stands in for the sources does so for all of them.
   const bool reduced = plan.is_reduced() && !has_rest(facts);
   return {{PixelsOf::all, reduced, request.sensor.samples * request.sensor.samples, plan.precision,
-           facts.signal.lit, reduced ? plan.bound : plan.bound_of_all}};
+           facts.modulation.lit, reduced ? plan.bound : plan.bound_of_all}};
 }
 
 // Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
@@ -97,15 +97,15 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
 bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                       const Sensor &sensor, const PathForms &allowed) {
   return allowed.depth_records && !path.is_sorted() && !plan.is_reduced() && path.windows == 0 &&
-         !facts.signal.keeps_terms && path.summation != Summation::per_diode &&
+         !facts.modulation.keeps_terms && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
-  return facts.signal.lit || sensor.has_distortion() ? plan.precision
-                                                     : sum_precision(facts.signal, Precision::fp64);
+  return facts.modulation.lit || sensor.has_distortion() ? plan.precision
+                                                     : sum_precision(facts.modulation, Precision::fp64);
 }
 
 std::string name_of(PixelsOf who) {
@@ -181,7 +181,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   const Sensor &sensor = request.sensor;
   FramePath path{};
   path.grid = grid_of(sensor);
-  path.windows = facts.signal.lit ? static_cast<std::uint32_t>(windows) : 0;
+  path.windows = facts.modulation.lit ? static_cast<std::uint32_t>(windows) : 0;
   path.backscatter = facts.model.backscatter;
   path.pattern = facts.model.pattern;
   path.summation = summation_of(facts, plan.all);
@@ -198,7 +198,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.record =
       keeps_depth_only(path, facts, plan, sensor, allowed) ? SampleRecord::depth : SampleRecord::point;
   path.points_first = path.record == SampleRecord::point &&
-                      (!path.is_sorted() || facts.signal.lit || sensor.has_distortion());
+                      (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);

@@ -63,7 +63,7 @@ double wrapped(double difference_m, double ambiguity_m) {
 } // namespace
 
 SpotCheck::SpotCheck(const PassSetup &on, const std::vector<PlannedStrip> &strips)
-    : signal_(on.signal), of_strip_(by_strip(choose_pixels(on.sensor.pixel_count()), strips)),
+    : signal_(on.modulation), of_strip_(by_strip(choose_pixels(on.sensor.pixel_count()), strips)),
       list_(std::make_shared<const vulkan::Buffer>(make_pixel_list(on.device, checked_pixels))) {}
 
 Pass SpotCheck::list_pass() const {
@@ -79,16 +79,16 @@ Pass SpotCheck::list_pass() const {
 void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
                         Measurement &measured) const {
   AccuracyReport &report = measured.accuracy;
-  const ChannelLayout layout(signal_);
+  const ChannelLayout layout(modulation_);
   double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
   for (const std::uint32_t pixel : of_strip_[strip])
-    for (std::uint32_t f = 0; f < signal_.frequencies(); ++f) {
+    for (std::uint32_t f = 0; f < modulation_.frequencies(); ++f) {
       const std::size_t at =
           std::size_t{of.row + pixel / of.columns} * of.resolution_x + of.column + pixel % of.columns;
       const auto exact = [&](std::vector<float> Return::*channel) {
         return channel_value(buffers, of, layout.number({row_of(channel), f}), pixel);
       };
-      const double ambiguity_m = speed_of_light_m_s / (2.0 * signal_.modulation_hz[f]);
+      const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_.modulation_hz[f]);
       const Return &found = measured.returns[f];
       distance_m = std::max(
           distance_m, wrapped(difference(found.distance_m[at], exact(&Return::distance_m)), ambiguity_m));

@@ -24,7 +24,7 @@ public:
                Measurement &measured) const;
 
 private:
-  Signal signal_;
+  Modulation modulation_;
   std::vector<std::vector<std::uint32_t>> of_strip_; // pixels, counted within the strip
   std::shared_ptr<const vulkan::Buffer> list_;
 };

@@ -33,12 +33,12 @@ vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &gro
               {shader::constant_lists_pixels, lists_of(pixels)}});
 }
 
-shader::UniformPixelsLight light_record(const LightExtent &extent, const Signal &signal, bool phased) {
+shader::UniformPixelsLight light_record(const LightExtent &extent, const Modulation &modulation, bool phased) {
   const glm::dvec3 middle_m = 0.5 * (extent.box.low_m + extent.box.high_m);
   // A hair wider, as the shader compares in float.
   const glm::dvec3 half_m = 0.5 * (extent.box.high_m - extent.box.low_m) + 1e-6 * glm::abs(middle_m) + 1e-9;
   const auto [lowest_hz, highest_hz] =
-      std::minmax_element(signal.modulation_hz.begin(), signal.modulation_hz.end());
+      std::minmax_element(modulation.modulation_hz.begin(), modulation.modulation_hz.end());
   const double rad_m_hz = 2.0 * std::numbers::pi / speed_of_light_m_s;
   const double one_radian_m = 1.0 / (rad_m_hz * *lowest_hz);
   const double diameter_m = 2.0 * glm::length(half_m);
@@ -55,11 +55,11 @@ shader::UniformPixelsLight light_record(const LightExtent &extent, const Signal 
 // The record, and behind it what the sources share.
 vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
                             const ErrorBound &bound, bool sums, const vulkan::Buffer &diagrams) {
-  shader::UniformPixelsLight light = light_record(extent, on.signal, groups.phased);
+  shader::UniformPixelsLight light = light_record(extent, on.modulation, groups.phased);
   light.diagrams = diagrams.words();
   if (sums) {
-    std::ranges::copy(on.signal.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(on.signal, groups.largest_intensity_w_sr, bound), light.frequencies);
+    std::ranges::copy(on.modulation.all_tones(), light.tones);
+    std::ranges::copy(frequency_records(on.modulation, groups.largest_intensity_w_sr, bound), light.frequencies);
   }
   const std::vector<shader::LightRun> runs = light_runs(groups, bound);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));
@@ -70,7 +70,7 @@ vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, con
 
 vulkan::Buffer upload_work(const PassSetup &on, const SourceGroups &groups, const PixelLists &lists) {
   shader::UniformPixelsWork work{};
-  work.lit_channel = ChannelLayout(on.signal).lit_channel();
+  work.lit_channel = ChannelLayout(on.modulation).lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)
     work.lists[list] = lists.of(list).words();
@@ -121,7 +121,7 @@ Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const 
   };
   return {.name = "short_way",
           .reads =
-              ids | (on.signal.lit ? visibility_counts : no_resource) | (few ? pixel_lists : no_resource),
+              ids | (on.modulation.lit ? visibility_counts : no_resource) | (few ? pixel_lists : no_resource),
           .writes = channels | pixel_lists,
           .record = record,
           .list = few};

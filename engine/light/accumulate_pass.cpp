@@ -18,9 +18,9 @@ namespace {
 // times the size of the light with its distance from the lens.
 constexpr double height_rounding = 14.0;
 
-std::string_view module_of(const Signal &signal, const SumScope &scope) {
+std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
   return scope.depth_records                  ? "accumulate_depths"
-         : !signal.by_moments()               ? "accumulate_per_diode"
+         : !modulation.by_moments()               ? "accumulate_per_diode"
          : scope.precision == Precision::fp64 ? "accumulate_precise"
                                               : "accumulate";
 }
@@ -75,10 +75,10 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_cosine_order, on.model.order},
           {shader::constant_phased, groups.phased},
           {shader::constant_shadowed, scope.shadowed},
-          {shader::constant_tones, on.signal.tones * on.signal.frequencies()},
-          {shader::constant_taps, on.signal.taps},
+          {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
+          {shader::constant_taps, on.modulation.taps},
           {shader::constant_listed, scope.list != nullptr},
-          {shader::constant_keeps_terms, on.signal.keeps_terms}};
+          {shader::constant_keeps_terms, on.modulation.keeps_terms}};
 }
 
 std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound) {
@@ -155,8 +155,8 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
       depth_records_(scope.depth_records), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      dispatches_(on.signal.by_moments() ? 1 : on.signal.frequencies()), planes_(on.signal.planes),
-      tones_(vulkan::upload(on.device, on.signal.all_tones())),
+      dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()), planes_(on.modulation.planes),
+      tones_(vulkan::upload(on.device, on.modulation.all_tones())),
       diodes_(upload_diodes(on.device, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
       diode_bytes_(diodes_.bytes() / groups.diodes.size()), first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)
@@ -169,7 +169,7 @@ vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGrou
   constants.set(shader::constant_is_first, first).set(shader::constant_is_only, runs_.size() == 1);
   if (depth_records_)
     constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
-  return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.signal, scope)),
+  return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.modulation, scope)),
           depth_records_ ? sizeof(shader::DepthSumConstants) : sizeof(shader::AccumulateConstants),
           constants};
 }

@@ -25,7 +25,7 @@ struct PassSetup {
   const vulkan::Device &device;
   const SimulatorOptions &options;
   const Sensor &sensor;
-  const Signal &signal;
+  const Modulation &modulation;
   const SumModel &model;
   const StripBuffers &buffers;
   const SceneBuffers &scene;

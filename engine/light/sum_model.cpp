@@ -59,8 +59,8 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
       });
 }
 
-Precision sum_precision(const Signal &signal, Precision wanted) {
-  return signal.by_moments() ? wanted : Precision::fp32;
+Precision sum_precision(const Modulation &modulation, Precision wanted) {
+  return modulation.by_moments() ? wanted : Precision::fp32;
 }
 
 } // namespace pmdsim

@@ -39,6 +39,6 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
                    bool all_face_the_light);
 
 // Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
-Precision sum_precision(const Signal &signal, Precision wanted);
+Precision sum_precision(const Modulation &modulation, Precision wanted);
 
 } // namespace pmdsim

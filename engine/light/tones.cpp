@@ -14,11 +14,11 @@ double wavenumber_rad_m(double frequency_hz) {
 
 } // namespace
 
-double Signal::largest_wavenumber_rad_m() const {
+double Modulation::largest_wavenumber_rad_m() const {
   return wavenumber_rad_m(tones * *std::max_element(modulation_hz.begin(), modulation_hz.end()));
 }
 
-std::vector<shader::Tone> Signal::all_tones() const {
+std::vector<shader::Tone> Modulation::all_tones() const {
   std::vector<shader::Tone> result;
   for (const double frequency_hz : modulation_hz)
     for (std::uint32_t h = 1; h <= tones; ++h) {
@@ -30,23 +30,23 @@ std::vector<shader::Tone> Signal::all_tones() const {
   return result;
 }
 
-Signal signal_of(const Sensor &sensor, const SimulatorOptions &options) {
-  Signal signal{shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, sensor.modulation_hz, {1.0f}};
+Modulation modulation_of(const Sensor &sensor, const SimulatorOptions &options) {
+  Modulation modulation{shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, sensor.modulation_hz, {1.0f}};
   switch (sensor.waveform.kind) {
   case Waveform::Kind::sine:
     break;
   case Waveform::Kind::square:
-    signal.waveform = shader::waveform_square;
-    signal.distinct_taps = sensor.taps % 2 == 0 ? sensor.taps / 2 : sensor.taps;
-    signal.planes = (signal.distinct_taps + 1) / 2;
+    modulation.waveform = shader::waveform_square;
+    modulation.distinct_taps = sensor.taps % 2 == 0 ? sensor.taps / 2 : sensor.taps;
+    modulation.planes = (modulation.distinct_taps + 1) / 2;
     break;
   case Waveform::Kind::harmonics: // a harmonic is a tone like any other
-    signal.waveform = shader::waveform_harmonics;
-    signal.harmonics.assign(sensor.waveform.harmonics.begin(), sensor.waveform.harmonics.end());
-    signal.planes = signal.tones = static_cast<std::uint32_t>(signal.harmonics.size());
+    modulation.waveform = shader::waveform_harmonics;
+    modulation.harmonics.assign(sensor.waveform.harmonics.begin(), sensor.waveform.harmonics.end());
+    modulation.planes = modulation.tones = static_cast<std::uint32_t>(modulation.harmonics.size());
     break;
   }
-  return signal;
+  return modulation;
 }
 
 } // namespace pmdsim

@@ -10,7 +10,7 @@
 
 namespace pmdsim {
 
-struct Signal {
+struct Modulation {
   std::uint32_t waveform;            // shader::waveform_*
   std::uint32_t taps;                // N
   std::uint32_t distinct_taps;       // that are summed where the waveform is square, else 1
@@ -32,6 +32,6 @@ struct Signal {
   std::vector<shader::Tone> all_tones() const;
 };
 
-Signal signal_of(const Sensor &sensor, const SimulatorOptions &options);
+Modulation modulation_of(const Sensor &sensor, const SimulatorOptions &options);
 
 } // namespace pmdsim

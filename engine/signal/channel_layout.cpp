@@ -53,8 +53,8 @@ shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
 
 } // namespace
 
-ChannelLayout::ChannelLayout(const Signal &signal)
-    : frequencies(signal.frequencies()), taps(signal.keep_taps ? signal.taps : 0), lit(signal.lit) {}
+ChannelLayout::ChannelLayout(const Modulation &modulation)
+    : frequencies(modulation.frequencies()), taps(modulation.keep_taps ? modulation.taps : 0), lit(modulation.lit) {}
 
 std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
   return channels_in(Area::truth) + frequency * whole_pairs(channels_in(Area::frequency) + taps);
@@ -79,12 +79,12 @@ std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
   return first + index + static_cast<std::uint32_t>(of.tap);
 }
 
-std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
+std::vector<shader::Frequency> frequency_records(const Modulation &modulation, double largest_intensity_w_sr,
                                                  const std::optional<ErrorBound> &bound) {
-  const ChannelLayout layout(signal);
+  const ChannelLayout layout(modulation);
   std::vector<shader::Frequency> records;
-  for (std::uint32_t f = 0; f < signal.frequencies(); ++f) {
-    records.push_back(record_of(signal.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
+  for (std::uint32_t f = 0; f < modulation.frequencies(); ++f) {
+    records.push_back(record_of(modulation.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
     if (!bound)
       continue;
     shader::Frequency &record = records.back();

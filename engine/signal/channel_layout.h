@@ -12,7 +12,7 @@
 namespace pmdsim {
 
 struct ChannelLayout {
-  explicit ChannelLayout(const Signal &signal);
+  explicit ChannelLayout(const Modulation &modulation);
 
   std::uint32_t frequencies;
   std::uint32_t taps; // that are kept, of each frequency
@@ -29,7 +29,7 @@ struct ChannelLayout {
 };
 
 // Amplitudes are per unit of the mean return, in which diodes count relative to the strongest.
-std::vector<shader::Frequency> frequency_records(const Signal &signal, double largest_intensity_w_sr,
+std::vector<shader::Frequency> frequency_records(const Modulation &modulation, double largest_intensity_w_sr,
                                                  const std::optional<ErrorBound> &bound);
 
 } // namespace pmdsim

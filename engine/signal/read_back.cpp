@@ -124,18 +124,18 @@ void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, c
 }
 
 void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                      const StripBuffers &buffers, const Signal &signal, bool leaves_truth) {
+                      const StripBuffers &buffers, const Modulation &modulation, bool leaves_truth) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                          Access::eTransferRead);
   const vk::DeviceSize channel_bytes = vk::DeviceSize{strip.padded_pixels} * sizeof(float);
-  const ChannelLayout layout(signal);
+  const ChannelLayout layout(modulation);
   const vk::DeviceSize first = channel_bytes * (leaves_truth ? layout.first_channel(0) : 0);
   if (!buffers.channels.is_mapped())
     commands.copyBuffer(buffers.channels.get(), buffers.channels_read.get(),
                         vk::BufferCopy(first, first, channel_bytes * layout.channels() - first));
-  if (signal.keeps_terms)
+  if (modulation.keeps_terms)
     commands.copyBuffer(buffers.violations.get(), buffers.violations_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BudgetViolations)));
   if (buffers.tags_read.bytes() > 0) {
@@ -149,8 +149,8 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
 }
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Signal &signal, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
-  const ChannelLayout layout(signal);
+                 const Modulation &modulation, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
+  const ChannelLayout layout(modulation);
   const std::vector<Destination> to = destinations(layout, measurement);
   tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
     const Row row = row_of(strip, index);
@@ -165,12 +165,12 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+Measurement make_measurement(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
                              Measurement &&memory) {
   Measurement measurement = std::move(memory);
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();
-  const ChannelLayout layout(signal);
+  const ChannelLayout layout(modulation);
   measurement.returns.resize(layout.frequencies);
   for (Return &of_frequency : measurement.returns)
     of_frequency.taps.resize(layout.taps);
@@ -185,18 +185,18 @@ Measurement make_measurement(const Sensor &sensor, const Signal &signal, const S
   return measurement;
 }
 
-Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffers &buffers,
+Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,
                     const std::optional<TruthOfRecords> &truth) {
   return {.name = "read_back",
           .reads = ids | channels,
           .writes = no_resource,
           .record =
               [=, &buffers](const Recording &at) {
-                record_read_back(at.commands, at.of_strip(), buffers, signal, truth.has_value());
+                record_read_back(at.commands, at.of_strip(), buffers, modulation, truth.has_value());
               },
           .store =
               [=, &buffers](const Recording &at, Measurement &to) {
-                store_strip(at.of_strip(), buffers, sensor, signal, truth, to);
+                store_strip(at.of_strip(), buffers, sensor, modulation, truth, to);
               }};
 }
 

@@ -21,16 +21,16 @@ struct TruthOfRecords {
 };
 
 // A frame of the sensor's size, to be filled, in `memory`, whatever that holds.
-Measurement make_measurement(const Sensor &sensor, const Signal &signal, const SimulatorOptions &options,
+Measurement make_measurement(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
                              Measurement &&memory);
 
 // Copies what the resolve pass (and, where the host reads them, the visibility pass) left to memory that the
 // host can read, and then to its place in the frame. Storing throws Error: input where light is beyond what a
 // float holds.
-Pass read_back_pass(const Sensor &sensor, const Signal &signal, const StripBuffers &buffers,
+Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,
                     const std::optional<TruthOfRecords> &truth);
 
-// Of all strips since it was cleared, as read back last; only where Signal::keeps_terms.
+// Of all strips since it was cleared, as read back last; only where Modulation::keeps_terms.
 shader::BudgetViolations budget_violations(const StripBuffers &buffers);
 
 } // namespace pmdsim

@@ -10,15 +10,15 @@
 namespace pmdsim {
 
 vulkan::Specialization resolve_constants(const PassSetup &on, const SumScope &scope, bool first) {
-  return {{shader::constant_planes, on.signal.planes},
-          {shader::constant_waveform, on.signal.waveform},
-          {shader::constant_taps, on.signal.taps},
-          {shader::constant_keep_taps, on.signal.keep_taps},
+  return {{shader::constant_planes, on.modulation.planes},
+          {shader::constant_waveform, on.modulation.waveform},
+          {shader::constant_taps, on.modulation.taps},
+          {shader::constant_keep_taps, on.modulation.keep_taps},
           {shader::constant_ground_truth, first},
           {shader::constant_tiled, is_tiled(on.sensor)},
-          {shader::constant_lit_is_kept, first && on.signal.lit},
+          {shader::constant_lit_is_kept, first && on.modulation.lit},
           {shader::constant_listed, scope.list != nullptr},
-          {shader::constant_keeps_terms, on.signal.keeps_terms},
+          {shader::constant_keeps_terms, on.modulation.keeps_terms},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};
 }
 
@@ -26,12 +26,12 @@ namespace {
 
 // Of depth records, as one straight line, which should not take long to compile: a divisor of their number,
 // so that one pipeline does for all parts.
-std::uint32_t frequencies_at_once(const Signal &signal, const SumScope &scope) {
+std::uint32_t frequencies_at_once(const Modulation &modulation, const SumScope &scope) {
   if (!scope.depth_records)
     return 1;
   constexpr std::uint32_t most = 8, most_planes = 16;
-  std::uint32_t count = std::clamp(most_planes / signal.planes, 1u, std::min(signal.frequencies(), most));
-  while (signal.frequencies() % count != 0)
+  std::uint32_t count = std::clamp(most_planes / modulation.planes, 1u, std::min(modulation.frequencies(), most));
+  while (modulation.frequencies() % count != 0)
     --count;
   return count;
 }
@@ -61,15 +61,15 @@ private:
 };
 
 Resolve::Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth)
-    : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.signal.frequencies()),
-      at_once_(frequencies_at_once(on.signal, scope)), lit_channel_(ChannelLayout(on.signal).lit_channel()),
+    : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.modulation.frequencies()),
+      at_once_(frequencies_at_once(on.modulation, scope)), lit_channel_(ChannelLayout(on.modulation).lit_channel()),
       diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
       records_(vulkan::upload(on.device,
-                              frequency_records(on.signal, groups.largest_intensity_w_sr, scope.bound))),
-      harmonics_(vulkan::upload(on.device, on.signal.harmonics)),
+                              frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound))),
+      harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
       first_(make_pipeline(on, true, leaves_truth)) {
   const bool is_short = scope.depth_records && single_run_;
-  sample_bytes_ = on.signal.planes * (is_short ? sizeof(shader::vec2) : sizeof(shader::vec4));
+  sample_bytes_ = on.modulation.planes * (is_short ? sizeof(shader::vec2) : sizeof(shader::vec4));
   if (frequencies_ > at_once_)
     later_ = make_pipeline(on, false, leaves_truth);
 }
@@ -152,7 +152,7 @@ Pass resolve_pass(const PassSetup &on, const SourceGroups &groups, const SumScop
   const auto resolve = std::make_shared<const Resolve>(on, groups, scope, leaves_truth);
   return {.name = "resolve",
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |
-                   (on.signal.lit ? visibility_counts : no_resource) |
+                   (on.modulation.lit ? visibility_counts : no_resource) |
                    (scope.list ? pixel_lists : no_resource),
           .writes = channels,
           .record = [resolve](const Recording &at) { resolve->record(at); },

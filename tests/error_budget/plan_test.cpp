@@ -37,7 +37,7 @@ FramePlan plan(const PlannedSetup &setup, const Accuracy &accuracy, std::uint32_
   const CameraScene camera = to_camera(setup.scene, setup.sensor);
   const auto lights = to_camera(setup.lights, setup.sensor);
   const Projection projection = project(camera, chip_blocks(setup.sensor, 8192));
-  const Signal signal = signal_of(setup.sensor, {});
+  const Modulation signal = modulation_of(setup.sensor, {});
   const SumModel model = sum_model(lights, Backscatter::constant, all_face_the_light(camera, lights));
   return plan_frame(
       {lights, projection.visible, setup.sensor, signal, model, Backscatter::constant, setup.long_runs},

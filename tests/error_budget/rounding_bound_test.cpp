@@ -37,7 +37,7 @@ std::optional<RoundingBound> bound_of(const Light &light, const RoundingScope &s
   Sensor sensor;
   sensor.modulation_hz = light.modulation_hz;
   sensor.waveform = light.waveform;
-  const Signal signal = signal_of(sensor, {});
+  const Modulation signal = modulation_of(sensor, {});
   const SourceGroups groups =
       group_diodes(light.illuminators, light.visible, signal.largest_wavenumber_rad_m(), scope.precision);
   SumModel model = sum_model(light.illuminators, Backscatter::constant, true);

@@ -38,7 +38,7 @@ RoundingBound bound_of(const Case &of, Precision precision) {
   const CameraScene camera = to_camera(of.scene, of.sensor);
   const std::vector<CameraIlluminator> lights = to_camera(of.lights, of.sensor);
   const Projection projection = project(camera, chip_blocks(of.sensor, one_block));
-  const Signal signal = signal_of(of.sensor, {});
+  const Modulation signal = modulation_of(of.sensor, {});
   const SourceGroups groups =
       group_diodes(lights, projection.visible, signal.largest_wavenumber_rad_m(), precision);
   const SumModel model = sum_model(lights, of.backscatter, all_face_the_light(camera, lights));

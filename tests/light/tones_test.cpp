@@ -27,7 +27,7 @@ double turns_per_m(const shader::Tone &tone) {
 } // namespace
 
 TEST_CASE("a sine takes a plane and a tone of each frequency, summed by moments") {
-  const Signal signal = signal_of(sensor_with(sine, 5, {20e6, 60e6}), {});
+  const Modulation signal = modulation_of(sensor_with(sine, 5, {20e6, 60e6}), {});
   CHECK(signal.waveform == shader::waveform_sine);
   CHECK(signal.by_moments());
   CHECK(signal.sum_planes() == 2);
@@ -39,7 +39,7 @@ TEST_CASE("a sine takes a plane and a tone of each frequency, summed by moments"
 }
 
 TEST_CASE("harmonics take a plane and a tone each, of each frequency in turn") {
-  const Signal signal = signal_of(sensor_with(three_harmonics, 4, {20e6, 30e6}), {});
+  const Modulation signal = modulation_of(sensor_with(three_harmonics, 4, {20e6, 30e6}), {});
   CHECK(signal.waveform == shader::waveform_harmonics);
   CHECK(signal.planes == 3);
   CHECK(signal.sum_planes() == 6);
@@ -58,7 +58,7 @@ TEST_CASE("harmonics take a plane and a tone each, of each frequency in turn") {
 TEST_CASE("square light takes half a plane of each tap that no other gives, one frequency at a time") {
   const auto [taps, distinct, planes] = GENERATE(table<std::uint32_t, std::uint32_t, std::uint32_t>(
       {{3, 3, 2}, {4, 2, 1}, {5, 5, 3}, {6, 3, 2}, {16, 8, 4}}));
-  const Signal signal = signal_of(sensor_with(square, taps, {20e6, 30e6, 40e6}), {});
+  const Modulation signal = modulation_of(sensor_with(square, taps, {20e6, 30e6, 40e6}), {});
   CHECK(signal.waveform == shader::waveform_square);
   CHECK_FALSE(signal.by_moments());
   CHECK(signal.distinct_taps == distinct);

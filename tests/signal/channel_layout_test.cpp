@@ -13,10 +13,10 @@ namespace {
 
 const std::vector<double> modulation_hz{20e6, 1e3, 10e9};
 
-Signal signal_with_taps() {
+Modulation signal_with_taps() {
   Sensor sensor;
   sensor.modulation_hz = modulation_hz;
-  return signal_of(sensor, {.device = {}, .keep_taps = true});
+  return modulation_of(sensor, {.device = {}, .keep_taps = true});
 }
 
 double sum_of(const shader::vec2 &pair) { return double{pair.x} + double{pair.y}; }
@@ -30,7 +30,7 @@ ChannelLayout layout_of(const SimulatorOptions &options, bool lit) {
   Sensor sensor;
   sensor.taps = 7;
   sensor.modulation_hz = {20e6, 30e6};
-  Signal signal = signal_of(sensor, options);
+  Modulation signal = modulation_of(sensor, options);
   signal.lit = lit;
   return ChannelLayout(signal);
 }
@@ -88,7 +88,7 @@ TEST_CASE("a frequency's turns and its ambiguity, to double precision") {
 }
 
 TEST_CASE("a frequency knows its channels and its unit") {
-  const Signal signal = signal_with_taps();
+  const Modulation signal = signal_with_taps();
   const auto records = frequency_records(signal, 2.5, {});
   for (std::uint32_t i = 0; i < records.size(); ++i) {
     CHECK(records[i].first_channel == ChannelLayout(signal).first_channel(i));
