@@ -166,7 +166,7 @@ struct SureBound {
   double distance_m, amplitude;
 };
 
-// As errors_of in shaders/signal/resolve.glsl.
+// As errors_of in shaders/signal/demodulation.glsl.
 std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bound, const FramePlan &plan) {
   const auto condition = largest_condition(view, plan);
   if (!condition || bound.terms_of_beam_edges > 0.0)

@@ -6,7 +6,7 @@
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/read_back.h"
-#include "engine/signal/resolve_pass.h"
+#include "engine/signal/demodulation_pass.h"
 #include "engine/view/points_pass.h"
 
 #include <algorithm>
@@ -156,7 +156,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   Pass sum =
       accumulate_pass(on.setup(), groups, pixels->reduced ? std::vector{all_runs(groups)} : windows, scope);
   list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
-  graph.add_after(resolve_pass(on.setup(), groups, scope, on.path.host_reads_truth));
+  graph.add_after(demodulation_pass(on.setup(), groups, scope, on.path.host_reads_truth));
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
@@ -182,7 +182,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
     graph.add_to_window(shadow_pass(on, shadow, false));
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
-  graph.add_after(resolve_pass(setup, groups, scope));
+  graph.add_after(demodulation_pass(setup, groups, scope));
   Pass read_back = read_back_pass(on.request.sensor, on.facts.modulation, on.memory.buffers, {});
   read_back.store = {}; // it is only compared
   graph.add_after(std::move(read_back));

@@ -2,7 +2,7 @@
 
 #include "engine/sampling/sample_grid.h"
 #include "engine/signal/channel_layout.h"
-#include "engine/signal/resolve_pass.h"
+#include "engine/signal/demodulation_pass.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::uint32_t lists_of(const UniformPixels &pixels) {
 vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &groups,
                                     const UniformPixels &pixels) {
   return sum_constants(on, groups, {})
-      .merge(resolve_constants(on, {}, true))
+      .merge(demodulation_constants(on, {}, true))
       .merge({{shader::constant_surface_vectors, 1},
               {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
               {shader::constant_general_chip, !is_nominal(on.sensor)},

@@ -1,7 +1,7 @@
 #pragma once
 // The output channels of a frame, a row each, in the order in which files, help and documents list them. A
 // new channel takes a row here, a member of Return or Measurement, and its value in
-// shaders/signal/resolve.glsl; memory, read-back, files, previews and help read the rows.
+// shaders/signal/demodulation.glsl; memory, read-back, files, previews and help read the rows.
 
 #include "engine/model/measurement.h"
 

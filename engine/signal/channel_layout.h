@@ -1,6 +1,6 @@
 #pragma once
 // How the device lays out a strip's channels: the areas of DeviceSlot, which follow from the rows of
-// engine/model/channels.h, and what the resolve pass is told of each modulation frequency.
+// engine/model/channels.h, and what the demodulation is told of each modulation frequency.
 
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"

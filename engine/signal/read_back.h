@@ -24,7 +24,7 @@ struct TruthOfRecords {
 Measurement make_measurement(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
                              Measurement &&memory);
 
-// Copies what the resolve pass (and, where the host reads them, the visibility pass) left to memory that the
+// Copies what the demodulation (and, where the host reads them, the visibility pass) left to memory that the
 // host can read, and then to its place in the frame. Storing throws Error: input where light is beyond what a
 // float holds.
 Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,

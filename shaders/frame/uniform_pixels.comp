@@ -6,7 +6,7 @@
 #include "shaders/sampling/chip.glsl"
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/view/points.glsl"
-#include "shaders/signal/resolve.glsl"
+#include "shaders/signal/demodulation.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Lights {
   UniformPixelsLight at;

@@ -1,5 +1,5 @@
 // The same as in accumulate.glsl where all samples are summed, each of one record: its point follows from its depth, and the
-// backscatter joins in the resolve pass. Of lit walls that face all diodes one load and, of a frame's only run, one store a
+// backscatter joins in the demodulation. Of lit walls that face all diodes one load and, of a frame's only run, one store a
 // sample, which lavapipe does lane by lane.
 #ifndef PMDSIM_ACCUMULATE_DEPTHS_GLSL
 #define PMDSIM_ACCUMULATE_DEPTHS_GLSL

@@ -113,7 +113,7 @@ vec2 return_of(float moment[moments], float kappa) {
   return z;
 }
 
-// The return relative to twice the sample's own range, which the resolve pass turns back. The way over the reference point is
+// The return relative to twice the sample's own range, which the demodulation turns back. The way over the reference point is
 // longer than that by rho - range.
 vec2 tone_return(float moment[moments], ReferencePath path, LightRun run, Tone tone) {
   Real detour = add(path.rho, negate(path.range));

@@ -303,7 +303,7 @@ struct Frequency {
   uint padding_1, padding_2;
 };
 
-struct ResolveConstants {
+struct DemodulationConstants {
   uvec2 position;
   uvec2 sum; // of the frequency, the first plane
   uvec2 tags;
@@ -342,12 +342,12 @@ struct DepthSumConstants {
   uint is_first; // of the frame's runs: nothing is in the sum yet
 };
 
-struct DepthResolveConstants {
+struct DepthDemodulationConstants {
   SampleGrid grid;
   uvec2 chip;
   uvec2 records;
   uvec2 planes;
-  uvec2 sum; // as in ResolveConstants, from here on
+  uvec2 sum; // as in DemodulationConstants, from here on
   uvec2 channels;
   uvec2 harmonics;
   uvec2 frequency;
@@ -414,7 +414,7 @@ struct UniformPixelsConstants {
   uvec2 lit;      // in, where shadowed: uint a sample, the diodes that reach it
   uvec2 light;    // in: UniformPixelsLight and its LightRuns
   uvec2 diodes;   // in, as in AccumulateConstants, run by run
-  uvec2 channels; // out, as in ResolveConstants
+  uvec2 channels; // out, as in DemodulationConstants
   uvec2 work;     // in and out: UniformPixelsWork
 };
 

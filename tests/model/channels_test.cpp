@@ -30,7 +30,7 @@ std::map<std::string, std::uint32_t> slots_of_shader() {
   static const std::regex constant(R"(^const uint channel_(\w+) = (\d+);.*)");
   std::map<std::string, std::uint32_t> slots;
   std::smatch match;
-  for (const std::string &line : lines_of(root / "shaders/signal/resolve.glsl"))
+  for (const std::string &line : lines_of(root / "shaders/signal/demodulation.glsl"))
     if (std::regex_match(line, match, constant))
       slots[match[1]] = static_cast<std::uint32_t>(std::stoul(match[2]));
   return slots;

@@ -1,13 +1,13 @@
 #version 460
-// resolve.comp of samples that were summed as depth records. Without a branch around it all, so that lavapipe reads what all
+// demodulate.comp of samples that were summed as depth records. Without a branch around it all, so that lavapipe reads what all
 // pixels share once for all lanes; beyond the last pixel is room for what only pads.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/grid.glsl"
 #include "shaders/view/meet.glsl"
 #include "shaders/view/points.glsl"
-#include "shaders/signal/resolve.glsl"
+#include "shaders/signal/demodulation.glsl"
 
-layout(push_constant, std430) uniform Constants { DepthResolveConstants constants; };
+layout(push_constant, std430) uniform Constants { DepthDemodulationConstants constants; };
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_is_only) const uint is_only = 0;
 layout(constant_id = constant_side) const uint side = 1; // S

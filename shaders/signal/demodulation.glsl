@@ -1,6 +1,6 @@
 // Phase, amplitude, distance, taps and ground truth of a pixel from the sums of its samples, of one modulation frequency.
-#ifndef PMDSIM_RESOLVE_GLSL
-#define PMDSIM_RESOLVE_GLSL
+#ifndef PMDSIM_DEMODULATION_GLSL
+#define PMDSIM_DEMODULATION_GLSL
 
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/compensated.glsl"

@@ -1,4 +1,4 @@
-#include "engine/signal/resolve_pass.h"
+#include "engine/signal/demodulation_pass.h"
 
 #include "engine/sampling/pixel_lists.h"
 #include "engine/signal/channel_layout.h"
@@ -9,7 +9,7 @@
 
 namespace pmdsim {
 
-vulkan::Specialization resolve_constants(const PassSetup &on, const SumScope &scope, bool first) {
+vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScope &scope, bool first) {
   return {{shader::constant_planes, on.modulation.planes},
           {shader::constant_waveform, on.modulation.waveform},
           {shader::constant_taps, on.modulation.taps},
@@ -37,9 +37,9 @@ std::uint32_t frequencies_at_once(const Modulation &modulation, const SumScope &
 }
 
 // The pass on the device.
-class Resolve {
+class Demodulation {
 public:
-  Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth);
+  Demodulation(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth);
 
   void record(const Recording &at) const;
 
@@ -60,7 +60,7 @@ private:
   vulkan::ComputePipeline later_;      // all the others; empty where there are none
 };
 
-Resolve::Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth)
+Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth)
     : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.modulation.frequencies()),
       at_once_(frequencies_at_once(on.modulation, scope)), lit_channel_(ChannelLayout(on.modulation).lit_channel()),
       diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
@@ -74,13 +74,13 @@ Resolve::Resolve(const PassSetup &on, const SourceGroups &groups, const SumScope
     later_ = make_pipeline(on, false, leaves_truth);
 }
 
-vulkan::ComputePipeline Resolve::make_pipeline(const PassSetup &on, bool first, bool leaves_truth) const {
-  vulkan::Specialization constants = resolve_constants(on, scope_, first && !leaves_truth);
+vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool first, bool leaves_truth) const {
+  vulkan::Specialization constants = demodulation_constants(on, scope_, first && !leaves_truth);
   const auto module = [&](std::string_view name) -> const vulkan::ShaderModule & {
     return vulkan::shader_module(on.device, on.options.precision, name);
   };
   if (!scope_.depth_records)
-    return {on.device, module("resolve"), sizeof(shader::ResolveConstants), constants};
+    return {on.device, module("demodulate"), sizeof(shader::DemodulationConstants), constants};
   constants.merge({{shader::constant_surface_vectors, 0},
                    {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
                    {shader::constant_general_chip, !scope_.depth_records->is_nominal()},
@@ -89,10 +89,10 @@ vulkan::ComputePipeline Resolve::make_pipeline(const PassSetup &on, bool first, 
                    {shader::constant_side, side_},
                    {shader::constant_frequencies, at_once_},
                    {shader::constant_one_backscatter, on.scene.backscatter.has_value()}});
-  return {on.device, module("resolve_depths"), sizeof(shader::DepthResolveConstants), constants};
+  return {on.device, module("demodulate_depths"), sizeof(shader::DepthDemodulationConstants), constants};
 }
 
-void Resolve::record(const Recording &at) const {
+void Demodulation::record(const Recording &at) const {
   for (std::uint32_t f = 0; f < frequencies_; f += at_once_)
     if (scope_.depth_records)
       record_depths(at, f);
@@ -100,10 +100,10 @@ void Resolve::record(const Recording &at) const {
       record_samples(at, f);
 }
 
-void Resolve::record_samples(const Recording &at, std::uint32_t frequency) const {
+void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::ResolveConstants constants{buffers_.position.words(),
+  const shader::DemodulationConstants constants{buffers_.position.words(),
                                            buffers_.sum.words(sample_bytes_ * plane * frequency),
                                            buffers_.tags.words(),
                                            scene_.planes.words(),
@@ -125,10 +125,10 @@ void Resolve::record_samples(const Recording &at, std::uint32_t frequency) const
                   of_pixels);
 }
 
-void Resolve::record_depths(const Recording &at, std::uint32_t first_frequency) const {
+void Demodulation::record_depths(const Recording &at, std::uint32_t first_frequency) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::DepthResolveConstants constants{scope_.depth_records->of(strip),
+  const shader::DepthDemodulationConstants constants{scope_.depth_records->of(strip),
                                                 scope_.depth_records->chip(),
                                                 buffers_.tags.words(),
                                                 scene_.planes.words(),
@@ -148,14 +148,14 @@ void Resolve::record_depths(const Recording &at, std::uint32_t first_frequency) 
 
 } // namespace
 
-Pass resolve_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth) {
-  const auto resolve = std::make_shared<const Resolve>(on, groups, scope, leaves_truth);
+Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth) {
+  const auto demodulation = std::make_shared<const Demodulation>(on, groups, scope, leaves_truth);
   return {.name = "resolve",
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |
                    (on.modulation.lit ? visibility_counts : no_resource) |
                    (scope.list ? pixel_lists : no_resource),
           .writes = channels,
-          .record = [resolve](const Recording &at) { resolve->record(at); },
+          .record = [demodulation](const Recording &at) { demodulation->record(at); },
           .list = scope.list};
 }
 

@@ -4,9 +4,9 @@
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/sampling/position.glsl"
 #include "shaders/shared/real_elementary.glsl"
-#include "shaders/signal/resolve.glsl"
+#include "shaders/signal/demodulation.glsl"
 
-layout(push_constant, std430) uniform Constants { ResolveConstants constants; };
+layout(push_constant, std430) uniform Constants { DemodulationConstants constants; };
 layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 
