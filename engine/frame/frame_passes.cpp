@@ -210,7 +210,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
   if (path.record == SampleRecord::depth)
     grid.emplace(device, request.sensor);
   auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
-                                               memory->scene.paint.masked, options.precision, grid,
+                                               memory->scene.paint.cutouts, options.precision, grid,
                                                drawn_tags(memory->buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(plan.all);
   std::shared_ptr<const TileShadowPass> shadow;

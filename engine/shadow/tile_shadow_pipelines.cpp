@@ -17,7 +17,7 @@ std::uint32_t lanes_to_try(const vulkan::Device &device) {
 LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<SourceWindow> &windows,
                                 const LitForm &form, SamplePrecision precision) {
   vulkan::Specialization constants{{shader::constant_tiled, form.tiled},
-                                   {shader::constant_masked, form.masked},
+                                   {shader::constant_cutouts, form.cutouts},
                                    {shader::constant_flat_bundles, form.flat},
                                    {shader::constant_lanes, lanes_to_try(device)},
                                    {shader::constant_is_first, 1}};

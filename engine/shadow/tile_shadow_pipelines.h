@@ -22,7 +22,7 @@ struct LitPipelines {
 // What is compiled in or out.
 struct LitForm {
   bool tiled;  // the tags lie in tiles (shaders/shared/interface.h)
-  bool masked; // occluders may have holes
+  bool cutouts; // occluders may have holes
   bool flat;   // within a bundle all diodes have the same z
 };
 

@@ -111,7 +111,7 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 }
 
 IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-                           const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+                           const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
                            const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
                            std::optional<RasterImages> &&previous)
     : sensor_(sensor), blocks_(projection.blocks),
@@ -123,7 +123,7 @@ IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &proje
   const vulkan::Specialization constants{
       {shader::constant_half_viewport, std::bit_cast<std::uint32_t>(half_viewport_)},
       {shader::constant_general_chip, grid && !grid->is_nominal()},
-      {shader::constant_masked, masked}};
+      {shader::constant_cutouts, cutouts}};
   const vulkan::ShaderModule &vertex =
       vulkan::shader_module(device, precision, by_fragments ? "id_raster_depth_vert" : "id_raster_vert");
   const vulkan::ShaderModule &fragment =

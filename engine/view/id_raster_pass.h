@@ -26,7 +26,7 @@ public:
   // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
   // same.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-               const std::vector<PlannedStrip> &strips, bool masked, SamplePrecision precision,
+               const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
                const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
                std::optional<RasterImages> &&previous);
 

@@ -138,7 +138,7 @@ Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, c
       {{shader::constant_surface_vectors, surface_vectors},
        {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
        {shader::constant_distortion, fisheye ? shader::distortion_fisheye : shader::distortion_brown},
-       {shader::constant_masked, scene_buffers.paint.masked},
+       {shader::constant_cutouts, scene_buffers.paint.cutouts},
        {shader::constant_painted, scene_buffers.paint.painted}});
   const auto made = std::make_shared<const LensSearch>(
       LensSearch{upload_lens(device, sensor), upload_views(device, blocks),

@@ -158,7 +158,7 @@ PaintUse paint_use(const CameraScene &camera, const Scene &scene) {
   for (const CameraTriangle &shape : camera.triangles) {
     const bool disc = is_disc(scene, shape.id);
     use.painted = use.painted || disc || scene.surfaces[scene.surface_of(shape.id)].paint;
-    use.masked = use.masked || disc || has_holes(shape);
+    use.cutouts = use.cutouts || disc || has_holes(shape);
   }
   // Holes that the lens does not see let light through all the same.
   use.holes_in_the_light = std::ranges::any_of(camera.hidden, has_holes);
@@ -169,7 +169,7 @@ PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, con
                           const Scene &scene, Backscatter backscatter, TextureCache &textures) {
   PaintBuffers buffers;
   buffers.painted = use.painted;
-  buffers.masked = use.masked;
+  buffers.masked = use.cutouts;
   if (!use.painted && !use.holes_in_the_light)
     return buffers;
   const std::vector<shader::ShapePaint> shapes = shape_paints(camera, scene);

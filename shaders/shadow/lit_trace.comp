@@ -8,7 +8,7 @@
 #include "shaders/view/surface_appearance.glsl"
 
 layout(local_size_x = tile_samples) in;
-layout(constant_id = constant_masked) const uint masked = 0;
+layout(constant_id = constant_cutouts) const uint cutouts = 0;
 layout(constant_id = constant_is_first) const uint is_first = 1;
 
 // Whether an occluder with holes is there where the way from the point to the diode meets it.
@@ -22,7 +22,7 @@ bool is_there(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, Dio
 
 bool blocks(LitScene scene, Occluder occluder, LitPoint point, vec3 diode, DiodeFrame frame) {
   bool between = depth_in(cone_of(occluder, point, frame, scene.world_rounding), diode, false) >= 0.0;
-  if (masked != 0 && between && occluder.may_be_absent != 0u)
+  if (cutouts != 0 && between && occluder.may_be_absent != 0u)
     return is_there(scene, occluder, point, diode, frame);
   return between;
 }

@@ -7,7 +7,7 @@
 #include "shaders/view/surface_appearance.glsl"
 
 layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
-layout(constant_id = constant_masked) const uint masked = 0;
+layout(constant_id = constant_cutouts) const uint cutouts = 0;
 layout(location = 0) flat in uint visible_triangle;
 layout(location = 0) out uvec2 tag;
 
@@ -31,7 +31,7 @@ bool is_there() {
 }
 
 void main() {
-  if (masked != 0) { // a discard that nobody asks for would end early depth tests
+  if (cutouts != 0) { // a discard that nobody asks for would end early depth tests
     if (!is_there())
       discard;
   }

@@ -11,14 +11,14 @@
 
 layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
-layout(constant_id = constant_masked) const uint masked = 0;
+layout(constant_id = constant_cutouts) const uint cutouts = 0;
 layout(location = 0) flat in uint visible_triangle;
 layout(location = 0) out uvec4 record;
 
 void main() {
   vec2 fragment = floor(gl_FragCoord.xy);
   Real3 ray = grid_ray(grid_slope, constants.chip, grid_first + 2.0 * fragment, general_chip != 0);
-  if (masked != 0) {
+  if (cutouts != 0) {
     // Without the triangle's limits, as id_raster.frag: all ways must see the same holes.
     Real unlimited = divide(real(plane_hi.w, plane_lo.w), dot3(real3(plane_hi.xyz, plane_lo.xyz), ray));
     if (!look_of(constants.shapes, constants.surfaces, visible_triangle, point_at_depth(ray, unlimited)).is_there)

@@ -10,7 +10,7 @@
 
 layout(push_constant, std430) uniform Constants { LensSearchConstants constants; };
 
-layout(constant_id = constant_masked) const uint masked = 0;
+layout(constant_id = constant_cutouts) const uint cutouts = 0;
 
 const uint neighbours = 9;
 const uint covering = 4; // the fragment that the ray falls in
@@ -46,7 +46,7 @@ Real range_along(Real3 ray, TrianglePlane plane) {
 }
 
 bool is_there(uint id, Real3 point) {
-  return masked == 0 || look_of(constants.shapes, constants.surfaces, id, point).is_there;
+  return cutouts == 0 || look_of(constants.shapes, constants.surfaces, id, point).is_there;
 }
 
 // Where the ray meets the surface that `triangle` belongs to, walking from neighbour to neighbour: triangles smaller than
@@ -106,7 +106,7 @@ Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
   bool surrounded = true;
   [[unroll]] for (uint n = 0; n < neighbours; ++n)
     surrounded = surrounded && seen[n] != no_triangle;
-  if (masked != 0 && surrounded)
+  if (cutouts != 0 && surrounded)
     surrounded = !may_be_absent(constants.shapes, constants.surfaces, seen[covering]);
   if (!surrounded)
     return hit;

@@ -302,7 +302,7 @@ TEST_CASE("light falls through the holes of a mask") {
   builder.add_wall({wall_m});
   // Its back to the lens. u runs to the right, v down, 1.6 m long both.
   builder.add_mesh({{-0.8, -0.8, 1}, {0.8, -0.8, 1}, {0.8, 0.8, 1}, {-0.8, 0.8, 1}}, {{0, 1, 2}, {0, 2, 3}},
-                   masked);
+                   cutouts);
   Scene scene = builder.scene();
   scene.texture_coordinates = {{}, {}, {}, {}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const glm::dvec2 hole_from_m(-0.4, 0.0), hole_to_m(0.0, 0.4);

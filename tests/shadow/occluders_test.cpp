@@ -166,10 +166,10 @@ TEST_CASE("back faces that the lens does not see block") {
 TEST_CASE("discs and shapes with holes are known as such") {
   SceneBuilder builder;
   builder.add_wall({2.0});
-  Surface masked;
+  Surface cutouts;
   masked.paint = Paint{};
   masked.paint->alpha_cutoff = 0.5;
-  builder.add_triangle({-0.1, -0.1, 1}, {0, 0.1, 1}, {0.1, -0.1, 1}, masked);
+  builder.add_triangle({-0.1, -0.1, 1}, {0, 0.1, 1}, {0.1, -0.1, 1}, cutouts);
   builder.add_triangle({-0.1, -0.1, 1.5}, {0, 0.1, 1.5}, {0.1, -0.1, 1.5});
   Scene scene = builder.scene();
   scene.discs.push_back({static_cast<std::uint32_t>(scene.positions_m.size()), 0.05, 0, 0});

@@ -31,14 +31,14 @@ struct ShapePlane {
 struct TriangleBlocker {
   std::array<glm::dvec3, 3> corners_m;
   ShapePlane plane;
-  bool masked;
+  bool cutouts;
 };
 
 struct DiscBlocker {
   glm::dvec3 centre_m;
   double radius_m;
   ShapePlane plane;
-  bool masked;
+  bool cutouts;
 };
 
 struct ShadowQuery;

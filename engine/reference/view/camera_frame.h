@@ -15,7 +15,7 @@ namespace pmdsim::reference {
 struct CameraTriangle {
   std::array<glm::dvec3, 3> corners_m;
   bool double_sided;
-  bool masked = false; // its paint may leave parts of it out
+  bool cutouts = false; // its paint may leave parts of it out
 
   // Not normalised; towards the lens where the lens sees the front.
   glm::dvec3 front() const { return glm::cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]); }
@@ -25,7 +25,7 @@ struct CameraTriangle {
 struct CameraDisc {
   glm::dvec3 centre_m;
   double radius_m;
-  bool masked = false;
+  bool cutouts = false;
 
   // Unit length, from the lens to the centre; zero where they are one.
   glm::dvec3 axis() const {
