@@ -65,8 +65,8 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Modulation &modulation = facts.modulation;
-  return {.host_reads_tags = path.host_reads_truth || options.keep_sample_tags || options.keep_visibility,
-          .tag_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
+  return {.host_reads_ids = path.host_reads_truth || options.keep_sample_ids || options.keep_visibility,
+          .id_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
@@ -83,7 +83,7 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster, Fra
                     .reads = no_resource,
                     .writes = ids,
                     .record = [raster, &memory = on.memory](const Recording &at) {
-                      raster->record(at.commands, at.planned, memory.scene, drawn_tags(memory.buffers));
+                      raster->record(at.commands, at.planned, memory.scene, drawn_ids(memory.buffers));
                     }});
   const std::uint32_t vectors = on.facts.model.surface_vectors(on.plan.precision);
   if (on.path.grid == SampleGrid::distorted)
@@ -211,7 +211,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
     grid.emplace(device, request.sensor);
   auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
                                                memory->scene.paint.cutouts, options.precision, grid,
-                                               drawn_tags(memory->buffers), std::move(images));
+                                               drawn_ids(memory->buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(plan.all);
   std::shared_ptr<const TileShadowPass> shadow;
   if (path.windows > 0)

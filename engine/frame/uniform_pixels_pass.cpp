@@ -105,7 +105,7 @@ Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const 
     const shader::UniformPixelsConstants constants{strip,
                                                    made->slope,
                                                    made->chip.words(),
-                                                   buffers.tags.words(),
+                                                   buffers.ids.words(),
                                                    scene.planes.words(),
                                                    scene.paint.shapes.words(),
                                                    scene.paint.surfaces.words(),

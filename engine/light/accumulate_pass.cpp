@@ -214,7 +214,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
   const std::uint32_t plane = sample_count(strip);
   const shader::DepthSumConstants constants{depth_records_->of(strip),
                                             depth_records_->chip(),
-                                            buffers_.tags.words(),
+                                            buffers_.ids.words(),
                                             scene_.planes.words(),
                                             buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),

@@ -34,7 +34,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
     if (blocks[block].distorted)
       fragments = std::max(fragments, drawn_fragments(blocks[block].fragments));
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
-    tags = std::max({tags, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
+    tags = std::max({id_buffer, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
   const auto storage = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes,
@@ -46,14 +46,14 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
     return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
   const vk::DeviceSize channel_bytes = pixels * layout.channels * sizeof(float);
-  const vk::DeviceSize tag_bytes = tags * layout.tag_bytes;
+  const vk::DeviceSize id_bytes = tags * layout.id_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize violation_bytes = layout.keeps_terms ? sizeof(shader::BudgetViolations) : 0;
   const vk::DeviceSize visibility_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;
   B made;
   made.fragments = storage(&B::fragments, fragments * sizeof(shader::uvec2), Usage::eTransferDst);
-  made.tags = storage(&B::tags, tag_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.ids = storage(&B::ids, id_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.position = storage(&B::position, samples * layout.position_bytes);
   made.surface = storage(&B::surface, samples * layout.surface_vectors * sizeof(shader::vec4));
   made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
@@ -65,9 +65,9 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
   made.violations_read = read(&B::violations_read, violation_bytes);
-  made.tags_read = read(&B::tags_read, layout.host_reads_tags && !made.tags.is_mapped() ? tag_bytes : 0);
+  made.ids_read = read(&B::ids_read, layout.host_reads_ids && !made.ids.is_mapped() ? id_bytes : 0);
   made.visibility_read = read(&B::visibility_read, options.keep_visibility ? visibility_bytes : 0);
-  made.tag_bytes = layout.tag_bytes;
+  made.id_bytes = layout.id_bytes;
   return made;
 }
 
@@ -79,12 +79,12 @@ std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const 
   return {pairs + std::size_t{first / 2} * strip.padded_pixels, strip.padded_pixels};
 }
 
-std::span<const std::byte> tags_for_host(const StripBuffers &buffers) {
-  return buffers.tags.is_mapped() ? buffers.tags.mapped() : buffers.tags_read.mapped();
+std::span<const std::byte> ids_for_host(const StripBuffers &buffers) {
+  return buffers.ids.is_mapped() ? buffers.ids.mapped() : buffers.ids_read.mapped();
 }
 
 std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers) {
-  const std::span<const std::byte> all = tags_for_host(buffers);
+  const std::span<const std::byte> all = ids_for_host(buffers);
   return {reinterpret_cast<const shader::uvec4 *>(all.data()), all.size() / sizeof(shader::uvec4)};
 }
 

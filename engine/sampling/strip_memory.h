@@ -14,7 +14,7 @@ struct StripBuffers {
   // With room for rasters that draw on them, whose rows may come in fours (IdRasterPass).
   vulkan::Buffer fragments; // uvec2 a fragment of a distorted strip's block, else empty
   vulkan::Buffer
-      tags; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4
+      ids; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4
   vulkan::Buffer position;    // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
                               // long, but for `sum` on as depth records, which is row by row as the records
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
@@ -28,9 +28,9 @@ struct StripBuffers {
   vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
-  vulkan::Buffer tags_read;    // empty where `tags` is mapped itself, or the host has no use for them
+  vulkan::Buffer ids_read;    // empty where `tags` is mapped itself, or the host has no use for them
   vulkan::Buffer visibility_read; // empty unless the samples' diodes are asked for
-  std::size_t tag_bytes = 0;   // a sample, of `tags`
+  std::size_t id_bytes = 0;   // a sample, of `tags`
 };
 
 // A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of
@@ -39,18 +39,18 @@ std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const 
                                              std::uint32_t first);
 
 // What the raster leaves its tags in.
-inline const vulkan::Buffer &drawn_tags(const StripBuffers &buffers) {
-  return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.tags;
+inline const vulkan::Buffer &drawn_ids(const StripBuffers &buffers) {
+  return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.ids;
 }
 
 // Likewise, a tag or a record a sample.
-std::span<const std::byte> tags_for_host(const StripBuffers &buffers);
+std::span<const std::byte> ids_for_host(const StripBuffers &buffers);
 std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
 
 // What a strip keeps of its samples.
 struct SampleLayout {
-  bool host_reads_tags;
-  std::size_t tag_bytes;      // a sample
+  bool host_reads_ids;
+  std::size_t id_bytes;      // a sample
   std::size_t position_bytes; // likewise, from here on
   std::size_t backscatter_bytes;
   std::size_t surface_vectors;

@@ -109,7 +109,7 @@ TileShadowPass::TileShadowPass(const vulkan::Device &device, const Occluders &oc
 
 void TileShadowPass::record_tiles(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                                   const StripBuffers &buffers) const {
-  const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.tags.words(),
+  const shader::LitTilesConstants constants{strip, buffers.position.words(), buffers.ids.words(),
                                             scene_.record.words(), parts_.words()};
   pipelines_.tiles.dispatch(commands, constants, padded(tiles_of(strip)), shader::workgroup_size);
 }
@@ -148,7 +148,7 @@ shader::LitGatherConstants TileShadowPass::gather_constants(const shader::Strip 
                                                             std::size_t window) const {
   return {strip,
           buffers.position.words(),
-          buffers.tags.words(),
+          buffers.ids.words(),
           parts_.words(),
           scene_.record.words(),
           diodes_[window].boxes.words(),
@@ -165,7 +165,7 @@ void TileShadowPass::record_decide(const vk::raii::CommandBuffer &commands, cons
   shader::LitDecideConstants constants{
       strip,
       buffers.position.words(),
-      buffers.tags.words(),
+      buffers.ids.words(),
       parts_.words(),
       scene_.record.words(),
       diodes_[window].bundles.words(bundle * sizeof(shader::BundleDiodes)),

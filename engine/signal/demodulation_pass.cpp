@@ -105,7 +105,7 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
   const std::uint32_t plane = sample_count(strip);
   const shader::DemodulationConstants constants{buffers_.position.words(),
                                            buffers_.sum.words(sample_bytes_ * plane * frequency),
-                                           buffers_.tags.words(),
+                                           buffers_.ids.words(),
                                            scene_.planes.words(),
                                            buffers_.channels.words(),
                                            harmonics_.words(),
@@ -130,7 +130,7 @@ void Demodulation::record_depths(const Recording &at, std::uint32_t first_freque
   const std::uint32_t plane = sample_count(strip);
   const shader::DepthDemodulationConstants constants{scope_.depth_records->of(strip),
                                                 scope_.depth_records->chip(),
-                                                buffers_.tags.words(),
+                                                buffers_.ids.words(),
                                                 scene_.planes.words(),
                                                 buffers_.sum.words(sample_bytes_ * plane * first_frequency),
                                                 buffers_.channels.words(),

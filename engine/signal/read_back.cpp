@@ -105,7 +105,7 @@ void check_radiance(const Row &row, const Measurement &measurement) {
 }
 
 // Where `tiled`, tags lie in tiles (shaders/shared/interface.h).
-void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, const shader::Strip &strip,
+void store_sample_ids(std::span<const std::byte> from, std::size_t id_bytes, const shader::Strip &strip,
                        bool tiled, Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
   const glm::uvec2 pixels(strip.columns, strip.rows);
@@ -115,7 +115,7 @@ void store_sample_tags(std::span<const std::byte> from, std::size_t tag_bytes, c
                                             subsample = sample % strip.samples;
       const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
       shader::uvec2 tag;
-      std::memcpy(&tag, from.data() + (std::size_t{at.y} * samples.x + at.x) * tag_bytes, sizeof(tag));
+      std::memcpy(&tag, from.data() + (std::size_t{at.y} * samples.x + at.x) * id_bytes, sizeof(tag));
       const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
       const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
       to.sample_pixel_id[to_at] = tag.x;
@@ -138,10 +138,10 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
   if (modulation.keeps_terms)
     commands.copyBuffer(buffers.violations.get(), buffers.violations_read.get(),
                         vk::BufferCopy(0, 0, sizeof(shader::BudgetViolations)));
-  if (buffers.tags_read.bytes() > 0) {
+  if (buffers.ids_read.bytes() > 0) {
     const vk::DeviceSize samples = vk::DeviceSize{strip.columns} * strip.rows * strip.samples * strip.samples;
-    commands.copyBuffer(buffers.tags.get(), buffers.tags_read.get(),
-                        vk::BufferCopy(0, 0, samples * buffers.tag_bytes));
+    commands.copyBuffer(buffers.ids.get(), buffers.ids_read.get(),
+                        vk::BufferCopy(0, 0, samples * buffers.id_bytes));
   }
   vulkan::memory_barrier(commands, Stage::eTransfer | Stage::eComputeShader | Stage::eColorAttachmentOutput,
                          Access::eTransferWrite | Access::eShaderStorageWrite | Access::eColorAttachmentWrite,
@@ -160,7 +160,7 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
     check_radiance(row, measurement);
   });
   if (!measurement.sample_pixel_id.empty())
-    store_sample_tags(tags_for_host(buffers), buffers.tag_bytes, strip, is_tiled(sensor), measurement);
+    store_sample_ids(ids_for_host(buffers), buffers.id_bytes, strip, is_tiled(sensor), measurement);
 }
 
 } // namespace
@@ -178,9 +178,9 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
     if (layout.holds(of.row)) // what else there is, the host fills or clears
       values.resize(pixels);
   });
-  const bool keeps_tags = options.keep_sample_tags || options.keep_visibility;
+  const bool keeps_ids = options.keep_sample_ids || options.keep_visibility;
   for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})
-    ids->resize(keeps_tags ? pixels * sensor.samples * sensor.samples : 0);
+    ids->resize(keeps_ids ? pixels * sensor.samples * sensor.samples : 0);
   measurement.sample_visibility.clear();
   return measurement;
 }

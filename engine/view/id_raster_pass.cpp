@@ -16,7 +16,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-constexpr auto tag_format = vk::Format::eR32G32Uint;
+constexpr auto id_format = vk::Format::eR32G32Uint;
 constexpr auto record_format = vk::Format::eR32G32B32A32Uint;
 constexpr auto stages_with_constants = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
@@ -112,7 +112,7 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 
 IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                            const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
-                           const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+                           const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
                            std::optional<RasterImages> &&previous)
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
@@ -130,11 +130,11 @@ IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &proje
       vulkan::shader_module(device, precision, by_fragments ? "id_raster_depth_frag" : "id_raster_frag");
   compiled_ =
       compiled(device, {vertex, fragment, vulkan::declared_part(vertex, constants),
-                        vulkan::declared_part(fragment, constants), grid ? record_format : tag_format});
+                        vulkan::declared_part(fragment, constants), grid ? record_format : id_format});
   if (grid && !by_fragments)
-    depths_.emplace(device, vulkan::shader_module(device, precision, "tags"), sizeof(shader::TagsConstants),
+    depths_.emplace(device, vulkan::shader_module(device, precision, "record_depths"), sizeof(shader::RecordDepthsConstants),
                     constants);
-  images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : tag_format, tags,
+  images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : id_format, id_buffer,
                   std::move(previous));
 }
 
@@ -145,21 +145,21 @@ std::optional<RasterImages> IdRasterPass::release_images() {
 }
 
 void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+                          const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
-  images_->begin(commands, extent, tags);
+  images_->begin(commands, extent, id_buffer);
   draw(commands, planned, scene);
-  images_->end(commands, extent, tags);
+  images_->end(commands, extent, id_buffer);
   if (depths_)
-    add_depths(commands, planned, scene, tags);
+    add_depths(commands, planned, scene, id_buffer);
 }
 
 void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                              const SceneBuffers &scene, const vulkan::Buffer &tags) const {
+                              const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
-  const shader::TagsConstants constants{
-      grid_->of(planned.strip), grid_->chip(), scene.planes.words(), tags.words(), fragments, 0};
+  const shader::RecordDepthsConstants constants{
+      grid_->of(planned.strip), grid_->chip(), scene.planes.words(), id_buffer.words(), fragments, 0};
   depths_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,

@@ -27,20 +27,20 @@ public:
   // same.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
-               const std::optional<ChipGrid> &grid, const vulkan::Buffer &tags,
+               const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
                std::optional<RasterImages> &&previous);
 
   // Leaves the tags of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
   // the tags of its block's fragments, in `tags`, visible to compute shaders and transfers. Of a strip that
   // is not one of those planned, only the first row may be right.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
-              const vulkan::Buffer &tags) const;
+              const vulkan::Buffer &id_buffer) const;
 
   std::optional<RasterImages> release_images();
 
 private:
   void add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                  const SceneBuffers &scene, const vulkan::Buffer &tags) const;
+                  const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const;
   void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
             const SceneBuffers &scene) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,

@@ -32,18 +32,18 @@ vk::Extent2D largest_of(const std::vector<vk::Extent2D> &extents) {
 // Lavapipe draws on linear images as fast as on others; GPUs may not.
 std::optional<vulkan::Image> image_in_place(const vulkan::Device &device,
                                             const std::vector<vk::Extent2D> &extents, vk::Extent2D largest,
-                                            vk::Format format, const vulkan::Buffer &tags) {
+                                            vk::Format format, const vulkan::Buffer &id_buffer) {
   const bool equally_wide =
       std::ranges::all_of(extents, [&](const vk::Extent2D &extent) { return extent.width == largest.width; });
   if (!device.is_cpu() || !equally_wide)
     return std::nullopt;
-  return vulkan::Image::on_buffer(device, largest, format, Usage::eColorAttachment, tags);
+  return vulkan::Image::on_buffer(device, largest, format, Usage::eColorAttachment, id_buffer);
 }
 
 } // namespace
 
 RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents,
-                           vk::Format format, const vulkan::Buffer &tags,
+                           vk::Format format, const vulkan::Buffer &id_buffer,
                            std::optional<RasterImages> &&previous)
     : extent_(largest_of(extents)), tag_format_(format) {
   if (previous && previous->extent_ != extent_)
@@ -51,7 +51,7 @@ RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::E
   depth_ = previous ? std::move(previous->depth_)
                     : vulkan::Image(device, extent_, depth_format, Usage::eDepthStencilAttachment,
                                     vk::ImageAspectFlagBits::eDepth);
-  tags_ = image_in_place(device, extents, extent_, format, tags);
+  tags_ = image_in_place(device, extents, extent_, format, id_buffer);
   in_place_ = tags_.has_value();
   if (!in_place_ && previous && previous->tag_format_ == format)
     tags_ = std::move(previous->tags_);
@@ -68,8 +68,8 @@ void RasterImages::leave_buffer() {
 }
 
 void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                         const vulkan::Buffer &tags) const {
-  const auto [layout, load] = begin_tags(commands, extent, tags);
+                         const vulkan::Buffer &id_buffer) const {
+  const auto [layout, load] = begin_tags(commands, extent, id_buffer);
   depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
                     Access::eDepthStencilAttachmentWrite, depth_tests,
                     Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
@@ -86,7 +86,7 @@ void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D e
 // more than 4 bytes a pixel one pixel after the other, but fills buffers.
 std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii::CommandBuffer &commands,
                                                                  vk::Extent2D extent,
-                                                                 const vulkan::Buffer &tags) const {
+                                                                 const vulkan::Buffer &id_buffer) const {
   if (!in_place_) {
     tags_->transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                       Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
@@ -94,7 +94,7 @@ std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii:
   }
   tags_->transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_tags, {}, Stage::eTransfer,
                     Access::eTransferWrite);
-  commands.fillBuffer(tags.get(), 0,
+  commands.fillBuffer(id_buffer.get(), 0,
                       vk::DeviceSize{extent.width} * extent.height * vk::blockSize(tag_format_), 0);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
                          Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
@@ -102,23 +102,23 @@ std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii:
 }
 
 void RasterImages::end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                       const vulkan::Buffer &tags) const {
+                       const vulkan::Buffer &id_buffer) const {
   commands.endRendering();
   if (in_place_)
     vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                            users_of_tags, uses_of_tags);
   else
-    copy_tags(commands, extent, tags);
+    copy_tags(commands, extent, id_buffer);
 }
 
 void RasterImages::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                             const vulkan::Buffer &tags) const {
+                             const vulkan::Buffer &id_buffer) const {
   tags_->transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                     Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
                     Access::eTransferRead);
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(tags_->get(), Layout::eTransferSrcOptimal, tags.get(), region);
+  commands.copyImageToBuffer(tags_->get(), Layout::eTransferSrcOptimal, id_buffer.get(), region);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_tags, uses_of_tags);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the visibility pass draws on: an image of depths, and one of tags, which lies in the very buffer that
+// What the visibility pass draws on: an image of depths, and one of id_buffer, which lies in the very buffer that
 // the tags are wanted in where it can.
 
 #include "engine/vulkan/buffer.h"
@@ -19,23 +19,23 @@ public:
 
   // Large enough for each of `extents`. `tags`: the buffer; `previous`: of passes that are done with, whose
   // memory is taken where it can be.
-  RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format tag_format,
-               const vulkan::Buffer &tags, std::optional<RasterImages> &&previous);
+  RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format id_format,
+               const vulkan::Buffer &id_buffer, std::optional<RasterImages> &&previous);
 
   // Begins to draw on `extent`, where no tag is left from before and all depths are 0.
-  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
   // Ends that: the tags are in the buffer row by row, visible to compute shaders and transfers. Of an extent
   // that is not one of those asked for, and not as wide, only the first row may be.
-  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
 
   // Before the buffer goes: only what may be taken by others stays.
   void leave_buffer();
 
 private:
   std::pair<vk::ImageLayout, vk::AttachmentLoadOp>
-  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &tags) const;
+  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                 const vulkan::Buffer &tags) const;
+                 const vulkan::Buffer &id_buffer) const;
 
   vk::Extent2D extent_;
   vk::Format tag_format_;

@@ -23,7 +23,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   }
   SimulatorOptions options;
   options.device = device;
-  options.keep_sample_tags = extras.sample_triangles;
+  options.keep_sample_ids = extras.sample_triangles;
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
   // The program never changes its environment any more.

@@ -1,5 +1,5 @@
 #version 460
-// The uniform-pixel pass: from a pixel's tags to its channels at once, where the pixel is one surface's that all diodes light and
+// The uniform-pixel pass: from a pixel's ids to its channels at once, where the pixel is one surface's that all diodes light and
 // face, so that few diodes may stand in for all and one point, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
@@ -29,7 +29,7 @@ float variance() { return float(side * side - 1u) / 3.0; }
 
 // What the samples of a pixel have in common.
 struct Seen {
-  uvec2 tag;  // of the first
+  uvec2 ids;  // of the first
   bool alike; // all have it
   bool lit;   // every diode lights whatever they see
 };
@@ -46,14 +46,14 @@ Seen see(uint pixel, UniformPixelsLight light) {
   uint diodes = Works(constants.work).at.diodes;
   Seen seen = Seen(uvec2(0), true, true);
   for (uint s = 0; s < side * side; ++s) {
-    uvec2 tag = load_tag(constants.tags, tag_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0));
+    uvec2 ids = load_words(constants.ids, id_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0));
     if (s == 0)
-      seen.tag = tag;
-    seen.alike = seen.alike && tag == seen.tag;
+      seen.ids = ids;
+    seen.alike = seen.alike && ids == seen.ids;
     if (backscatter_model != backscatter_flat)
-      seen.lit = seen.lit && (tag.x == 0u || faces(load_plane(constants.planes, tag.x != 0u ? tag.y : 0u), light));
+      seen.lit = seen.lit && (ids.x == 0u || faces(load_plane(constants.planes, ids.x != 0u ? ids.y : 0u), light));
     if (lit_is_kept != 0)
-      seen.lit = seen.lit && (tag.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
+      seen.lit = seen.lit && (ids.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
   }
   return seen;
 }
@@ -221,15 +221,15 @@ void main() {
   Seen seen = see(pixel, light);
   bool done = false;
   if (runs > 0) {
-    bool hits = seen.tag.x != 0u;
-    uint triangle = hits ? seen.tag.y : 0u;
+    bool hits = seen.ids.x != 0u;
+    uint triangle = hits ? seen.ids.y : 0u;
     TrianglePlane plane = load_plane(constants.planes, triangle);
     vec4 z[tones];
     Quadrature quadrature = sum_points(light, plane, triangle, pixel, z);
     Errors added = errors_of_pixel(light, plane, pixel, hits, quadrature);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
     bool kept = store_pixel(channels, light, to, hits, quadrature, z, added);
-    store_ids(channels, seen.tag, plane.object, to);
+    store_ids(channels, seen.ids, plane.object, to);
     done = seen.alike && seen.lit && kept && (side == 1 || quadrature_points != 0 || !hits);
   }
   if (lists_pixels != lists_no_pixel && !done && !pads) {

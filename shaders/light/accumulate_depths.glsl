@@ -25,7 +25,7 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
   vec4 surface = vec4(0.0);
   if (backscatter_model != backscatter_flat) {
     // What only pads has no record.
-    uint triangle = load_record_tag(constants.records, min(i, constants.samples - 1)).y;
+    uint triangle = load_record_ids(constants.records, min(i, constants.samples - 1)).y;
     surface = load_vec4(constants.planes, 3 * triangle) * vec4(1.0, 1.0, 1.0, -1.0);
   }
   return see_point(position, surface, run, point);
@@ -38,7 +38,7 @@ void add_terms(uint i, float backscatter, float terms) {}
 void add_to_plane(uint plane, uint i, float backscatter, vec2 value) {
   uint at = plane * constants.plane + i;
   if (is_only != 0) {
-    store_tag(constants.sum, at, floatBitsToUint(value));
+    store_words(constants.sum, at, floatBitsToUint(value));
   } else {
     // One pipeline for all runs: long ones take their time to compile.
     vec4 before = mix(load_vec4(constants.sum, at), vec4(0.0), bvec4(constants.is_first != 0));

@@ -63,9 +63,9 @@ uint part_of_workgroup(uvec2 work, uint list, uint parts) {
 }
 
 // What the sample sees, 0 where it is not there.
-uint shape_of(TileSample at, Strip strip, uvec2 tags, bool tiled) {
-  uint tag_at = tag_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled);
-  uint id = Tags(tags).at[at.is_there ? tag_at : 0u].y;
+uint shape_of(TileSample at, Strip strip, uvec2 ids, bool tiled) {
+  uint id_at = id_index(at.pixel, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled);
+  uint id = WordPairs(ids).at[at.is_there ? id_at : 0u].y;
   return at.is_there ? id : 0u;
 }
 

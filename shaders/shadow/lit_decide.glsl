@@ -25,7 +25,7 @@ PartSample part_sample(uint part_index, uint within, DiodeFrame frame) {
   Parts parts = Parts(constants.parts);
   bool is_there = at.is_there && hi != vec3(0.0) && hi.z >= parts.at[part_index].nearest_m &&
                   hi.z < parts.at[part_index].farthest_m;
-  uint id = is_there ? shape_of(at, strip, constants.tags, tiled != 0) : 0u;
+  uint id = is_there ? shape_of(at, strip, constants.ids, tiled != 0) : 0u;
   TrianglePlane plane = Planes(LitScenes(constants.scene).at.planes).at[id];
   Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
   Real offset = add(dot3(normal, real3(frame.centre, vec3(0.0))), negate(real(plane.plane_hi.w, plane.plane_lo.w)));

@@ -57,7 +57,7 @@ bool is_beside(Occluder occluder, uint part_index, float reach_m) {
   for (uint within = 0; within < tile_samples; ++within, ++asked) {
     TileSample at = tile_sample(constants.strip, part_index / parts_per_tile, within);
     vec3 point = high3(load_position(constants.position, at.i));
-    bool other = at.is_there && shape_of(at, constants.strip, constants.tags, tiled != 0) != occluder.id;
+    bool other = at.is_there && shape_of(at, constants.strip, constants.ids, tiled != 0) != occluder.id;
     float inside_m = min(min(dot(from_ab, point - a), dot(from_bc, point - b)), dot(from_ca, point - c));
     float rounding = 1e-6 * (size_of(point) + size_of(a) + size_of(b) + size_of(c));
     beside = beside || (other && !(inside_m < -reach_m - rounding));

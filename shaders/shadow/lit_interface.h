@@ -93,7 +93,7 @@ struct LitScene {
 struct LitTilesConstants {
   Strip strip;
   uvec2 position;
-  uvec2 tags;
+  uvec2 ids;
   uvec2 scene; // in: LitScene
   uvec2 parts; // out: TilePart[]
 };
@@ -101,7 +101,7 @@ struct LitTilesConstants {
 struct LitGatherConstants {
   Strip strip;
   uvec2 position;
-  uvec2 tags;
+  uvec2 ids;
   uvec2 parts;      // in: TilePart[]
   uvec2 scene;      // in: LitScene
   uvec2 boxes;      // in: DiodeBox of the window, then of its bundles
@@ -115,7 +115,7 @@ struct LitGatherConstants {
 struct LitDecideConstants {
   Strip strip;
   uvec2 position;
-  uvec2 tags;
+  uvec2 ids;
   uvec2 parts;
   uvec2 scene;
   uvec2 diodes;     // in: BundleDiodes

@@ -86,7 +86,7 @@ void main() {
   for (uint within = 0; within < tile_samples; ++within) {
     TileSample at = tile_sample(strip, tile, within);
     vec3 point = point_of(tile, within);
-    uint id = point != vec3(0.0) ? shape_of(at, strip, constants.tags, tiled != 0) : 0u;
+    uint id = point != vec3(0.0) ? shape_of(at, strip, constants.ids, tiled != 0) : 0u;
     uint body = body_of(constants.scene, id);
     add_sample(near, point, id, body);
     add_sample(far, point, id, body);

@@ -8,7 +8,7 @@
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Vec4s { vec4 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) buffer Tags { uvec2 at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer WordPairs { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Planes { TrianglePlane at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Corners { TriangleCorners at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Chips { ChipPlace at; };
@@ -23,8 +23,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer To
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRuns { LightRun at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Frequencies { Frequency at[]; };
 
-// Where the tag of a pixel's sample is, in a strip of `extent` pixels (interface.h).
-uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool tiled) {
+// Where the ids of a pixel's sample is, in a strip of `extent` pixels (interface.h).
+uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool tiled) {
   uvec2 at = tiled ? subsample * extent + pixel : pixel * samples + subsample;
   return at.y * extent.x * samples + at.x;
 }
@@ -33,8 +33,8 @@ uint tag_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool ti
 #ifdef REAL_DOUBLE_FLOAT
 vec4 load_vec4(uvec2 address, uint i) { return Vec4s(address).at[i]; }
 void store_vec4(uvec2 address, uint i, vec4 value) { Vec4s(address).at[i] = value; }
-uvec2 load_tag(uvec2 address, uint i) { return Tags(address).at[i]; }
-void store_tag(uvec2 address, uint i, uvec2 tag) { Tags(address).at[i] = tag; }
+uvec2 load_words(uvec2 address, uint i) { return WordPairs(address).at[i]; }
+void store_words(uvec2 address, uint i, uvec2 ids) { WordPairs(address).at[i] = ids; }
 #else
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer DoubleWords { double at[]; };
 vec2 two_floats(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
@@ -47,12 +47,12 @@ void store_vec4(uvec2 address, uint i, vec4 value) {
   to.at[2 * i] = packDouble2x32(floatBitsToUint(value.xy));
   to.at[2 * i + 1] = packDouble2x32(floatBitsToUint(value.zw));
 }
-uvec2 load_tag(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
-void store_tag(uvec2 address, uint i, uvec2 tag) { DoubleWords(address).at[i] = packDouble2x32(tag); }
+uvec2 load_words(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
+void store_words(uvec2 address, uint i, uvec2 ids) { DoubleWords(address).at[i] = packDouble2x32(ids); }
 #endif
 // A sample's record (interface.h).
-uvec2 load_record_tag(uvec2 address, uint i) { return load_tag(address, 2 * i); }
-Real load_record_depth(uvec2 address, uint i) { return real_of(load_tag(address, 2 * i + 1)); }
+uvec2 load_record_ids(uvec2 address, uint i) { return load_words(address, 2 * i); }
+Real load_record_depth(uvec2 address, uint i) { return real_of(load_words(address, 2 * i + 1)); }
 
 TrianglePlane load_plane(uvec2 address, uint i) {
   vec4 rest = load_vec4(address, 3 * i + 2);

@@ -201,10 +201,10 @@ struct Strip {
   uint padded_pixels; // columns * rows, rounded up to whole workgroups, and one more of these
 };
 
-// Tags are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
+// WordPairs are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
 // was hit. Those of samples that are an even grid over the whole strip lie row by row. Where pixels are
 // filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
-// samples: their tags only say what is seen (pixel id 1), and the samples' tags follow from a search, row by
+// samples: their ids only say what is seen (pixel id 1), and the samples' ids follow from a search, row by
 // row.
 struct IdRasterConstants {
   vec2 shift;          // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
@@ -226,11 +226,11 @@ struct IdRasterConstants {
 };
 
 // Adds the depths to records that the raster left without.
-struct TagsConstants {
+struct RecordDepthsConstants {
   SampleGrid grid; // of all fragments
   uvec2 chip;      // in: ChipPlace
   uvec2 planes;    // in: TrianglePlane[]
-  uvec2 tags;      // in: records without depths; out: with them
+  uvec2 ids;      // in: records without depths; out: with them
   uint fragments;  // in all
   uint padding;
 };
@@ -240,7 +240,7 @@ struct PointsConstants {
   Strip strip;
   vec4 slope;   // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
   uvec2 chip;   // in, else: ChipPlace
-  uvec2 tags;   // in: tags
+  uvec2 ids;   // in: ids
   uvec2 planes; // in: TrianglePlane[]
   uvec2 position; // out: Real[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
   uvec2 surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
@@ -255,10 +255,10 @@ struct LensSearchConstants {
   Strip strip;
   uvec2 lens;        // in: LensModel and its table
   uvec2 view;        // in: RasterView
-  uvec2 fragments;   // in: tags of the view's fragments
+  uvec2 fragments;   // in: ids of the view's fragments
   uvec2 planes;      // in: TrianglePlane[]
   uvec2 corners;     // in: TriangleCorners[]
-  uvec2 tags;        // out: tags of the samples
+  uvec2 ids;        // out: ids of the samples
   uvec2 position;    // out, as in PointsConstants
   uvec2 surface;
   uvec2 backscatter;
@@ -306,7 +306,7 @@ struct Frequency {
 struct DemodulationConstants {
   uvec2 position;
   uvec2 sum; // of the frequency, the first plane
-  uvec2 tags;
+  uvec2 ids;
   uvec2 planes;
   uvec2 channels;  // out: pair by pair of channels (channel_*), of each pixel two values of 32 bits
   uvec2 harmonics; // in: float[], amplitudes of the harmonics
@@ -324,7 +324,7 @@ struct DemodulationConstants {
   uint diodes; // of all illuminators
 };
 
-// The sum and what becomes of it as depth records: all samples alike, row by row, each with a record of two words of tag and two of
+// The sum and what becomes of it as depth records: all samples alike, row by row, each with a record of two words of ids and two of
 // depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as above, or, of a frame's only run, a vec2.
 struct DepthSumConstants {
   SampleGrid grid;
@@ -402,12 +402,12 @@ struct UniformPixelsLight {
   Frequency frequencies[uniform_tones];
 };
 
-// Sees a pixel from its tags to its channels, or lists it.
+// Sees a pixel from its ids to its channels, or lists it.
 struct UniformPixelsConstants {
   Strip strip;
   vec4 slope; // as in PointsConstants
   uvec2 chip; // likewise
-  uvec2 tags;
+  uvec2 ids;
   uvec2 planes;
   uvec2 shapes;
   uvec2 surfaces;

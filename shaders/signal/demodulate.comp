@@ -56,11 +56,11 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
 }
 
 // Of the sample nearest the pixel's centre; ties go up and left.
-uvec2 central_tag(uint pixel) {
+uvec2 central_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
   uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
-  return load_tag(constants.tags, tag_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
+  return load_words(constants.ids, id_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
 }
 
 void main() {
@@ -82,8 +82,8 @@ void main() {
   }
   if (ground_truth != 0) {
     store_ground_truth(to, samples, pixel, sum);
-    uvec2 tag = central_tag(pixel);
-    store_ids(to, tag, tag.x != 0u ? Planes(constants.planes).at[tag.y].object : no_triangle, pixel);
+    uvec2 ids = central_ids(pixel);
+    store_ids(to, ids, ids.x != 0u ? Planes(constants.planes).at[ids.y].object : no_triangle, pixel);
   }
   if (lit_is_kept != 0)
     store_lit(to, constants.lit_channel, constants.diodes, pixel, sum);

@@ -18,16 +18,16 @@ const uint all_planes = frequencies * planes;
 // Of frequency f, the p-th of its planes, but for the backscatter.
 vec2 load_sum(uint f, uint p, uint i) {
   uint at = (f * planes + p) * constants.plane + i;
-  return is_only != 0 ? uintBitsToFloat(load_tag(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
+  return is_only != 0 ? uintBitsToFloat(load_words(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
 }
 
 // B over the cosine of the surface that sample i sees at `point`.
 float load_backscatter(uint i, vec3 ray, Real3 point) {
-  uint triangle = one_backscatter != 0 ? 0u : load_record_tag(constants.records, i).y;
+  uint triangle = one_backscatter != 0 ? 0u : load_record_ids(constants.records, i).y;
   TrianglePlane plane;
   plane.backscatter = constants.backscatter;
   if (one_backscatter == 0)
-    plane.backscatter = uintBitsToFloat(load_tag(constants.planes, 6 * triangle + 4).x);
+    plane.backscatter = uintBitsToFloat(load_words(constants.planes, 6 * triangle + 4).x);
   return backscatter_of(constants.shapes, constants.surfaces, ray, point, triangle, plane);
 }
 
@@ -58,8 +58,8 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
 void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
   store_ground_truth(to, side * side, pixel, sum);
   uvec2 at = first + (side - 1) / 2; // of an even number of samples the upper left one
-  uvec2 tag = load_record_tag(constants.records, at.y * constants.grid.columns + at.x);
-  store_ids(to, tag, load_tag(constants.planes, 6 * tag.y + 4).y, pixel);
+  uvec2 ids = load_record_ids(constants.records, at.y * constants.grid.columns + at.x);
+  store_ids(to, ids, load_words(constants.planes, 6 * ids.y + 4).y, pixel);
 }
 
 void main() {

@@ -67,7 +67,7 @@ void store(Channels to, uint channel, uint pixel, uint word) {
 }
 // To `channel`, which is even, and the next.
 void store_pair(Channels to, uint channel, uint pixel, uvec2 words) {
-  store_tag(to.values, channel / 2 * to.padded_pixels + pixel, words);
+  store_words(to.values, channel / 2 * to.padded_pixels + pixel, words);
 }
 void store(Channels to, uint channel, uint pixel, float value) { store(to, channel, pixel, floatBitsToUint(value)); }
 
@@ -187,8 +187,8 @@ void store_lit(Channels to, uint channel, uint diodes, uint pixel, PixelSum sum)
   store(to, channel, pixel, float(sum.lit) / float(max(sum.hits * diodes, 1u)));
 }
 
-void store_ids(Channels to, uvec2 tag, uint object, uint pixel) {
-  store_pair(to, channel_triangle_id, pixel, tag.x != 0u ? uvec2(tag.y, object) : uvec2(no_triangle));
+void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
+  store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
 // The bound (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to

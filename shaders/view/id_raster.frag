@@ -1,6 +1,6 @@
 #version 460
-// Tags a visible fragment with its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
-// holes, what is not there where the fragment's ray meets it leaves no tag.
+// WordPairs a visible fragment with its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
+// holes, what is not there where the fragment's ray meets it leaves no ids.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_id.glsl"
 #include "shaders/shared/constants.h"
@@ -9,7 +9,7 @@
 layout(push_constant, std430) uniform Constants { IdRasterConstants constants; };
 layout(constant_id = constant_cutouts) const uint cutouts = 0;
 layout(location = 0) flat in uint visible_triangle;
-layout(location = 0) out uvec2 tag;
+layout(location = 0) out uvec2 ids;
 
 Real3 term(float factor, vec4 hi, vec4 lo) { return scale3(real3(hi.xyz, lo.xyz), real(factor)); }
 
@@ -37,5 +37,5 @@ void main() {
   }
   vec2 in_tile = vec2(uvec2(gl_FragCoord.xy) - uvec2(constants.tile_x, constants.tile_y));
   uvec2 first_pixel = uvec2(constants.column, constants.row);
-  tag = uvec2(pixel_id(in_tile, first_pixel, constants.resolution_x, constants.fragments_per_pixel_side), visible_triangle);
+  ids = uvec2(pixel_id(in_tile, first_pixel, constants.resolution_x, constants.fragments_per_pixel_side), visible_triangle);
 }

@@ -92,8 +92,8 @@ void look_around(Real3 ray, out uint seen[neighbours]) {
   ivec2 cell = clamp(ivec2(floor(fragment)), ivec2(1), ivec2(view.columns, view.rows) - 2);
   [[unroll]] for (uint n = 0; n < neighbours; ++n) {
     ivec2 at = cell + ivec2(n % 3, n / 3) - 1;
-    uvec2 tag = Tags(constants.fragments).at[uint(at.y) * view.columns + uint(at.x)];
-    seen[n] = tag.x != 0u ? tag.y : no_triangle;
+    uvec2 ids = WordPairs(constants.fragments).at[uint(at.y) * view.columns + uint(at.x)];
+    seen[n] = ids.x != 0u ? ids.y : no_triangle;
   }
 }
 
@@ -130,12 +130,12 @@ void main() {
   uint seen[neighbours];
   look_around(ray, seen);
   Hit hit = hit_or_stand_in(ray, seen);
-  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
+  uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
   if (hit.triangle == no_triangle) {
-    Tags(constants.tags).at[tag_at] = uvec2(0u);
+    WordPairs(constants.ids).at[id_at] = uvec2(0u);
     store_miss(to, i);
     return;
   }
-  Tags(constants.tags).at[tag_at] = uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle);
+  WordPairs(constants.ids).at[id_at] = uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle);
   store_point(to, i, high3(ray), scale3(ray, hit.range), hit.triangle, Planes(constants.planes).at[hit.triangle]);
 }

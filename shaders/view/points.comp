@@ -33,12 +33,12 @@ void main() {
     store_miss(to, i);
     return;
   }
-  uint tag_at = tag_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
-  uvec2 tag = load_tag(constants.tags, tag_at);
-  if (tag.x == 0u) {
+  uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
+  uvec2 ids = load_words(constants.ids, id_at);
+  if (ids.x == 0u) {
     store_miss(to, i);
     return;
   }
-  TrianglePlane plane = load_plane(constants.planes, tag.y);
-  store_point(to, i, high3(ray), point_on_plane(ray, plane), tag.y, plane);
+  TrianglePlane plane = load_plane(constants.planes, ids.y);
+  store_point(to, i, high3(ray), point_on_plane(ray, plane), ids.y, plane);
 }

@@ -162,7 +162,7 @@ RepeatabilityFrame repeatability_frame(const std::string &name) {
 SimulatorOptions keep_everything(std::uint32_t max_strip_samples) {
   return {.device = {},
           .max_strip_samples = max_strip_samples,
-          .keep_sample_tags = true,
+          .keep_sample_ids = true,
           .keep_visibility = true,
           .keep_taps = true};
 }

@@ -8,7 +8,7 @@ namespace pmdsim::test {
 
 inline SimulatorOptions random_options(Random &random) {
   SimulatorOptions options;
-  options.keep_sample_tags = true;
+  options.keep_sample_ids = true;
   options.keep_taps = random.flip();
   options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;

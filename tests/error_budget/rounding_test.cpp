@@ -57,7 +57,7 @@ reference::Frame reference_of(const Case &of, const std::vector<Illuminator> &li
 Comparison measure(const Case &of, const reference::Frame &expected, Precision precision,
                    const Variant &variant) {
   Simulator simulator = make_simulator(
-      {.device = {}, .keep_sample_tags = true, .precision = variant.precision, .loop = variant.loop});
+      {.device = {}, .keep_sample_ids = true, .precision = variant.precision, .loop = variant.loop});
   simulator.prepare(of.scene, of.sensor, of.lights, of.backscatter, of.shadows, {.precision = precision});
   return compare(simulator.measure(), expected, of.scene, of.sensor, of.left_out);
 }

@@ -76,7 +76,7 @@ TEST_CASE("a light close to a far wall") {
   sensor.pixel_pitch_m = glm::dvec2(45e-6);
   const std::vector<Illuminator> lights{diode_beside_lens(sensor, diode_at({0.3, -0.2, z_m - 0.5}))};
   const auto expected = reference::simulate(builder.scene(), sensor, lights, Backscatter::lambert);
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true});
   simulator.prepare(builder.scene(), sensor, lights, Backscatter::lambert);
   const Comparison comparison = compare(simulator.measure(), expected, builder.scene(), sensor);
   fmt::print("{}{}", comparison_heading(),

@@ -80,7 +80,7 @@ TEST_CASE("frames of one sample a pixel, however their diodes are summed", "[lon
     const auto expected = reference::simulate(scene, sensor, of.lights, of.backscatter);
     for (const SimulatorOptions &options : all_variants()) {
       SimulatorOptions tagged = options;
-      tagged.keep_sample_tags = true;
+      tagged.keep_sample_ids = true;
       Simulator simulator = make_simulator(tagged);
       simulator.prepare(scene, sensor, of.lights, of.backscatter);
       const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);

@@ -27,7 +27,7 @@ constexpr reference::Options reference_options{Shadows::automatic, true};
 
 SimulatorOptions options_of(const Variant &variant) {
   return {.device = {},
-          .keep_sample_tags = true,
+          .keep_sample_ids = true,
           .keep_visibility = true,
           .precision = variant.precision,
           .loop = variant.loop};

@@ -99,7 +99,7 @@ TEST_CASE("next to no tilt and no distortion change nothing", "[long]") {
     sensor.samples = samples;
     const auto measure_with = [&](const Sensor &changed) {
       return measure(engine, setup.start.scene, changed, setup.start.illuminators[0], setup.backscatter,
-                     {.device = {}, .keep_sample_tags = true});
+                     {.device = {}, .keep_sample_ids = true});
     };
     const Measurement undisturbed = measure_with(sensor);
     for (const Change &change : changes) {

@@ -145,9 +145,9 @@ const std::vector<Case> everything{
 
 // What this device is given, and what other devices are with the sum of moments as such.
 const std::vector<SimulatorOptions> variants{
-    {.device = {}, .keep_sample_tags = true, .keep_taps = true},
+    {.device = {}, .keep_sample_ids = true, .keep_taps = true},
     {.device = {},
-     .keep_sample_tags = true,
+     .keep_sample_ids = true,
      .keep_taps = true,
      .precision = SamplePrecision::double_float,
      .loop = DiodeLoop::looped,

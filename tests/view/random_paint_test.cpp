@@ -28,7 +28,7 @@ Sensor camera_of_any_kind(Random &random, std::uint32_t seed) {
 
 SimulatorOptions options_for(Random &random) {
   SimulatorOptions options;
-  options.keep_sample_tags = true;
+  options.keep_sample_ids = true;
   options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.max_strip_samples = random.flip() ? 0 : static_cast<std::uint32_t>(random.uniform(1, 20'000));
   return options;
@@ -86,7 +86,7 @@ TEST_CASE("an alpha that equals its cutoff is no hole") {
   sensor.resolution = {32, 32};
   const std::vector<Illuminator> light{monostatic_illuminator(sensor.world_from_camera)};
   const auto expected = reference::simulate(scene, sensor, light, Backscatter::lambert);
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true});
   simulator.prepare(scene, sensor, light, Backscatter::lambert);
   const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
   CHECK(comparison.pixels == sensor.pixel_count());

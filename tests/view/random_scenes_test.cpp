@@ -45,7 +45,7 @@ RandomSetup random_setup(std::uint32_t seed) {
 // Every combination of the arithmetic that devices of different kinds are given.
 SimulatorOptions options_for(std::uint32_t seed) {
   SimulatorOptions options;
-  options.keep_sample_tags = true;
+  options.keep_sample_ids = true;
   options.precision = seed % 2 == 0 ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.loop = seed % 4 < 2 ? DiodeLoop::straight_line : DiodeLoop::looped;
   return options;

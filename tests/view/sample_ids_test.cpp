@@ -41,7 +41,7 @@ std::size_t wrong_tags(const Measurement &measured, const Sensor &sensor) {
 
 Measurement measure_tags(const Scene &scene, const Sensor &sensor, std::uint32_t max_strip_samples) {
   Simulator simulator =
-      make_simulator({.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_tags = true});
+      make_simulator({.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_ids = true});
   simulator.prepare(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   return simulator.measure();
 }

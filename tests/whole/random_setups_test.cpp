@@ -177,7 +177,7 @@ bool same_bits(const std::vector<float> &a, const std::vector<float> &b) {
 
 SimulatorOptions keeping_everything() {
   SimulatorOptions options;
-  options.keep_sample_tags = options.keep_visibility = true;
+  options.keep_sample_ids = options.keep_visibility = true;
   options.loop = DiodeLoop::looped; // compiles in a fraction of the time of a straight line
   return options;
 }

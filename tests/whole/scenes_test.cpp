@@ -16,7 +16,7 @@ namespace {
 Comparison compare_variant(const Variant &variant, const Setup &setup, const Sensor &sensor,
                            const reference::Frame &expected) {
   Simulator simulator = make_simulator(
-      {.device = {}, .keep_sample_tags = true, .precision = variant.precision, .loop = variant.loop});
+      {.device = {}, .keep_sample_ids = true, .precision = variant.precision, .loop = variant.loop});
   simulator.prepare(setup.start.scene, sensor, {setup.start.illuminators[0]}, setup.backscatter);
   return compare(simulator.measure(), expected, setup.start.scene, sensor);
 }

@@ -65,7 +65,7 @@ void check_against_reference(const std::string &name, const Scene &scene, const 
   INFO(name);
   REQUIRE_FALSE(lens_fault(sensor));
   const Illuminator illuminator = few_diodes(sensor);
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true});
   simulator.prepare(scene, sensor, {illuminator}, Backscatter::constant);
   const Comparison comparison =
       compare(simulator.measure(), reference::simulate(scene, sensor, {illuminator}, Backscatter::constant),

@@ -240,7 +240,7 @@ void check(const ExtremeTruth &truth, const Runs &runs) {
 }
 
 void check_cells(const std::vector<Cell> &cells) {
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .loop = DiodeLoop::looped});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .loop = DiodeLoop::looped});
   fmt::print("{}", heading());
   for (const Cell &cell : cells) {
     const ExtremeTruth truth(cell.setup);

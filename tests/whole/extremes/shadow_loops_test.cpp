@@ -128,7 +128,7 @@ void check_shadow_counts(const std::vector<std::size_t> &counts) {
   builder.add_wall({1.2, {0.5, true}, {-0.07, -0.1}, {-0.05, 0.1}});
   for (const std::size_t count : counts) {
     const Illuminator illuminator = diodes_beside_lens(count, sensor);
-    Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_visibility = true});
+    Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
     simulator.prepare(builder.scene(), sensor, {illuminator}, Backscatter::lambert, Shadows::automatic);
     const Measurement measured = simulator.measure();
     const auto expected = reference::simulate(builder.scene(), sensor, {illuminator}, Backscatter::lambert,
@@ -175,7 +175,7 @@ TEST_CASE("64 ways past 20,000 slanting slivers and 300 plates") {
   Illuminator eight = diode_beside_lens(sensor, diode_at(beset_m));
   for (int k = 1; k < 8; ++k)
     eight.diodes.push_back(diode_at(beset_m + static_cast<double>(k) * glm::dvec3(0.02, -0.015, 0)));
-  Simulator simulator = make_simulator({.device = {}, .keep_sample_tags = true, .keep_visibility = true});
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
   simulator.prepare(scene, sensor, {eight}, Backscatter::lambert, Shadows::automatic);
   const Measurement measured = simulator.measure();
   const auto expected =
