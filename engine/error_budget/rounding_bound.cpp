@@ -139,7 +139,7 @@ class Bound {
 public:
   Bound(const SourceGroups &groups, const std::vector<VisibleBox> &visible, const SumModel &model,
         const Modulation &modulation, const RoundingScope &scope)
-      : groups_(groups), model_(model), signal_(modulation), scope_(scope),
+      : groups_(groups), model_(model), modulation_(modulation), scope_(scope),
         lengths_(lengths_of(groups, visible, scope)),
         u_(scope.precision == Precision::fp64 ? precise_rounding : float_rounding),
         // One sample's backscatter is common to all its terms.
@@ -149,7 +149,7 @@ public:
   RoundingBound of(double frequency_hz) const {
     const double wavenumber_rad_m = 2.0 * std::numbers::pi * frequency_hz / speed_of_light_m_s;
     return modulation_.waveform == shader::waveform_square ? of_square(wavenumber_rad_m)
-                                                       : of_tones(wavenumber_rad_m);
+                                                           : of_tones(wavenumber_rad_m);
   }
 
 private:
@@ -212,14 +212,16 @@ private:
                     0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
     if (scope_.beam_edges_are_terms)
-      bound.beam_edge_error = u_ * beam_edge_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
+      bound.beam_edge_error =
+          u_ * beam_edge_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
     return bound;
   }
 
   // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
   // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
-    const double rotation = modulation_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const double rotation =
+        modulation_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
     const TermError fundamental = of_tone(wavenumber_rad_m);
     double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
     double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;

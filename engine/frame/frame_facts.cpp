@@ -18,7 +18,8 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
 }
 
 // With shadows a quarter of the usual on GPUs: 7e7 rays of 256 diodes at a time, which none takes 100 ms for.
-std::uint32_t largest_strip(const vulkan::Device &device, const Modulation &modulation, const Sensor &sensor) {
+std::uint32_t largest_strip(const vulkan::Device &device, const Modulation &modulation,
+                            const Sensor &sensor) {
   const std::uint32_t usual = modulation.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;
   return samples_of_a_strip(usual, modulation.sum_planes(), ChannelLayout(modulation).channels(),
                             sensor.samples * sensor.samples);

@@ -5,8 +5,8 @@
 #include "engine/shadow/tile_shadow_pass.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
-#include "engine/signal/read_back.h"
 #include "engine/signal/demodulation_pass.h"
+#include "engine/signal/read_back.h"
 #include "engine/view/points_pass.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &s
 
 // The bits for the host.
 Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> &windows,
-                  const std::shared_ptr<const SourceGroups> &sources) {
+                               const std::shared_ptr<const SourceGroups> &sources) {
   return {.name = "read_back",
           .reads = visibility_bits,
           .writes = no_resource,
@@ -222,7 +222,7 @@ FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::
     truth = truth_of_records(device, options, request.scene);
 
   FramePasses made{path,    request.sensor,    facts.modulation, strips, windows.size(),
-                   sources, std::move(memory), raster,       {},     report_of(plan, path)};
+                   sources, std::move(memory), raster,           {},     report_of(plan, path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, graph);
   if (shadow)

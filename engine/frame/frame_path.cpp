@@ -14,12 +14,12 @@ namespace {
 SampleGrid grid_of(const Sensor &sensor) {
   return sensor.has_distortion() ? SampleGrid::distorted
          : is_tiled(sensor)      ? SampleGrid::tiled
-         : is_nominal(sensor)      ? SampleGrid::nominal
+         : is_nominal(sensor)    ? SampleGrid::nominal
                                  : SampleGrid::posed;
 }
 
 Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
-  return !facts.modulation.by_moments()      ? Summation::per_diode
+  return !facts.modulation.by_moments()  ? Summation::per_diode
          : groups.polynomials.powers > 0 ? Summation::polynomial_moments
                                          : Summation::moments;
 }
@@ -50,7 +50,8 @@ bool can_fuse(const SourceGroups &groups, const Modulation &modulation, const Se
 std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
                                             const FrameRequest &request, const PathForms &allowed) {
   const Sensor &sensor = request.sensor;
-  if (!plan.uniform_bound || !allowed.uniform_pixels || !can_fuse(plan.uniform_groups, facts.modulation, sensor))
+  if (!plan.uniform_bound || !allowed.uniform_pixels ||
+      !can_fuse(plan.uniform_groups, facts.modulation, sensor))
     return std::nullopt;
   const bool may_thin_out = sensor.adaptive_samples || request.accuracy.mode == Mode::automatic;
   if (sensor.samples == 1)
@@ -71,7 +72,8 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
   if (!points || samples > 1 || !plan.surely_kept)
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
   if (has_rest(facts))
-    classes.push_back({PixelsOf::rest, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all});
+    classes.push_back(
+        {PixelsOf::rest, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all});
   return classes;
 }
 
@@ -105,7 +107,7 @@ bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const Fram
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
   return facts.modulation.lit || sensor.has_distortion() ? plan.precision
-                                                     : sum_precision(facts.modulation, Precision::fp64);
+                                                         : sum_precision(facts.modulation, Precision::fp64);
 }
 
 std::string name_of(PixelsOf who) {

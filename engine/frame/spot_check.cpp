@@ -63,7 +63,7 @@ double wrapped(double difference_m, double ambiguity_m) {
 } // namespace
 
 SpotCheck::SpotCheck(const PassSetup &on, const std::vector<PlannedStrip> &strips)
-    : signal_(on.modulation), of_strip_(by_strip(choose_pixels(on.sensor.pixel_count()), strips)),
+    : modulation_(on.modulation), of_strip_(by_strip(choose_pixels(on.sensor.pixel_count()), strips)),
       list_(std::make_shared<const vulkan::Buffer>(make_pixel_list(on.device, checked_pixels))) {}
 
 Pass SpotCheck::list_pass() const {

@@ -33,7 +33,8 @@ vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &gro
               {shader::constant_lists_pixels, lists_of(pixels)}});
 }
 
-shader::UniformPixelsLight light_record(const LightExtent &extent, const Modulation &modulation, bool phased) {
+shader::UniformPixelsLight light_record(const LightExtent &extent, const Modulation &modulation,
+                                        bool phased) {
   const glm::dvec3 middle_m = 0.5 * (extent.box.low_m + extent.box.high_m);
   // A hair wider, as the shader compares in float.
   const glm::dvec3 half_m = 0.5 * (extent.box.high_m - extent.box.low_m) + 1e-6 * glm::abs(middle_m) + 1e-9;
@@ -59,7 +60,8 @@ vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, con
   light.diagrams = diagrams.words();
   if (sums) {
     std::ranges::copy(on.modulation.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(on.modulation, groups.largest_intensity_w_sr, bound), light.frequencies);
+    std::ranges::copy(frequency_records(on.modulation, groups.largest_intensity_w_sr, bound),
+                      light.frequencies);
   }
   const std::vector<shader::LightRun> runs = light_runs(groups, bound);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));

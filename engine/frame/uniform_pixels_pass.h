@@ -1,5 +1,5 @@
 #pragma once
-// The uniform-pixel pass: pixels of one surface that every diode lights, from their tags to their channels at
+// The uniform-pixel pass: pixels of one surface that every diode lights, from their IDs to their channels at
 // once, at one point or, in a pass of its own, at four. The others are listed (pixel_lists.h).
 
 #include "engine/error_budget/plan.h"

@@ -20,7 +20,7 @@ constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
   return scope.depth_records                  ? "accumulate_depths"
-         : !modulation.by_moments()               ? "accumulate_per_diode"
+         : !modulation.by_moments()           ? "accumulate_per_diode"
          : scope.precision == Precision::fp64 ? "accumulate_precise"
                                               : "accumulate";
 }
@@ -39,7 +39,7 @@ bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (beam_edge_terms in
 // shaders/light/sum.glsl).
 void set_beam_edges(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
-              shader::LightRun &record) {
+                    shader::LightRun &record) {
   double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i)
     if (const auto edge = beam_edge(groups.diodes[i])) {
@@ -155,8 +155,8 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
       depth_records_(scope.depth_records), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
-      dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()), planes_(on.modulation.planes),
-      tones_(vulkan::upload(on.device, on.modulation.all_tones())),
+      dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
+      planes_(on.modulation.planes), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
       diodes_(upload_diodes(on.device, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
       diode_bytes_(diodes_.bytes() / groups.diodes.size()), first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)

@@ -31,7 +31,8 @@ std::vector<shader::Tone> Modulation::all_tones() const {
 }
 
 Modulation modulation_of(const Sensor &sensor, const SimulatorOptions &options) {
-  Modulation modulation{shader::waveform_sine, sensor.taps, 1, 1, 1, options.keep_taps, sensor.modulation_hz, {1.0f}};
+  Modulation modulation{shader::waveform_sine, sensor.taps,          1,     1, 1,
+                        options.keep_taps,     sensor.modulation_hz, {1.0f}};
   switch (sensor.waveform.kind) {
   case Waveform::Kind::sine:
     break;

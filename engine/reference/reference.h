@@ -33,7 +33,7 @@ struct Frame {
   std::vector<double> lit;                           // as in Measurement
   std::vector<std::uint32_t> triangle_id, object_id; // a disc's id is as Scene::surface_of takes it
   std::vector<std::uint32_t> sample_triangle_id;     // (S*rows) x (S*columns)
-  std::vector<std::uint32_t> sample_visibility;         // as in Measurement, only filled on request
+  std::vector<std::uint32_t> sample_visibility;      // as in Measurement, only filled on request
   double frame_ms = 0.0;
 };
 

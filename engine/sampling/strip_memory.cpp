@@ -29,12 +29,12 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
                                 const std::vector<RasterBlock> &blocks, const SampleLayout &layout,
                                 const SimulatorOptions &options, StripBuffers &&previous) {
   using Usage = vk::BufferUsageFlagBits;
-  vk::DeviceSize samples = 0, tags = 0, pixels = 0, fragments = 0;
+  vk::DeviceSize samples = 0, ids = 0, pixels = 0, fragments = 0;
   for (const auto &[strip, block] : strips) {
     if (blocks[block].distorted)
       fragments = std::max(fragments, drawn_fragments(blocks[block].fragments));
     samples = std::max<vk::DeviceSize>(samples, sample_count(strip));
-    tags = std::max({id_buffer, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
+    ids = std::max({ids, samples, drawn_fragments(strip.samples * glm::uvec2(strip.columns, strip.rows))});
     pixels = std::max<vk::DeviceSize>(pixels, strip.padded_pixels);
   }
   const auto storage = [&](vulkan::Buffer StripBuffers::*buffer, vk::DeviceSize bytes,
@@ -46,7 +46,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
     return make_or_take(device, previous.*buffer, bytes, Usage::eTransferDst, vulkan::Memory::read);
   };
   const vk::DeviceSize channel_bytes = pixels * layout.channels * sizeof(float);
-  const vk::DeviceSize id_bytes = tags * layout.id_bytes;
+  const vk::DeviceSize id_bytes = ids * layout.id_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize violation_bytes = layout.keeps_terms ? sizeof(shader::BudgetViolations) : 0;
   const vk::DeviceSize visibility_bytes = lit_bytes * layout.visibility_words;

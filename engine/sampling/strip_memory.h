@@ -20,7 +20,7 @@ struct StripBuffers {
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer
-      visibility;          // a window's bundles (source_windows.h), a word a sample each; empty without shadows
+      visibility;       // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
   vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
@@ -28,9 +28,9 @@ struct StripBuffers {
   vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
-  vulkan::Buffer ids_read;    // empty where `tags` is mapped itself, or the host has no use for them
+  vulkan::Buffer ids_read;        // empty where `ids` is mapped itself, or the host has no use for them
   vulkan::Buffer visibility_read; // empty unless the samples' diodes are asked for
-  std::size_t id_bytes = 0;   // a sample, of `tags`
+  std::size_t id_bytes = 0;       // a sample, of `ids`
 };
 
 // A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of
@@ -38,7 +38,7 @@ struct StripBuffers {
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
                                              std::uint32_t first);
 
-// What the raster leaves its tags in.
+// What the raster leaves its IDs in.
 inline const vulkan::Buffer &drawn_ids(const StripBuffers &buffers) {
   return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.ids;
 }
@@ -50,7 +50,7 @@ std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
 // What a strip keeps of its samples.
 struct SampleLayout {
   bool host_reads_ids;
-  std::size_t id_bytes;      // a sample
+  std::size_t id_bytes;       // a sample
   std::size_t position_bytes; // likewise, from here on
   std::size_t backscatter_bytes;
   std::size_t surface_vectors;

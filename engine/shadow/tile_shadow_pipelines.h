@@ -21,9 +21,9 @@ struct LitPipelines {
 
 // What is compiled in or out.
 struct LitForm {
-  bool tiled;  // the tags lie in tiles (shaders/shared/interface.h)
+  bool tiled;   // the IDs lie in tiles (shaders/shared/interface.h)
   bool cutouts; // occluders may have holes
-  bool flat;   // within a bundle all diodes have the same z
+  bool flat;    // within a bundle all diodes have the same z
 };
 
 LitPipelines make_lit_pipelines(const vulkan::Device &device, const std::vector<SourceWindow> &windows,

@@ -45,7 +45,7 @@ void full_visibility(const SourceGroups &groups, std::vector<std::uint32_t> &to)
 }
 
 void record_visibility(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, const SourceWindow &window) {
+                       const StripBuffers &buffers, const SourceWindow &window) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
@@ -56,7 +56,7 @@ void record_visibility(const vk::raii::CommandBuffer &commands, const shader::St
 }
 
 void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
-                   const SourceGroups &groups, std::vector<std::uint32_t> &to) {
+                      const SourceGroups &groups, std::vector<std::uint32_t> &to) {
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
   std::memcpy(bits.data(), buffers.visibility_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);

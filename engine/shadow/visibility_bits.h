@@ -17,11 +17,11 @@ void full_visibility(const SourceGroups &groups, std::vector<std::uint32_t> &to)
 
 // Copies a window's bits to memory that the host can read.
 void record_visibility(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, const SourceWindow &window);
+                       const StripBuffers &buffers, const SourceWindow &window);
 
 // Once that is done: sets the bits of the window's diodes in `to`, those of samples that see nothing as well.
 void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
-                   const SourceGroups &groups, std::vector<std::uint32_t> &to);
+                      const SourceGroups &groups, std::vector<std::uint32_t> &to);
 
 // Where the sample sees nothing (sample_pixel_id is 0) nothing is reached.
 void clear_unseen(Measurement &measurement);

@@ -54,7 +54,8 @@ shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
 } // namespace
 
 ChannelLayout::ChannelLayout(const Modulation &modulation)
-    : frequencies(modulation.frequencies()), taps(modulation.keep_taps ? modulation.taps : 0), lit(modulation.lit) {}
+    : frequencies(modulation.frequencies()), taps(modulation.keep_taps ? modulation.taps : 0),
+      lit(modulation.lit) {}
 
 std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
   return channels_in(Area::truth) + frequency * whole_pairs(channels_in(Area::frequency) + taps);
@@ -84,7 +85,8 @@ std::vector<shader::Frequency> frequency_records(const Modulation &modulation, d
   const ChannelLayout layout(modulation);
   std::vector<shader::Frequency> records;
   for (std::uint32_t f = 0; f < modulation.frequencies(); ++f) {
-    records.push_back(record_of(modulation.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
+    records.push_back(
+        record_of(modulation.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
     if (!bound)
       continue;
     shader::Frequency &record = records.back();

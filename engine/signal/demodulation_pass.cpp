@@ -30,7 +30,8 @@ std::uint32_t frequencies_at_once(const Modulation &modulation, const SumScope &
   if (!scope.depth_records)
     return 1;
   constexpr std::uint32_t most = 8, most_planes = 16;
-  std::uint32_t count = std::clamp(most_planes / modulation.planes, 1u, std::min(modulation.frequencies(), most));
+  std::uint32_t count =
+      std::clamp(most_planes / modulation.planes, 1u, std::min(modulation.frequencies(), most));
   while (modulation.frequencies() % count != 0)
     --count;
   return count;
@@ -60,10 +61,12 @@ private:
   vulkan::ComputePipeline later_;      // all the others; empty where there are none
 };
 
-Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth)
+Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                           bool leaves_truth)
     : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.modulation.frequencies()),
-      at_once_(frequencies_at_once(on.modulation, scope)), lit_channel_(ChannelLayout(on.modulation).lit_channel()),
-      diodes_(groups.diode_count), side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
+      at_once_(frequencies_at_once(on.modulation, scope)),
+      lit_channel_(ChannelLayout(on.modulation).lit_channel()), diodes_(groups.diode_count),
+      side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
       records_(vulkan::upload(on.device,
                               frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound))),
       harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
@@ -74,7 +77,8 @@ Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, cons
     later_ = make_pipeline(on, false, leaves_truth);
 }
 
-vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool first, bool leaves_truth) const {
+vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool first,
+                                                    bool leaves_truth) const {
   vulkan::Specialization constants = demodulation_constants(on, scope_, first && !leaves_truth);
   const auto module = [&](std::string_view name) -> const vulkan::ShaderModule & {
     return vulkan::shader_module(on.device, on.options.precision, name);
@@ -104,23 +108,23 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
   const shader::DemodulationConstants constants{buffers_.position.words(),
-                                           buffers_.sum.words(sample_bytes_ * plane * frequency),
-                                           buffers_.ids.words(),
-                                           scene_.planes.words(),
-                                           buffers_.channels.words(),
-                                           harmonics_.words(),
-                                           records_.words(frequency * sizeof(shader::Frequency)),
-                                           buffers_.lit.words(),
-                                           buffers_.terms.words(),
-                                           buffers_.violations.words(),
-                                           address_of(scope_.list),
-                                           strip.columns,
-                                           strip.samples,
-                                           strip.padded_pixels,
-                                           strip.columns * strip.rows,
-                                           plane,
-                                           lit_channel_,
-                                           diodes_};
+                                                buffers_.sum.words(sample_bytes_ * plane * frequency),
+                                                buffers_.ids.words(),
+                                                scene_.planes.words(),
+                                                buffers_.channels.words(),
+                                                harmonics_.words(),
+                                                records_.words(frequency * sizeof(shader::Frequency)),
+                                                buffers_.lit.words(),
+                                                buffers_.terms.words(),
+                                                buffers_.violations.words(),
+                                                address_of(scope_.list),
+                                                strip.columns,
+                                                strip.samples,
+                                                strip.padded_pixels,
+                                                strip.columns * strip.rows,
+                                                plane,
+                                                lit_channel_,
+                                                diodes_};
   dispatch_listed(frequency == 0 ? first_ : later_, at.commands, constants, strip.padded_pixels, scope_.list,
                   of_pixels);
 }
@@ -128,27 +132,29 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
 void Demodulation::record_depths(const Recording &at, std::uint32_t first_frequency) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::DepthDemodulationConstants constants{scope_.depth_records->of(strip),
-                                                scope_.depth_records->chip(),
-                                                buffers_.ids.words(),
-                                                scene_.planes.words(),
-                                                buffers_.sum.words(sample_bytes_ * plane * first_frequency),
-                                                buffers_.channels.words(),
-                                                harmonics_.words(),
-                                                records_.words(first_frequency * sizeof(shader::Frequency)),
-                                                scene_.paint.shapes.words(),
-                                                scene_.paint.surfaces.words(),
-                                                strip.columns * strip.rows,
-                                                strip.padded_pixels,
-                                                plane,
-                                                scene_.backscatter.value_or(0.0f)};
+  const shader::DepthDemodulationConstants constants{
+      scope_.depth_records->of(strip),
+      scope_.depth_records->chip(),
+      buffers_.ids.words(),
+      scene_.planes.words(),
+      buffers_.sum.words(sample_bytes_ * plane * first_frequency),
+      buffers_.channels.words(),
+      harmonics_.words(),
+      records_.words(first_frequency * sizeof(shader::Frequency)),
+      scene_.paint.shapes.words(),
+      scene_.paint.surfaces.words(),
+      strip.columns * strip.rows,
+      strip.padded_pixels,
+      plane,
+      scene_.backscatter.value_or(0.0f)};
   (first_frequency == 0 ? first_ : later_)
       .dispatch(at.commands, constants, strip.padded_pixels, shader::workgroup_size);
 }
 
 } // namespace
 
-Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool leaves_truth) {
+Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                       bool leaves_truth) {
   const auto demodulation = std::make_shared<const Demodulation>(on, groups, scope, leaves_truth);
   return {.name = "resolve",
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |

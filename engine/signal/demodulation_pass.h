@@ -8,7 +8,7 @@ namespace pmdsim {
 // Of the pixels that `groups` were summed for within `scope`. `leaves_truth`: to the host, which finds it in
 // records of depths (TruthOfRecords).
 Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
-                  bool leaves_truth = false);
+                       bool leaves_truth = false);
 
 // The specialization constants of the demodulation, for what resolves likewise; `first` of the frequencies.
 vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScope &scope, bool first);

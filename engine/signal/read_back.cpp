@@ -104,9 +104,9 @@ void check_radiance(const Row &row, const Measurement &measurement) {
   });
 }
 
-// Where `tiled`, tags lie in tiles (shaders/shared/interface.h).
+// Where `tiled`, IDs lie in tiles (shaders/shared/interface.h).
 void store_sample_ids(std::span<const std::byte> from, std::size_t id_bytes, const shader::Strip &strip,
-                       bool tiled, Measurement &to) {
+                      bool tiled, Measurement &to) {
   const glm::uvec2 samples = glm::uvec2(strip.columns, strip.rows) * strip.samples;
   const glm::uvec2 pixels(strip.columns, strip.rows);
   for (std::uint32_t row = 0; row < samples.y; ++row)
@@ -149,7 +149,8 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
 }
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Modulation &modulation, const std::optional<TruthOfRecords> &truth, Measurement &measurement) {
+                 const Modulation &modulation, const std::optional<TruthOfRecords> &truth,
+                 Measurement &measurement) {
   const ChannelLayout layout(modulation);
   const std::vector<Destination> to = destinations(layout, measurement);
   tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
@@ -165,8 +166,8 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
 
 } // namespace
 
-Measurement make_measurement(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
-                             Measurement &&memory) {
+Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
+                             const SimulatorOptions &options, Measurement &&memory) {
   Measurement measurement = std::move(memory);
   measurement.resolution = sensor.resolution;
   const std::size_t pixels = sensor.pixel_count();

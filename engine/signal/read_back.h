@@ -1,5 +1,5 @@
 #pragma once
-// The read-back: from the device into the measurement, a strip's channels and what its samples' tags or
+// The read-back: from the device into the measurement, a strip's channels and what its samples' IDs or
 // records tell.
 
 #include "engine/light/tones.h"
@@ -21,10 +21,10 @@ struct TruthOfRecords {
 };
 
 // A frame of the sensor's size, to be filled, in `memory`, whatever that holds.
-Measurement make_measurement(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
-                             Measurement &&memory);
+Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
+                             const SimulatorOptions &options, Measurement &&memory);
 
-// Copies what the demodulation (and, where the host reads them, the visibility pass) left to memory that the
+// Copies what the demodulation (and, where the host reads them, the ID raster) left to memory that the
 // host can read, and then to its place in the frame. Storing throws Error: input where light is beyond what a
 // float holds.
 Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,

@@ -117,7 +117,7 @@ IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &proje
     : sensor_(sensor), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
-      planes_of_blocks_(masked ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
+      planes_of_blocks_(cutouts ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))) {
   const bool by_fragments = grid && vertices_fetch_planes(projection, sensor);
   const vulkan::Specialization constants{
@@ -132,8 +132,8 @@ IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &proje
       compiled(device, {vertex, fragment, vulkan::declared_part(vertex, constants),
                         vulkan::declared_part(fragment, constants), grid ? record_format : id_format});
   if (grid && !by_fragments)
-    depths_.emplace(device, vulkan::shader_module(device, precision, "record_depths"), sizeof(shader::RecordDepthsConstants),
-                    constants);
+    depths_.emplace(device, vulkan::shader_module(device, precision, "record_depths"),
+                    sizeof(shader::RecordDepthsConstants), constants);
   images_.emplace(device, extents_of(strips, projection.blocks), grid ? record_format : id_format, id_buffer,
                   std::move(previous));
 }
@@ -158,8 +158,8 @@ void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const Pla
                               const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
-  const shader::RecordDepthsConstants constants{
-      grid_->of(planned.strip), grid_->chip(), scene.planes.words(), id_buffer.words(), fragments, 0};
+  const shader::RecordDepthsConstants constants{grid_->of(planned.strip), grid_->chip(), scene.planes.words(),
+                                                id_buffer.words(),        fragments,     0};
   depths_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,

@@ -1,5 +1,5 @@
 #pragma once
-// The visibility pass: rasterises the projected triangles and tags every visible sample with its pixel ID and
+// The ID raster pass: rasterises the projected triangles and gives every visible sample its pixel ID and
 // its triangle ID, nearest wins.
 
 #include "engine/model/simulator_options.h"
@@ -22,17 +22,17 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class IdRasterPass {
 public:
-  // `strips` tell how large an image is needed; `masked`: whether shapes may have holes; `grid`: where the
-  // samples' records are asked for; `tags`: what `record` will be given; `previous`: taken where they are the
-  // same.
+  // `strips` tell how large an image is needed; `cutouts`: whether shapes may have holes; `grid`: where the
+  // samples' records are asked for; `id_buffer`: what `record` will be given; `previous`: taken where they
+  // are the same.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
                const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
                std::optional<RasterImages> &&previous);
 
-  // Leaves the tags of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
-  // the tags of its block's fragments, in `tags`, visible to compute shaders and transfers. Of a strip that
-  // is not one of those planned, only the first row may be right.
+  // Leaves the IDs of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
+  // the IDs of its block's fragments, in `id_buffer`, visible to compute shaders and transfers. Of a strip
+  // that is not one of those planned, only the first row may be right.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
               const vulkan::Buffer &id_buffer) const;
 

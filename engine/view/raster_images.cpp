@@ -82,7 +82,7 @@ void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D e
   commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, extent}, 1, 0, color, &depth));
 }
 
-// The layout in which the tags are drawn, and whether they are still to be cleared. Lavapipe clears images of
+// The layout in which the IDs are drawn, and whether they are still to be cleared. Lavapipe clears images of
 // more than 4 bytes a pixel one pixel after the other, but fills buffers.
 std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii::CommandBuffer &commands,
                                                                  vk::Extent2D extent,

@@ -1,6 +1,6 @@
 #pragma once
-// What the visibility pass draws on: an image of depths, and one of id_buffer, which lies in the very buffer that
-// the tags are wanted in where it can.
+// What the ID raster draws on: an image of depths, and one of id_buffer, which lies in the very buffer
+// that the IDs are wanted in where it can.
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
@@ -17,23 +17,26 @@ class RasterImages {
 public:
   static constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 
-  // Large enough for each of `extents`. `tags`: the buffer; `previous`: of passes that are done with, whose
-  // memory is taken where it can be.
+  // Large enough for each of `extents`. `id_buffer`: the buffer; `previous`: of passes that are done with,
+  // whose memory is taken where it can be.
   RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format id_format,
                const vulkan::Buffer &id_buffer, std::optional<RasterImages> &&previous);
 
   // Begins to draw on `extent`, where no tag is left from before and all depths are 0.
-  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
-  // Ends that: the tags are in the buffer row by row, visible to compute shaders and transfers. Of an extent
+  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+             const vulkan::Buffer &id_buffer) const;
+  // Ends that: the IDs are in the buffer row by row, visible to compute shaders and transfers. Of an extent
   // that is not one of those asked for, and not as wide, only the first row may be.
-  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
+  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+           const vulkan::Buffer &id_buffer) const;
 
   // Before the buffer goes: only what may be taken by others stays.
   void leave_buffer();
 
 private:
-  std::pair<vk::ImageLayout, vk::AttachmentLoadOp>
-  begin_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent, const vulkan::Buffer &id_buffer) const;
+  std::pair<vk::ImageLayout, vk::AttachmentLoadOp> begin_tags(const vk::raii::CommandBuffer &commands,
+                                                              vk::Extent2D extent,
+                                                              const vulkan::Buffer &id_buffer) const;
   void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                  const vulkan::Buffer &id_buffer) const;
 
@@ -41,7 +44,7 @@ private:
   vk::Format tag_format_;
   vulkan::Image depth_;
   std::optional<vulkan::Image> tags_; // nothing after leave_buffer
-  bool in_place_ = false;             // the tags lie in the buffer, and need no copy
+  bool in_place_ = false;             // the IDs lie in the buffer, and need no copy
 };
 
 } // namespace pmdsim

@@ -169,7 +169,7 @@ PaintBuffers upload_paint(const vulkan::Device &device, const PaintUse &use, con
                           const Scene &scene, Backscatter backscatter, TextureCache &textures) {
   PaintBuffers buffers;
   buffers.painted = use.painted;
-  buffers.masked = use.cutouts;
+  buffers.cutouts = use.cutouts;
   if (!use.painted && !use.holes_in_the_light)
     return buffers;
   const std::vector<shader::ShapePaint> shapes = shape_paints(camera, scene);

@@ -31,13 +31,13 @@ struct PaintBuffers {
   vulkan::Buffer surfaces;                                     // SurfacePaint of each of its surfaces
   std::vector<std::shared_ptr<const vulkan::Buffer>> textures; // of each of its surfaces
   bool painted = false; // whether any shape that the lens can see is; else all else is empty
-  bool cutouts = false;  // whether any may have holes, or is a disc
+  bool cutouts = false; // whether any may have holes, or is a disc
 };
 
 // What of paint a frame has to model.
 struct PaintUse {
   bool painted = false;            // whether any shape that the lens can see is
-  bool cutouts = false;             // whether any of these may have holes, or is a disc
+  bool cutouts = false;            // whether any of these may have holes, or is a disc
   bool holes_in_the_light = false; // whether light may pass through shapes that the lens does not see
 };
 

@@ -87,7 +87,7 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(DepthDemodulationConstants, grid, chip, records, planes, sum, channels, harmonics, frequency, shapes,
            surfaces, pixels, padded_pixels, plane, backscatter),
     STRUCT(DemodulationConstants, position, sum, ids, planes, channels, harmonics, frequency, lit, terms,
-           broken, list, columns, samples, padded_pixels, pixels, plane, lit_channel, diodes),
+           violations, list, columns, samples, padded_pixels, pixels, plane, lit_channel, diodes),
     STRUCT(PixelList, sample_groups_x, sample_groups_y, sample_groups_z, pixel_groups_x, pixel_groups_y,
            pixel_groups_z, count, padding),
     STRUCT(PixelListConstants, lists, samples),

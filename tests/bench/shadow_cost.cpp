@@ -85,7 +85,8 @@ Agreement agreement(const View &view) {
       continue;
     std::size_t different = 0;
     for (std::size_t i = pixel * words; i < (pixel + 1) * words; ++i) {
-      different += static_cast<std::size_t>(std::popcount(found.sample_visibility[i] ^ truth.sample_visibility[i]));
+      different +=
+          static_cast<std::size_t>(std::popcount(found.sample_visibility[i] ^ truth.sample_visibility[i]));
       reached += static_cast<std::size_t>(std::popcount(truth.sample_visibility[i]));
     }
     result.pairs += diode_count(view.illuminators);

@@ -18,8 +18,8 @@ std::string name_of(Engine engine);
 // Runs the rest of a test case once with each.
 Engine both_engines();
 
-// The options are the simulator's; the reference heeds `keep_visibility` only, and gives the samples' triangles
-// and the taps always.
+// The options are the simulator's; the reference heeds `keep_visibility` only, and gives the samples'
+// triangles and the taps always.
 Measurement measure(Engine engine, const Scene &scene, const Sensor &sensor, const Illuminator &illuminator,
                     Backscatter backscatter, const SimulatorOptions &options = {},
                     Shadows shadows = Shadows::off);

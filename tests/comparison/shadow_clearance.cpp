@@ -158,7 +158,7 @@ bool ShadowClearances::mask_changes(const glm::dvec3 &from_m, const glm::dvec3 &
   const glm::dvec3 aside = std::abs(along.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 u = glm::normalize(glm::cross(along, aside)), v = glm::cross(along, u);
   for (std::uint32_t id = 0; id < triangles_.size(); ++id) {
-    if (!triangles_[id].masked || id == left_out)
+    if (!triangles_[id].cutouts || id == left_out)
       continue;
     bool there = false, missing = false;
     for (int k = 0; k < 16; ++k) {

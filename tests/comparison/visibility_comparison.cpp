@@ -66,8 +66,8 @@ private:
     result_.pairs += diodes_;
     result_.reached += reached_count(expected_.sample_visibility, sample);
     for (std::size_t word = 0; word < words_; ++word) {
-      std::uint32_t differing =
-          measured_.sample_visibility[index * words_ + word] ^ expected_.sample_visibility[index * words_ + word];
+      std::uint32_t differing = measured_.sample_visibility[index * words_ + word] ^
+                                expected_.sample_visibility[index * words_ + word];
       for (; differing != 0; differing &= differing - 1)
         count_differing(sample, id, 32 * word + static_cast<std::size_t>(std::countr_zero(differing)));
     }

@@ -73,7 +73,7 @@ void check_refused(const PlannedSetup &setup, const Accuracy &accuracy) {
 
 TEST_CASE("mode exact sums all diodes in float and promises nothing, but claims what theory knows") {
   const FramePlan exact = plan({}, {});
-  CHECK_FALSE(exact.promise);
+  CHECK_FALSE(exact.bound);
   CHECK_FALSE(exact.bound_of_all);
   CHECK_FALSE(exact.is_reduced());
   CHECK(shining(exact.reduced) == 240);
@@ -90,9 +90,9 @@ TEST_CASE("mode exact with adaptive samples promises the error that they may cos
   setup.sensor.samples = 4;
   setup.sensor.adaptive_samples = true;
   const FramePlan exact = plan(setup, {});
-  REQUIRE(exact.promise);
+  REQUIRE(exact.bound);
   REQUIRE(exact.bound_of_all);
-  CHECK(exact.promise->limit_m == default_max_error_m);
+  CHECK(exact.bound->limit_m == default_max_error_m);
   CHECK_FALSE(exact.is_reduced());
 }
 
@@ -103,8 +103,8 @@ TEST_CASE("the ring within a micrometre takes few diodes in float and surely kee
   CHECK(shining(few.reduced) < 24);
   CHECK(few.is_reduced());
   CHECK(few.surely_kept);
-  REQUIRE(few.promise);
-  CHECK(few.promise->limit_m == 1e-6);
+  REQUIRE(few.bound);
+  CHECK(few.bound->limit_m == 1e-6);
   REQUIRE(few.claimed_m);
   CHECK(*few.claimed_m <= 1e-6);
   CHECK(*few.claimed_m > 0.0);
@@ -176,11 +176,11 @@ TEST_CASE("each plan is more exact than the one before, the last one has every d
   for (std::uint32_t attempt = 0; attempt < frame_plans; ++attempt) {
     INFO("attempt " << attempt);
     const FramePlan now = plan({}, automatic(1e-6), attempt);
-    REQUIRE(now.promise);
-    CHECK(now.promise->per_condition_m < before_m);
+    REQUIRE(now.bound);
+    CHECK(now.bound->per_condition_m < before_m);
     CHECK(shining(now.reduced) >= diodes);
     CHECK((now.precision == Precision::fp64) == (attempt > 0));
-    before_m = now.promise->per_condition_m;
+    before_m = now.bound->per_condition_m;
     diodes = shining(now.reduced);
   }
   CHECK(diodes == 240);

@@ -1,5 +1,5 @@
-// What as depth records leaves out changes nothing: a backscatter that is not looked up, ground truth that has
-// no channels.
+// What as depth records leaves out changes nothing: a backscatter that is not looked up, ground truth that
+// has no channels.
 
 #include "tests/comparison/frame_bytes.h"
 #include "tests/support/scenes.h"

@@ -24,10 +24,10 @@ SourceGroups pair_of(const Pattern &pattern, Precision precision) {
 }
 
 ErrorBound counting(double terms_per_weight_error, double terms_of_beam_edges = 0.0) {
-  ErrorBound promise{};
-  promise.terms_per_weight_error = terms_per_weight_error;
-  promise.terms_of_beam_edges = terms_of_beam_edges;
-  return promise;
+  ErrorBound bound{};
+  bound.terms_per_weight_error = terms_per_weight_error;
+  bound.terms_of_beam_edges = terms_of_beam_edges;
+  return bound;
 }
 
 const ErrorBound weights_of_100 = counting(100.0);
@@ -88,7 +88,8 @@ TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
     steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));
   const auto rims = [](double order) {
     const Pattern pattern{Pattern::Kind::cosine, order};
-    return static_cast<double>(light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].beam_edges);
+    return static_cast<double>(
+        light_runs(pair_of(pattern, Precision::fp32), counting(0.0, 1.0))[0].beam_edges);
   };
   CHECK(rims(0.0) == 0.0);
   CHECK(rims(0.5) >= steepest);

@@ -220,7 +220,7 @@ TEST_CASE("lit is the mean over the samples that hit, and no sample's bits are a
   CHECK(frame.lit[1] == (40 + 35) / 80.0);
   const std::uint32_t all = ~0U;
   CHECK(frame.sample_visibility == std::vector<std::uint32_t>{all, 0xff, all, 0xff, all, 0xff, all, 7, //
-                                                           0, 0, 0, 0, 0, 0, 0, 0});
+                                                              0, 0, 0, 0, 0, 0, 0, 0});
   CHECK(reference::to_measurement(frame).lit == std::vector<float>{1.0f, 75 / 80.0f});
   CHECK(frame_of(builder.scene(), sensor, {first, second}, {Shadows::automatic}).sample_visibility.empty());
 }

@@ -294,10 +294,10 @@ TEST_CASE("light falls through the holes of a mask") {
   const Engine engine = both_engines();
   Texture texture{{4, 4}, std::vector<glm::vec4>(16, {1, 1, 1, 1})};
   texture.texels[4 * 2 + 1].a = 0.2f; // from 1/4 to 2/4 in u, 2/4 to 3/4 in v
-  Surface masked{0.0, false, Paint{glm::dvec3(0.5)}};
-  masked.paint->texture = std::make_shared<const Texture>(std::move(texture));
-  masked.paint->filter = TextureFilter::nearest;
-  masked.paint->alpha_cutoff = 0.5;
+  Surface cutouts{0.0, false, Paint{glm::dvec3(0.5)}};
+  cutouts.paint->texture = std::make_shared<const Texture>(std::move(texture));
+  cutouts.paint->filter = TextureFilter::nearest;
+  cutouts.paint->alpha_cutoff = 0.5;
   SceneBuilder builder;
   builder.add_wall({wall_m});
   // Its back to the lens. u runs to the right, v down, 1.6 m long both.

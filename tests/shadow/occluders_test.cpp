@@ -167,8 +167,8 @@ TEST_CASE("discs and shapes with holes are known as such") {
   SceneBuilder builder;
   builder.add_wall({2.0});
   Surface cutouts;
-  masked.paint = Paint{};
-  masked.paint->alpha_cutoff = 0.5;
+  cutouts.paint = Paint{};
+  cutouts.paint->alpha_cutoff = 0.5;
   builder.add_triangle({-0.1, -0.1, 1}, {0, 0.1, 1}, {0.1, -0.1, 1}, cutouts);
   builder.add_triangle({-0.1, -0.1, 1.5}, {0, 0.1, 1.5}, {0.1, -0.1, 1.5});
   Scene scene = builder.scene();

@@ -99,8 +99,8 @@ TEST_CASE("a frequency knows its channels and its unit") {
 TEST_CASE("every frequency carries what was promised, or nothing") {
   for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, {}))
     CHECK((record.limit_m == 0.0f && record.per_condition_m == 0.0f && record.amplitude_limit == 0.0f));
-  const ErrorBound promise{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
-  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, promise)) {
+  const ErrorBound bound{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
+  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound)) {
     CHECK(record.limit_m == 1e-5f);
     CHECK(record.fixed_m == 2e-6f);
     CHECK(record.per_condition_m == 3e-7f);

@@ -20,14 +20,14 @@ TriangleBlocker blocker_of(const CameraTriangle &triangle, double origin_range_m
   const double range_m = std::max({glm::length(a), glm::length(b), glm::length(c)}) + origin_range_m;
   // A needle's cross product is shorter than what it is rounded by.
   const double rounding = height_rounding * glm::length(b - a) * glm::length(c - a);
-  return {triangle.corners_m, {front, glm::dot(front, a), rounding, range_m}, triangle.masked};
+  return {triangle.corners_m, {front, glm::dot(front, a), rounding, range_m}, triangle.cutouts};
 }
 
 DiscBlocker blocker_of(const CameraDisc &disc, double origin_range_m) {
   const glm::dvec3 axis = disc.axis();
   const ShapePlane plane{axis, glm::dot(axis, disc.centre_m), height_rounding,
                          glm::length(disc.centre_m) + origin_range_m};
-  return {disc.centre_m, disc.radius_m, plane, disc.masked};
+  return {disc.centre_m, disc.radius_m, plane, disc.cutouts};
 }
 
 template <class Blocker, class Shape>
@@ -100,7 +100,7 @@ struct ShadowQuery {
     if (point_side == 0 || blocker.plane.side_of(diode) != -point_side)
       return false;
     const auto weights = crossing(blocker, point.position_m, diode.position_m);
-    return weights && (!blocker.masked || caster->is_there_(id, *weights));
+    return weights && (!blocker.cutouts || caster->is_there_(id, *weights));
   }
 
   static void ask_triangle(const RTCOccludedFunctionNArguments *args) {

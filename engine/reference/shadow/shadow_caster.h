@@ -46,7 +46,7 @@ struct ShadowQuery;
 class ShadowCaster {
 public:
   // Positions have been rounded where the world's origin is `origin_range_m` away. `is_there` is asked about
-  // masked shapes only. Throws Error: out_of_memory.
+  // cutouts shapes only. Throws Error: out_of_memory.
   ShadowCaster(const std::vector<CameraTriangle> &triangles, const std::vector<CameraDisc> &discs,
                const std::vector<Light> &lights, double origin_range_m, IsThere is_there = {});
 

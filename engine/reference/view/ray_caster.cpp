@@ -30,7 +30,7 @@ void keep_if_nearer(Query &query, const Shape &shape, std::uint32_t id,
     return;
   Hit &best = query.best;
   const bool nearer = *range_m < best.range_m || (*range_m == best.range_m && id < best.id);
-  if (nearer && (!shape.masked || (*query.is_there)(id, weights_along(query.direction, shape)))) {
+  if (nearer && (!shape.cutouts || (*query.is_there)(id, weights_along(query.direction, shape)))) {
     best = {id, *range_m};
     RTCRayN *ray = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCRayN_tfar(ray, args->N, 0) = static_cast<float>(*range_m * (1.0 + tree_margin));

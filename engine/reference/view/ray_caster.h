@@ -18,7 +18,7 @@ struct Hit {
 
 class RayCaster {
 public:
-  // `is_there` is asked about masked shapes only. Throws Error: out_of_memory.
+  // `is_there` is asked about cutouts shapes only. Throws Error: out_of_memory.
   explicit RayCaster(std::vector<CameraTriangle> triangles, std::vector<CameraDisc> discs = {},
                      IsThere is_there = {});
 

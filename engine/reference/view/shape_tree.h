@@ -38,7 +38,7 @@ private:
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };
 
-// Whether a masked shape is there where its corners count `weights`.
+// Whether a cutouts shape is there where its corners count `weights`.
 using IsThere = std::function<bool(std::uint32_t id, const glm::dvec3 &weights)>;
 
 // A triangle as a ray sees it, so that no ray slips between neighbours. After S. Woop, C. Benthin, I. Wald,

@@ -40,10 +40,10 @@ bool is_dark(const Return &measured, std::size_t pixel) {
          std::isnan(measured.distance_m[pixel]);
 }
 
-// Without a promise of the error nothing may be left of a return of which the limit leaves nothing.
+// Without a bound of the error nothing may be left of a return of which the limit leaves nothing.
 bool may_be_dark(const ExtremeTruth &truth, const Accuracy &accuracy, std::size_t pixel) {
-  const bool keeps_terms = accuracy.mode == Mode::automatic;
-  return !truth.is_known(pixel) || (!promised && truth.limit_m(pixel) >= 0.5 * truth.ambiguity_m());
+  const bool is_bounded = accuracy.mode == Mode::automatic;
+  return !truth.is_known(pixel) || (!is_bounded && truth.limit_m(pixel) >= 0.5 * truth.ambiguity_m());
 }
 
 void compare_pixel(ExtremeRun &run, const Return &measured, const ExtremeTruth &truth, std::size_t pixel) {
