@@ -1,4 +1,4 @@
-#include "engine/shadow/convex_bodies.h"
+#include "engine/shadow/occluders.h"
 
 #include "engine/shadow/point_set.h"
 #include "engine/view/camera_scene.h"

@@ -1,4 +1,4 @@
-#include "engine/shadow/occluder_tree.h"
+#include "engine/shadow/occluders.h"
 
 #include "engine/model/error.h"
 

@@ -1,6 +1,5 @@
 #include "engine/shadow/occluders.h"
 
-#include "engine/shadow/convex_bodies.h"
 #include "engine/shadow/point_set.h"
 #include "engine/view/mesh_edges.h"
 #include "engine/vulkan/float_pair.h"

@@ -2,10 +2,11 @@
 // The lit pass: which diodes reach which sample. Parts of tiles and bundles of diodes first, all at once and
 // never wrong; samples and diodes one by one only where that leaves a doubt.
 
+#include "engine/light/source_windows.h"
 #include "engine/sampling/strip_memory.h"
 #include "engine/shadow/occluders.h"
-#include "engine/shadow/tile_shadow_pipelines.h"
 #include "engine/view/surface_appearance.h"
+#include "engine/vulkan/compute_pipeline.h"
 
 #include <span>
 
@@ -21,6 +22,18 @@ struct LitScene {
   std::uint32_t nodes; // of the tree
   vulkan::Buffer occluders, tree, bodies;
   vulkan::Buffer record; // shader::LitScene
+};
+
+// The shaders, compiled for a device and a scene.
+struct LitPipelines {
+  vulkan::ComputePipeline tiles; // in the order in which they run
+  vulkan::ComputePipeline open;
+  vulkan::ComputePipeline gather;
+  vulkan::ComputePipeline attempt;
+  vulkan::ComputePipeline clear;
+  vulkan::ComputePipeline trace;
+  vulkan::ComputePipeline walk;                // `trace` of walks that were too long
+  std::vector<vulkan::ComputePipeline> counts; // of each window
 };
 
 class TileShadowPass {

@@ -6,7 +6,7 @@
 #include "host/capture/frame_sequence.h"
 #include "host/capture/frame_writer.h"
 #include "host/capture/progress.h"
-#include "host/input/setup/sample_choice.h"
+#include "host/input/setup/setup.h"
 
 namespace pmdsim {
 

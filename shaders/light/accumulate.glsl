@@ -5,7 +5,6 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/compensated.glsl"
 #include "shaders/sampling/pixel_list.glsl"
-#include "shaders/sampling/position.glsl"
 #include "shaders/shared/constants.h"
 
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };

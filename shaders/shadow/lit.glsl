@@ -5,7 +5,6 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/shadow/lit_interface.h"
-#include "shaders/sampling/position.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LitScenes { LitScene at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Parts { TilePart at[]; };

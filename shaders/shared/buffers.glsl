@@ -59,4 +59,18 @@ TrianglePlane load_plane(uvec2 address, uint i) {
   return TrianglePlane(load_vec4(address, 3 * i), load_vec4(address, 3 * i + 1), rest.x, floatBitsToUint(rest.y), rest.z, rest.w);
 }
 
+// The points of samples, camera frame, m: Real[3] each.
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer Reals { Real at[]; };
+
+Real3 load_position(uvec2 address, uint i) {
+  Reals from = Reals(address);
+  return Real3(from.at[3 * i], from.at[3 * i + 1], from.at[3 * i + 2]);
+}
+void store_position(uvec2 address, uint i, Real3 value) {
+  Reals to = Reals(address);
+  to.at[3 * i] = value.x;
+  to.at[3 * i + 1] = value.y;
+  to.at[3 * i + 2] = value.z;
+}
+
 #endif

@@ -2,7 +2,7 @@
 // The channels of each pixel from the sums of its samples, in a fixed order; of one modulation frequency.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_list.glsl"
-#include "shaders/sampling/position.glsl"
+#include "shaders/shared/buffers.glsl"
 #include "shaders/shared/real_elementary.glsl"
 #include "shaders/signal/demodulation.glsl"
 

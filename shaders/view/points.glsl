@@ -5,7 +5,6 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/view/meet.glsl"
 #include "shaders/view/surface_appearance.glsl"
-#include "shaders/sampling/position.glsl"
 #include "shaders/shared/real.glsl"
 #include "shaders/shared/constants.h"
 

@@ -1,6 +1,6 @@
 // Which meshes are closed convex bodies, and which only nearly are.
 
-#include "engine/shadow/convex_bodies.h"
+#include "engine/shadow/occluders.h"
 
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"

@@ -1,6 +1,6 @@
 // The tree's boxes and the order of its walk.
 
-#include "engine/shadow/occluder_tree.h"
+#include "engine/shadow/occluders.h"
 
 #include "tests/support/random_scenes.h"
 

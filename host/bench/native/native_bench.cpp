@@ -3,7 +3,7 @@
 #include "engine/lens/lens.h"
 #include "engine/model/error.h"
 #include "host/capture/camera.h"
-#include "host/input/setup/sample_choice.h"
+#include "host/input/setup/setup.h"
 #include "host/report/findings.h"
 #include "host/report/report.h"
 

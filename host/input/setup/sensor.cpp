@@ -2,7 +2,6 @@
 #include "host/input/file/json_file.h"
 #include "host/input/schema/limits.h"
 #include "host/input/setup/parts.h"
-#include "host/input/setup/sample_choice.h"
 
 #include <algorithm>
 #include <fmt/format.h>
