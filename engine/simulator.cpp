@@ -110,14 +110,14 @@ void Simulator::reuse(Measurement &&frame) {
     state_->spare.push_back(std::move(frame));
 }
 
-Measurement Simulator::measure(const Progress &progress) {
+Measurement Simulator::measure(const Progress &progress, const ExposureNumber &number) {
   if (!state_->frame)
     throw std::logic_error("measure() before prepare()");
-  Measurement measured = state_->frame->measure(state_->recorder, state_->spare_memory(), progress);
+  Measurement measured = state_->frame->measure(state_->recorder, state_->spare_memory(), progress, number);
   while (const auto violation = state_->frame->violation(measured)) {
     state_->refine(*violation);
     reuse(std::move(measured));
-    measured = state_->frame->measure(state_->recorder, state_->spare_memory(), progress);
+    measured = state_->frame->measure(state_->recorder, state_->spare_memory(), progress, number);
   }
   return measured;
 }

@@ -40,7 +40,7 @@ public:
   std::vector<std::pair<std::string, std::string>> path() const;
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
   // accuracy (the error asked for was not kept), input (more light returns than a float holds).
-  Measurement measure(const Progress &progress = {});
+  Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});
   // Takes the memory of a frame that is done with, for a later one; from any thread. (A large frame's memory
   // takes longer to come from the operating system than its values.)
   void reuse(Measurement &&frame);

@@ -233,7 +233,8 @@ FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
     const ErrorBound bound = error_bound_of(accuracy, *rounding, light);
     if (view.sensor.adaptive_samples)
       plan.bound = plan.bound_of_all = bound;
-    // Where samples adapt, pixels that may break the bound are summed in full: nothing is claimed of them.
+    // Where samples adapt, pixels that may be beyond the bound are summed in full: nothing is claimed of
+    // them.
     if (const auto sure = sure_bound(view, bound, plan); sure && !plan.bound) {
       plan.claimed_m = sure->distance_m;
       plan.claimed_amplitude = sure->amplitude;

@@ -39,7 +39,7 @@ struct FramePlan {
   SourceGroups reduced;        // of those, with other intensities, that do where all light and face a point
   SourceGroups uniform_groups; // the reduced set in float, for the uniform-pixel pass
   LightExtent extent;          // of the light, as the reduced set's bound has it
-  // Of what the reduced set sum, and of what all do; nothing where no error was asked for.
+  // Of what the reduced set sums, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
   // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;

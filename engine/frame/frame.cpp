@@ -48,12 +48,13 @@ void Frame::check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measu
 }
 
 Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
-                           const std::function<void(double)> &progress) const {
+                           const std::function<void(double)> &progress, const ExposureNumber &number) const {
   const auto start = std::chrono::steady_clock::now();
   recorder.reset();
   Measurement measurement = make_measurement(on_.sensor, on_.modulation, options_, std::move(memory));
   const double memory_ms =
       vulkan::milliseconds_since(start); // of a first frame, to which the system gives it
+  measurement.number = number;
   measurement.accuracy = on_.report;
   const bool shaded = shadows_ == Shadows::automatic;
   if (!shaded)

@@ -23,7 +23,7 @@ public:
   // 1, and may throw. Throws Error: out_of_memory, device_lost, input (more light returns than a float
   // holds).
   Measurement measure(vulkan::PassRecorder &recorder, Measurement &&memory,
-                      const std::function<void(double)> &progress) const;
+                      const std::function<void(double)> &progress, const ExposureNumber &number) const;
   // Why the last frame, `measured`, does not keep the error that was asked for, if so.
   std::optional<std::string> violation(const Measurement &measured) const;
 

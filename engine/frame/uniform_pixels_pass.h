@@ -15,7 +15,7 @@ struct UniformPixels {
       0;                // at which a pixel of several samples is evaluated: none, 1, or 4 for list_refined
   bool refines = false; // pixels for which one point is not enough are listed for four
   bool sums = true;     // false: the pass only lists pixels
-  bool lists = true;    // false: it takes all, and none can break the bound
+  bool lists = true;    // false: it takes all, and none can be beyond the bound
 };
 
 // `groups` stand in for all diodes, whose light has that `extent`; `bound` is what their sum is held

@@ -1,7 +1,7 @@
 #pragma once
-// Moments without roots: over all that is visible the weights and the excess of a group's diodes are smooth
-// functions of u = q / rho^2, q = r_nm^2 - rho^2 = |I|^2 - 2 P.I, so that polynomials in u stand for them.
-// The loop over the diodes sums powers of q, and the moments follow from these sums once a sample.
+// Moments without roots: over all that is visible the weights and the path differences of a group's diodes
+// are smooth functions of u = q / rho^2, q = r_nm^2 - rho^2 = |I|^2 - 2 P.I, so that polynomials in u stand
+// for them. The loop over the diodes sums powers of q, and the moments follow from these sums once a sample.
 //
 // With p the powers of 1 / r_nm in a weight w = W r_nm^-p and e = r_nm - rho,
 //   sum w e^k = rho^(k - p) sum_i a_ki S_i / rho^(2 i),   S_i = sum W q^i,

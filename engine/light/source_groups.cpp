@@ -13,7 +13,8 @@
 namespace pmdsim {
 namespace {
 
-constexpr double largest_phase_rad = 0.5; // of a group's largest excess: 9 moments at most, no phase wraps
+constexpr double largest_phase_rad =
+    0.5; // of a group's largest path difference: 9 moments at most, no phase wraps
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 // A straight line in fp64 takes several times as long to compile as one in float.
 constexpr std::uint32_t largest_precise_run_blocks = 4;

@@ -1,5 +1,5 @@
 #pragma once
-// The diodes as the lit pass takes them: in bundles of a word's bits, a window of bundles at a time.
+// The diodes as the shadow pass takes them: in bundles of a word's bits, a window of bundles at a time.
 
 #include "engine/light/source_groups.h"
 #include "shaders/light/source_windows.h"

@@ -21,7 +21,17 @@ struct Return {
   std::vector<std::vector<float>> taps;
 };
 
+// Which exposure of a setup: what differs from one to the next, as noise does, follows from these numbers and
+// from no clock.
+struct ExposureNumber {
+  std::uint32_t sensor = 0, frame = 0;
+  std::uint32_t exposure = 0; // of the frame, whose taps may be exposed one by one, frequency by frequency
+
+  bool operator==(const ExposureNumber &) const = default;
+};
+
 struct Measurement {
+  ExposureNumber number;       // as measure() was told
   glm::uvec2 resolution{0, 0}; // columns, rows
 
   std::vector<Return> returns; // beside Sensor::modulation_hz
@@ -38,7 +48,7 @@ struct Measurement {
 
   // Of every sample, (S*rows) x (S*columns), row-major; only filled on request.
   std::vector<std::uint32_t> sample_triangle_id;
-  // The tag's pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
+  // Its pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
   std::vector<std::uint32_t> sample_pixel_id;
   // Which diodes reach it, Shadows::automatic only: ceil(diodes / 32) words a sample, diode m (counted
   // through all illuminators) in bit m % 32 of word m / 32.

@@ -33,33 +33,33 @@ Along along(const glm::dvec3 &direction, const glm::dvec3 &centre_m, const glm::
   return {glm::dot(direction, centre_m), glm::dot(glm::abs(direction), half_m)};
 }
 
-Sight sight_of(const VisibleBox &box, const glm::dvec3 &place_m, const glm::dmat3 &axes,
-               const glm::dvec3 &beam) {
+DirectionalBounds sight_of(const VisibleBox &box, const glm::dvec3 &place_m, const glm::dmat3 &axes,
+                           const glm::dvec3 &beam) {
   const glm::dvec3 centre_m = 0.5 * (box.low_m + box.high_m) - place_m;
   const glm::dvec3 half_m = 0.5 * (box.high_m - box.low_m);
   const double range_m = glm::distance(place_m, glm::clamp(place_m, box.low_m, box.high_m));
-  Sight sight{range_m, glm::dvec3(-1.0), glm::dvec3(1.0), -1.0};
+  DirectionalBounds direction{range_m, glm::dvec3(-1.0), glm::dvec3(1.0), -1.0};
   const double largest_range_m = glm::length(glm::abs(centre_m) + half_m);
   const auto over_range = [&](double at_m, bool rounded_up) {
     return at_m / ((at_m > 0.0) == rounded_up ? range_m : largest_range_m);
   };
   if (!(range_m > 0.0))
-    return sight;
+    return direction;
   for (int i = 0; i < 3; ++i) {
     const auto [middle_m, side_m] = along(axes[i], centre_m, half_m);
-    sight.least[i] = std::max(-1.0, over_range(middle_m - side_m, false));
-    sight.largest[i] = std::min(1.0, over_range(middle_m + side_m, true));
+    direction.least[i] = std::max(-1.0, over_range(middle_m - side_m, false));
+    direction.largest[i] = std::min(1.0, over_range(middle_m + side_m, true));
   }
   const auto [middle_m, side_m] = along(beam, centre_m, half_m);
-  sight.beam_cosine = over_range(middle_m - side_m, false);
-  return sight;
+  direction.beam_cosine = over_range(middle_m - side_m, false);
+  return direction;
 }
 
-void widen(Sight &sight, const Sight &other) {
-  sight.range_m = std::min(sight.range_m, other.range_m);
-  sight.least = glm::min(sight.least, other.least);
-  sight.largest = glm::max(sight.largest, other.largest);
-  sight.beam_cosine = std::min(sight.beam_cosine, other.beam_cosine);
+void widen(DirectionalBounds &direction, const DirectionalBounds &other) {
+  direction.range_m = std::min(direction.range_m, other.range_m);
+  direction.least = glm::min(direction.least, other.least);
+  direction.largest = glm::max(direction.largest, other.largest);
+  direction.beam_cosine = std::min(direction.beam_cosine, other.beam_cosine);
 }
 
 } // namespace
@@ -82,21 +82,22 @@ std::vector<VisibleBox> pieces_of(const std::vector<VisibleBox> &visible, const 
   return pieces;
 }
 
-std::vector<Sight> sights_of(const std::vector<VisibleBox> &pieces, const glm::dvec3 &place_m,
-                             const glm::dmat3 &axes, const glm::dvec3 &beam) {
-  std::map<double, Sight> by_range;
+std::vector<DirectionalBounds> directional_bounds(const std::vector<VisibleBox> &pieces,
+                                                  const glm::dvec3 &place_m, const glm::dmat3 &axes,
+                                                  const glm::dvec3 &beam) {
+  std::map<double, DirectionalBounds> by_range;
   for (const VisibleBox &piece : pieces) {
-    const Sight sight = sight_of(piece, place_m, axes, beam);
+    const DirectionalBounds direction = sight_of(piece, place_m, axes, beam);
     const auto [found, is_new] =
-        by_range.try_emplace(std::floor(sights_per_octave * std::log2(sight.range_m)), sight);
+        by_range.try_emplace(std::floor(sights_per_octave * std::log2(direction.range_m)), direction);
     if (!is_new)
-      widen(found->second, sight);
+      widen(found->second, direction);
   }
-  std::vector<Sight> sights;
-  sights.reserve(by_range.size());
-  for (const auto &[octave, sight] : by_range)
-    sights.push_back(sight);
-  return sights;
+  std::vector<DirectionalBounds> directions;
+  directions.reserve(by_range.size());
+  for (const auto &[octave, direction] : by_range)
+    directions.push_back(direction);
+  return directions;
 }
 
 } // namespace pmdsim

@@ -73,7 +73,7 @@ BeamSeries beam_series(double order, double z) {
   return result;
 }
 
-// A sight's power series: bounds of all coefficients, over a bound of sum|terms| from below.
+// A direction's power series: bounds of all coefficients, over a bound of sum|terms| from below.
 struct SightSeries {
   Majorant in_x;
   BeamSeries in_beam;
@@ -81,25 +81,25 @@ struct SightSeries {
   double least_terms;
 };
 
-std::optional<SightSeries> series_of(const DiodeCluster &cluster, const Sight &sight,
+std::optional<SightSeries> series_of(const DiodeCluster &cluster, const DirectionalBounds &direction,
                                      const ErrorScale &scale) {
   const double order = cluster.order.value_or(0.0);
   const double s = 2.0 + order + (scale.lambert ? 1.0 : 0.0);
-  const double size = cluster.radius_m / sight.range_m;
-  const glm::dvec3 slopes = glm::max(glm::abs(sight.least), glm::abs(sight.largest));
+  const double size = cluster.radius_m / direction.range_m;
+  const glm::dvec3 slopes = glm::max(glm::abs(direction.least), glm::abs(direction.largest));
   std::array<double, 4> parts{size * size};
   for (int i = 0; i < 3; ++i)
-    parts[static_cast<std::size_t>(i) + 1] = 2.0 * cluster.extents_m[i] * slopes[i] / sight.range_m;
+    parts[static_cast<std::size_t>(i) + 1] = 2.0 * cluster.extents_m[i] * slopes[i] / direction.range_m;
   const double x = std::accumulate(parts.begin(), parts.end(), 0.0);
   if (!(x <= largest_x))
     return std::nullopt;
   double z = 0.0;
   if (cluster.order) {
-    z = cluster.beam_extent_m / (sight.beam_cosine * sight.range_m);
-    if (!(sight.beam_cosine > 0.0) || !(z <= largest_beam_step) || order * z > largest_beam_change)
+    z = cluster.beam_extent_m / (direction.beam_cosine * direction.range_m);
+    if (!(direction.beam_cosine > 0.0) || !(z <= largest_beam_step) || order * z > largest_beam_change)
       return std::nullopt;
   }
-  SightSeries series{majorant(scale.largest_wavenumber_rad_m() * sight.range_m, x, s),
+  SightSeries series{majorant(scale.largest_wavenumber_rad_m() * direction.range_m, x, s),
                      beam_series(order, z),
                      {},
                      std::pow(1.0 + x, -0.5 * s) * std::pow(1.0 - z, order)};
@@ -120,11 +120,11 @@ struct Coefficient {
   double re = 0.0, im = 0.0;
 };
 
-// By powers, one for each sight.
+// By powers, one for each direction.
 using Coefficients = std::map<Powers, std::vector<Coefficient>>;
 
-// Where surfaces are Lambertian, each sight comes three times: with a surface that is as slanted as may be
-// towards each of the axes. (Others are between them.)
+// Where surfaces are Lambertian, each direction comes three times: with a surface that is as slanted as may
+// be towards each of the axes. (Others are between them.)
 std::size_t slants(const ErrorScale &scale) { return scale.lambert ? 3 : 1; }
 
 class Enumeration {
@@ -161,13 +161,13 @@ private:
     for (std::size_t beam_power = 0; beam_power < beam_powers; ++beam_power) {
       std::vector<Coefficient> coefficients(series_.size());
       double largest = 0.0;
-      for (std::size_t sight = 0; sight < series_.size(); ++sight) {
-        const SightSeries &series = series_[sight];
+      for (std::size_t direction = 0; direction < series_.size(); ++direction) {
+        const SightSeries &series = series_[direction];
         if (beam_power >= series.in_beam.coefficients.size())
           continue;
-        const double share = shares[sight] * series.in_beam.coefficients[beam_power];
-        coefficients[sight] = {share * series.in_x.re[degree], share * series.in_x.im[degree]};
-        largest = std::max(largest, scale_.excess(coefficients[sight].re, coefficients[sight].im));
+        const double share = shares[direction] * series.in_beam.coefficients[beam_power];
+        coefficients[direction] = {share * series.in_x.re[degree], share * series.in_x.im[degree]};
+        largest = std::max(largest, scale_.excess(coefficients[direction].re, coefficients[direction].im));
       }
       if (largest >= negligible)
         add({static_cast<std::uint8_t>(powers[0]), static_cast<std::uint8_t>(powers[1]),
@@ -192,10 +192,10 @@ private:
   void add(const Powers &powers, std::size_t slant, double factor, const std::vector<Coefficient> &more) {
     std::vector<Coefficient> &sum =
         result_.try_emplace(powers, series_.size() * slants(scale_)).first->second;
-    for (std::size_t sight = 0; sight < more.size(); ++sight) {
-      Coefficient &to = sum[sight * slants(scale_) + slant];
-      to.re += factor * more[sight].re;
-      to.im += factor * more[sight].im;
+    for (std::size_t direction = 0; direction < more.size(); ++direction) {
+      Coefficient &to = sum[direction * slants(scale_) + slant];
+      to.re += factor * more[direction].re;
+      to.im += factor * more[direction].im;
     }
   }
 
@@ -239,26 +239,26 @@ void set_rest(MomentBounds &bounds, const DiodeCluster &cluster, const std::vect
   bounds.rest_im = -2.0 * bounds.im.rowwise().sum();
   constexpr double rounding = 1e-15;
   for (Eigen::Index i = 0; i < bounds.re.rows(); ++i) {
-    const SightSeries &sight = series[static_cast<std::size_t>(i) / slants(scale)];
+    const SightSeries &direction = series[static_cast<std::size_t>(i) / slants(scale)];
     const double slanted = scale.lambert ? 1.0 + cluster.slant(static_cast<int>(i % 3)) : 1.0;
-    const double factor = 2.0 * (1.0 + rounding) * slanted * sight.in_beam.sum / sight.least_terms;
-    bounds.rest_re[i] = std::max(0.0, bounds.rest_re[i] + factor * sight.in_x.re_sum);
-    bounds.rest_im[i] = std::max(0.0, bounds.rest_im[i] + factor * sight.in_x.im_sum);
+    const double factor = 2.0 * (1.0 + rounding) * slanted * direction.in_beam.sum / direction.least_terms;
+    bounds.rest_re[i] = std::max(0.0, bounds.rest_re[i] + factor * direction.in_x.re_sum);
+    bounds.rest_im[i] = std::max(0.0, bounds.rest_im[i] + factor * direction.in_x.im_sum);
   }
 }
 
 MomentBounds bounds_of(const Coefficients &coefficients, const DiodeCluster &cluster,
                        const std::vector<SightSeries> &series, const ErrorScale &scale) {
   const auto moments = static_cast<Eigen::Index>(coefficients.size());
-  const auto sights = static_cast<Eigen::Index>(series.size() * slants(scale));
+  const auto directions = static_cast<Eigen::Index>(series.size() * slants(scale));
   MomentBounds bounds;
-  bounds.re.resize(sights, moments);
-  bounds.im.resize(sights, moments);
+  bounds.re.resize(directions, moments);
+  bounds.im.resize(directions, moments);
   Eigen::Index moment = 0;
   for (const auto &[powers, of_sights] : coefficients) {
-    for (Eigen::Index sight = 0; sight < sights; ++sight) {
-      bounds.re(sight, moment) = of_sights[static_cast<std::size_t>(sight)].re;
-      bounds.im(sight, moment) = of_sights[static_cast<std::size_t>(sight)].im;
+    for (Eigen::Index direction = 0; direction < directions; ++direction) {
+      bounds.re(direction, moment) = of_sights[static_cast<std::size_t>(direction)].re;
+      bounds.im(direction, moment) = of_sights[static_cast<std::size_t>(direction)].im;
     }
     bounds.moments.push_back(powers);
     ++moment;
@@ -290,8 +290,8 @@ Eigen::VectorXd MomentBounds::importance(const ErrorScale &scale) const {
   Eigen::VectorXd result(re.cols());
   for (Eigen::Index moment = 0; moment < re.cols(); ++moment) {
     double largest = 0.0;
-    for (Eigen::Index sight = 0; sight < re.rows(); ++sight)
-      largest = std::max(largest, scale.excess(re(sight, moment), im(sight, moment)));
+    for (Eigen::Index direction = 0; direction < re.rows(); ++direction)
+      largest = std::max(largest, scale.excess(re(direction, moment), im(direction, moment)));
     result[moment] = largest;
   }
   return result;
@@ -317,16 +317,19 @@ SumError MomentBounds::error(const Eigen::VectorXd &changes, const ErrorScale &s
   return largest_of(least);
 }
 
-bool converges(const DiodeCluster &cluster, const std::vector<Sight> &sights, const ErrorScale &scale) {
-  return std::ranges::all_of(
-      sights, [&](const Sight &sight) { return series_of(cluster, sight, scale).has_value(); });
+bool converges(const DiodeCluster &cluster, const std::vector<DirectionalBounds> &directions,
+               const ErrorScale &scale) {
+  return std::ranges::all_of(directions, [&](const DirectionalBounds &direction) {
+    return series_of(cluster, direction, scale).has_value();
+  });
 }
 
-std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
-                                                const ErrorScale &scale) {
+std::optional<MomentBounds> dominant_moments(const DiodeCluster &cluster,
+                                             const std::vector<DirectionalBounds> &directions,
+                                             const ErrorScale &scale) {
   std::vector<SightSeries> series;
-  for (const Sight &sight : sights) {
-    std::optional<SightSeries> of_sight = series_of(cluster, sight, scale);
+  for (const DirectionalBounds &direction : directions) {
+    std::optional<SightSeries> of_sight = series_of(cluster, direction, scale);
     if (!of_sight)
       return std::nullopt;
     series.push_back(std::move(*of_sight));
@@ -338,13 +341,13 @@ std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, con
     return std::nullopt;
   leave_out_the_least(*coefficients, scale);
   MomentBounds bounds = bounds_of(*coefficients, cluster, series, scale);
-  for (Eigen::Index sight = 0; sight < bounds.rest_re.size(); ++sight)
-    if (!(scale.excess(bounds.rest_re[sight], bounds.rest_im[sight]) <= bearable_rest))
+  for (Eigen::Index direction = 0; direction < bounds.rest_re.size(); ++direction)
+    if (!(scale.excess(bounds.rest_re[direction], bounds.rest_im[direction]) <= bearable_rest))
       return std::nullopt;
   if (cluster.offsets_m.size() >= fewest_sampled_diodes && cluster.radius_m > 0.0 &&
       scale.wavenumbers_rad_m.size() <= most_sampled_frequencies)
-    for (std::size_t i = 0; i < sights.size(); ++i)
-      bounds.samples.emplace_back(cluster, sights[i], scale, bounds.moments, series[i].least_terms);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      bounds.samples.emplace_back(cluster, directions[i], scale, bounds.moments, series[i].least_terms);
   return bounds;
 }
 

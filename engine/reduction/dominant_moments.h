@@ -20,26 +20,28 @@ namespace pmdsim {
 
 struct MomentBounds {
   std::vector<Powers> moments;
-  Eigen::MatrixXd re, im;           // error per change of a moment (columns) in each sight (rows)
+  Eigen::MatrixXd re, im;           // error per change of a moment (columns) in each direction (rows)
   Eigen::VectorXd rest_re, rest_im; // error by all that is not among the moments
 
-  // Of a cluster worth the time: in place of the bounds of what they hold, one for each sight.
+  // Of a cluster worth the time: in place of the bounds of what they hold, one for each direction.
   std::vector<SeriesSamples> samples;
 
   Eigen::VectorXd importance(const ErrorScale &scale) const; // of the moments: largest excess per change
-  // The largest over all sights, for moments that changed so much.
+  // The largest over all directions, for moments that changed so much.
   SumError error(const Eigen::VectorXd &changes, const ErrorScale &scale) const;
 
 private:
-  // By the moments' bounds alone, for changes of at most these sizes; of each sight.
+  // By the moments' bounds alone, for changes of at most these sizes; of each direction.
   std::vector<SumError> errors(const Eigen::VectorXd &sizes, const ErrorScale &scale) const;
 };
 
 // Whether the series converges fast enough to be worth a try.
-bool converges(const DiodeCluster &cluster, const std::vector<Sight> &sights, const ErrorScale &scale);
+bool converges(const DiodeCluster &cluster, const std::vector<DirectionalBounds> &directions,
+               const ErrorScale &scale);
 
 // The moments that matter; nothing where they are too many.
-std::optional<MomentBounds> moments_that_matter(const DiodeCluster &cluster, const std::vector<Sight> &sights,
-                                                const ErrorScale &scale);
+std::optional<MomentBounds> dominant_moments(const DiodeCluster &cluster,
+                                             const std::vector<DirectionalBounds> &directions,
+                                             const ErrorScale &scale);
 
 } // namespace pmdsim

@@ -147,8 +147,9 @@ private:
       if (members.size() < fewest_diodes)
         continue;
       const DiodeCluster cluster = cluster_of(diodes, members);
-      const std::vector<Sight> sights = sights_of(pieces_, cluster.centre_m, cluster.axes, cluster.beam);
-      if (const std::optional<Reduction> reduction = attempt(cluster, sights)) {
+      const std::vector<DirectionalBounds> directions =
+          directional_bounds(pieces_, cluster.centre_m, cluster.axes, cluster.beam);
+      if (const std::optional<Reduction> reduction = attempt(cluster, directions)) {
         if (reduction->diodes.size() < members.size())
           replace(diodes, members, cluster, *reduction);
       } else {
@@ -158,11 +159,12 @@ private:
     }
   }
 
-  std::optional<Reduction> attempt(const DiodeCluster &cluster, const std::vector<Sight> &sights) {
-    if (!converges(cluster, sights, scale_))
+  std::optional<Reduction> attempt(const DiodeCluster &cluster,
+                                   const std::vector<DirectionalBounds> &directions) {
+    if (!converges(cluster, directions, scale_))
       return std::nullopt;
     --attempts_left_;
-    const std::optional<MomentBounds> bounds = moments_that_matter(cluster, sights, scale_);
+    const std::optional<MomentBounds> bounds = dominant_moments(cluster, directions, scale_);
     return bounds ? fewest(cluster, *bounds, scale_) : std::nullopt;
   }
 

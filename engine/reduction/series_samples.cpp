@@ -71,15 +71,16 @@ struct Domain {
   std::size_t variables = 1;
 };
 
-Domain domain_of(const DiodeCluster &cluster, const Sight &sight, const std::vector<Powers> &moments) {
-  Domain domain{cluster.radius_m / sight.range_m};
+Domain domain_of(const DiodeCluster &cluster, const DirectionalBounds &seen,
+                 const std::vector<Powers> &moments) {
+  Domain domain{cluster.radius_m / seen.range_m};
   for (int i = 0; i < 3; ++i) {
     const auto coordinate = static_cast<std::size_t>(i) + 1;
     if (std::ranges::none_of(moments, [&](const Powers &powers) { return powers[coordinate] > 0; }))
       continue;
-    domain.least[i] = sight.least[i];
-    domain.largest[i] = sight.largest[i];
-    if (sight.least[i] < sight.largest[i])
+    domain.least[i] = seen.least[i];
+    domain.largest[i] = seen.largest[i];
+    if (seen.least[i] < seen.largest[i])
       ++domain.variables;
   }
   return domain;
@@ -114,11 +115,12 @@ struct SeriesSamples::Term {
   double factor;
 };
 
-SeriesSamples::SeriesSamples(const DiodeCluster &cluster, const Sight &sight, const ErrorScale &scale,
-                             const std::vector<Powers> &moments, double least_terms) {
+SeriesSamples::SeriesSamples(const DiodeCluster &cluster, const DirectionalBounds &seen,
+                             const ErrorScale &scale, const std::vector<Powers> &moments,
+                             double least_terms) {
   for (int i = 0; i < 3; ++i)
     slants_[static_cast<std::size_t>(i)] = cluster.slant(i);
-  const Domain domain = domain_of(cluster, sight, moments);
+  const Domain domain = domain_of(cluster, seen, moments);
   const auto [degree, count] = resolutions[domain.variables];
   hold(moments, degree, scale.lambert);
   std::vector<Term> terms;

@@ -1,5 +1,5 @@
 #pragma once
-// The lowest powers of a sight's series (dominant_moments.h), not by bounds of each, but all together at
+// The lowest powers of a seen's series (dominant_moments.h), not by bounds of each, but all together at
 // many points and at each frequency: where they cancel, the bound is smaller.
 //
 // With tau = R / rho, R the cluster's radius, and P's direction u a coefficient is a polynomial in tau and
@@ -18,7 +18,7 @@ namespace pmdsim {
 class SeriesSamples {
 public:
   // least_terms: what sum|terms| is at least, relative to one diode at the centre.
-  SeriesSamples(const DiodeCluster &cluster, const Sight &sight, const ErrorScale &scale,
+  SeriesSamples(const DiodeCluster &cluster, const DirectionalBounds &seen, const ErrorScale &scale,
                 const std::vector<Powers> &moments, double least_terms);
 
   // By index into `moments`: those that are in here.

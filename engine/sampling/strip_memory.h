@@ -16,7 +16,7 @@ struct StripBuffers {
   vulkan::Buffer
       ids; // uvec2 a sample (shaders/shared/interface.h): pixel id, triangle id; or its record, uvec4
   vulkan::Buffer position;    // Real[3] a sample, from here on: sub-sample by sub-sample, each padded_pixels
-                              // long, but for `sum` on as depth records, which is row by row as the records
+                              // long, but for `sum` of depth records, which is row by row as the records
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer
@@ -43,7 +43,7 @@ inline const vulkan::Buffer &drawn_ids(const StripBuffers &buffers) {
   return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.ids;
 }
 
-// Likewise, a tag or a record a sample.
+// Likewise, IDs or a record a sample.
 std::span<const std::byte> ids_for_host(const StripBuffers &buffers);
 std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
 

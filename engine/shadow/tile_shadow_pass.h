@@ -1,6 +1,6 @@
 #pragma once
-// The lit pass: which diodes reach which sample. Parts of tiles and bundles of diodes first, all at once and
-// never wrong; samples and diodes one by one only where that leaves a doubt.
+// The shadow pass: which diodes reach which sample. Parts of tiles and bundles of diodes first, all at once
+// and never wrong; samples and diodes one by one only where that leaves a doubt.
 
 #include "engine/light/source_windows.h"
 #include "engine/sampling/strip_memory.h"

@@ -114,12 +114,12 @@ void store_sample_ids(std::span<const std::byte> from, std::size_t id_bytes, con
       const glm::uvec2 sample(column, row), pixel = sample / strip.samples,
                                             subsample = sample % strip.samples;
       const glm::uvec2 at = tiled ? subsample * pixels + pixel : sample;
-      shader::uvec2 tag;
-      std::memcpy(&tag, from.data() + (std::size_t{at.y} * samples.x + at.x) * id_bytes, sizeof(tag));
+      shader::uvec2 id;
+      std::memcpy(&id, from.data() + (std::size_t{at.y} * samples.x + at.x) * id_bytes, sizeof(id));
       const glm::uvec2 in_frame = glm::uvec2(strip.column, strip.row) * strip.samples + sample;
       const std::size_t to_at = std::size_t{in_frame.y} * strip.resolution_x * strip.samples + in_frame.x;
-      to.sample_pixel_id[to_at] = tag.x;
-      to.sample_triangle_id[to_at] = tag.x != 0 ? tag.y : no_id;
+      to.sample_pixel_id[to_at] = id.x;
+      to.sample_triangle_id[to_at] = id.x != 0 ? id.y : no_id;
     }
 }
 

@@ -22,7 +22,7 @@ public:
   RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format id_format,
                const vulkan::Buffer &id_buffer, std::optional<RasterImages> &&previous);
 
-  // Begins to draw on `extent`, where no tag is left from before and all depths are 0.
+  // Begins to draw on `extent`, where no ID is left from before and all depths are 0.
   void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
              const vulkan::Buffer &id_buffer) const;
   // Ends that: the IDs are in the buffer row by row, visible to compute shaders and transfers. Of an extent

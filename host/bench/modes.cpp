@@ -73,8 +73,7 @@ private:
   Measurement take(Exposures &exposures, std::size_t sensor, Mode mode, const std::string &what) {
     bar_.begin(fmt::format("mode {}, {}", mode_name(mode), what),
                samples_of_frame(setup_, setup_.start.sensors[sensor]));
-    return exposures.take(sensor, setup_.frames.start_s, Light::beside_lens, interruptible_progress(bar_))
-        .measurement;
+    return exposures.take(sensor, 0, Light::beside_lens, interruptible_progress(bar_)).measurement;
   }
 
   double prepare_ms(const Accuracy &accuracy) const {

@@ -49,13 +49,13 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
   several.frames.count = frames;
   Exposures exposures(several, request.device, true, request.accuracy);
   ProgressBar bar((3.0 * frames + 1.0) * samples_of_frame(several));
-  const auto take = [&](const std::string &label, std::size_t sensor, double time_s,
+  const auto take = [&](const std::string &label, std::size_t sensor, std::uint32_t frame,
                         const std::optional<double> &next_s) {
     bar.begin(label, samples_of_frame(several, several.start.sensors[sensor]));
-    return exposures.take(sensor, time_s, Light::beside_lens, interruptible_progress(bar), next_s);
+    return exposures.take(sensor, frame, Light::beside_lens, interruptible_progress(bar), next_s);
   };
   for (std::size_t sensor = 0; sensor < several.start.sensors.size(); ++sensor)
-    take("warming up", sensor, several.frames.start_s, std::nullopt);
+    take("warming up", sensor, 0, std::nullopt);
   const TemporaryDirectory directory;
   const auto frames_per_s = [&](const std::string &what, const std::set<Format> &formats) {
     const auto start = std::chrono::steady_clock::now();
@@ -64,7 +64,7 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
                            {"render", camera.device(), camera.driver(), request.accuracy, several.as_used});
     const auto measure = [&](const SensorFrame &at) {
       const std::string label = fmt::format("{}, {}", what, at.label);
-      return rendered_frame(exposures.share(take(label, at.sensor, at.time_s, at.next_s)), at, formats);
+      return rendered_frame(exposures.share(take(label, at.sensor, at.frame, at.next_s)), at, formats);
     };
     sequence.write(measure, bytes_of_largest_frame(several, true));
     return frames / (1e-3 * ms_since(start));

@@ -59,9 +59,13 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
   return simulator_ ? simulator_->path() : std::vector<std::pair<std::string, std::string>>();
 }
 
-Measurement Camera::measure(const Progress &progress) {
+Measurement Camera::measure(const Progress &progress, const ExposureNumber &number) {
   throw_if_interrupted();
-  return simulator_ ? simulator_->measure(progress) : reference_frame_(progress);
+  if (simulator_)
+    return simulator_->measure(progress, number);
+  Measurement measurement = reference_frame_(progress);
+  measurement.number = number;
+  return measurement;
 }
 
 void Camera::reuse(Measurement &&frame) {

@@ -34,7 +34,7 @@ public:
   // As Simulator::path(); nothing of the reference.
   std::vector<std::pair<std::string, std::string>> path() const;
   // One frame. Throws Error, interrupted among others.
-  Measurement measure(const Progress &progress = {});
+  Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().
   void reuse(Measurement &&frame);
 

@@ -53,7 +53,7 @@ std::string Capture::device_text() const {
 TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<double> next_s,
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
-  return exposures_.take(at.sensor, at.time_s, light, interruptible_progress(*bar_), next_s);
+  return exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
 }
 
 void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes) {

@@ -125,16 +125,17 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   prepared_ = view;
 }
 
-TakenFrame Exposures::take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                            std::optional<double> next_s) {
+  const double time_s = setup_.frames.time_s(number);
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
   if (exposes_tap_by_tap(setup_, frame.sensor)) {
-    frame = take_tap_by_tap(sensor, time_s, light, progress, next_s);
+    frame = take_tap_by_tap(sensor, number, light, progress, next_s);
   } else {
     prepare({sensor, std::nullopt, time_s, light}, accuracy_);
     if (next_s)
       instants_.expect(*next_s);
-    frame.measurement = camera_.measure(progress);
+    frame.measurement = camera_.measure(progress, {static_cast<std::uint32_t>(sensor), number, 0});
   }
   if (!keep_taps_)
     for (Return &of_frequency : frame.measurement.returns)
@@ -150,21 +151,23 @@ std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
   return {std::make_unique<TakenFrame>(std::move(frame)).release(), give_back};
 }
 
-TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, double time_s, Light light,
+TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, Light light,
                                       const Progress &progress, const std::optional<double> &next_s) {
+  const double time_s = setup_.frames.time_s(number);
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, Mode::exact};
   const std::size_t exposures = exposures_of_frame(setup_, frame.sensor), taps = frame.sensor.taps;
-  std::size_t done = 0;
+  std::uint32_t done = 0;
   const auto expose = [&](std::size_t frequency, double exposure_s) {
     prepare({sensor, frequency, exposure_s, light}, {.mode = Mode::exact, .precision = accuracy_.precision});
-    const std::size_t before = done++;
+    const std::uint32_t before = done++;
     if (done < exposures)
       instants_.expect(tap_time_s(frame.sensor, time_s, done / taps, done % taps));
     else if (next_s)
       instants_.expect(*next_s);
-    return camera_.measure([&](double fraction) {
-      progress((static_cast<double>(before) + fraction) / static_cast<double>(exposures));
-    });
+    const auto of_exposure = [&](double fraction) {
+      progress((before + fraction) / static_cast<double>(exposures));
+    };
+    return camera_.measure(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
   };
   frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
   return frame;

@@ -85,10 +85,10 @@ public:
   // A frame whose memory is reused once nobody holds it any more; this must outlive it.
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
 
-  // The frame that begins at `time_s`, of the sensor with the index `sensor`. `next_s`, where it is known, is
-  // when the next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error,
-  // interrupted among others.
-  TakenFrame take(std::size_t sensor, double time_s, Light light, const Progress &progress,
+  // The frame of that number, of the sensor with the index `sensor`. `next_s`, where it is known, is when the
+  // next frame to be taken begins: what has moved by then is computed meanwhile. Throws Error, interrupted
+  // among others.
+  TakenFrame take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                   std::optional<double> next_s = std::nullopt);
 
 private:
@@ -103,7 +103,7 @@ private:
   };
 
   const Instant &instant_at(double time_s);
-  TakenFrame take_tap_by_tap(std::size_t sensor, double time_s, Light light, const Progress &progress,
+  TakenFrame take_tap_by_tap(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                              const std::optional<double> &next_s);
   void prepare(View view, const Accuracy &accuracy);
 

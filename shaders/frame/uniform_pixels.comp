@@ -1,5 +1,5 @@
 #version 460
-// The uniform-pixel pass: from a pixel's ids to its channels at once, where the pixel is one surface's that all diodes light and
+// The uniform-pixel pass: from a pixel's IDs to its channels at once, where the pixel is one surface's that all diodes light and
 // face, so that few diodes may stand in for all and one point, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// What the shaders of the lit pass share: tiles, their parts and the lists of what is left to do.
+// What the shaders of the shadow pass share: tiles, their parts and the lists of what is left to do.
 #ifndef PMDSIM_LIT_GLSL
 #define PMDSIM_LIT_GLSL
 

@@ -1,4 +1,4 @@
-// What the host and the shaders of the lit pass agree on, by the rules of interface.h.
+// What the host and the shaders of the shadow pass agree on, by the rules of interface.h.
 #ifndef PMDSIM_LIT_INTERFACE_H
 #define PMDSIM_LIT_INTERFACE_H
 
@@ -78,7 +78,7 @@ struct LitWork {
   Dispatch list[lists];
 };
 
-// What the lit pass looks up about the scene.
+// What the shadow pass looks up about the scene.
 struct LitScene {
   uvec2 planes;         // TrianglePlane[]
   uvec2 occluders;      // Occluder[]

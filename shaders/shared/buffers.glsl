@@ -23,7 +23,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer To
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRuns { LightRun at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Frequencies { Frequency at[]; };
 
-// Where the ids of a pixel's sample is, in a strip of `extent` pixels (interface.h).
+// Where the IDs of a pixel's sample are, in a strip of `extent` pixels (interface.h).
 uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool tiled) {
   uvec2 at = tiled ? subsample * extent + pixel : pixel * samples + subsample;
   return at.y * extent.x * samples + at.x;

@@ -35,7 +35,7 @@ PMDSIM_CONSTANT constant_keep_taps = 22; // 1: the taps are channels, too
 PMDSIM_CONSTANT constant_ground_truth = 23; // 1: store the ground truth, too
 PMDSIM_CONSTANT constant_lit_is_kept = 24; // 1: store how much of the light reaches the pixel, too
 PMDSIM_CONSTANT constant_side = 25; // S: a pixel has S x S samples
-PMDSIM_CONSTANT constant_tiled = 26; // 1: the ids lie in tiles
+PMDSIM_CONSTANT constant_tiled = 26; // 1: the IDs lie in tiles
 PMDSIM_CONSTANT constant_general_chip = 27; // 1: the chip stands anyhow or is filled in part; 0: nominal
 PMDSIM_CONSTANT constant_distortion = 28; // one of distortion_*
 PMDSIM_CONSTANT constant_vignetting = 29; // 1: cos^4
@@ -50,7 +50,7 @@ PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another
 PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 
-PMDSIM_CONSTANT lists_no_pixel = 0; // all go the uniform-pixel pass and none can break the bound
+PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest
 PMDSIM_CONSTANT lists_in_three = 2; // list_refined is for pixels that one point does not do for
 

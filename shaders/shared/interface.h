@@ -204,7 +204,7 @@ struct Strip {
 // WordPairs are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
 // was hit. Those of samples that are an even grid over the whole strip lie row by row. Where pixels are
 // filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
-// samples: their ids only say what is seen (pixel id 1), and the samples' ids follow from a search, row by
+// samples: their IDs only say what is seen (pixel id 1), and the samples' IDs follow from a search, row by
 // row.
 struct IdRasterConstants {
   vec2 shift;          // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
@@ -324,7 +324,7 @@ struct DemodulationConstants {
   uint diodes; // of all illuminators
 };
 
-// The sum and what becomes of it as depth records: all samples alike, row by row, each with a record of two words of ids and two of
+// The sum over depth records and what becomes of it: all samples alike, row by row, each with a record of two words of IDs and two of
 // depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as above, or, of a frame's only run, a vec2.
 struct DepthSumConstants {
   SampleGrid grid;
@@ -402,7 +402,7 @@ struct UniformPixelsLight {
   Frequency frequencies[uniform_tones];
 };
 
-// Sees a pixel from its ids to its channels, or lists it.
+// Sees a pixel from its IDs to its channels, or lists it.
 struct UniformPixelsConstants {
   Strip strip;
   vec4 slope; // as in PointsConstants

@@ -1,5 +1,5 @@
 #version 460
-// demodulate.comp of samples that were summed as depth records. Without a branch around it all, so that lavapipe reads what all
+// demodulate.comp of depth records. Without a branch around it all, so that lavapipe reads what all
 // pixels share once for all lanes; beyond the last pixel is room for what only pads.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/grid.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// As id_raster.frag, where samples are an even grid: leaves the depth beside the ids at which the sample's own exact ray meets
+// As id_raster.frag, where samples are an even grid: leaves the depth beside the IDs at which the sample's own exact ray meets
 // the triangle's plane.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/chip.glsl"

@@ -1,4 +1,4 @@
-// What both points passes leave of a sample, and what the uniform-pixel pass and that of depth records make of it at once.
+// What both points passes leave of a sample, and what the uniform-pixel pass and the demodulation of depth records make of it at once.
 #ifndef PMDSIM_POINTS_GLSL
 #define PMDSIM_POINTS_GLSL
 

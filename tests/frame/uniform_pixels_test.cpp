@@ -302,7 +302,7 @@ TEST_CASE("lights half a radian apart", "[long]") {
 TEST_CASE("shadows that leave part of the light") {
   for (const std::uint32_t samples : {1u, 2u}) {
     check(behind_a_post("shadows", samples));
-    // Few diodes, but none on the uniform-pixel pass, which is in float.
+    // Few diodes, but none in the uniform-pixel pass, which is in float.
     Case precise = behind_a_post("shadows, fp64", samples);
     precise.precision = Precision::fp64;
     check(precise);

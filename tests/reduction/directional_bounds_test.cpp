@@ -5,7 +5,7 @@
 
 using namespace pmdsim;
 
-TEST_CASE("pieces cover their boxes, and sights bound every point of them") {
+TEST_CASE("pieces cover their boxes, and directions bound every point of them") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   const auto somewhere = [&] { return glm::dvec3(place(random), place(random), place(random)); };
@@ -17,7 +17,7 @@ TEST_CASE("pieces cover their boxes, and sights bound every point of them") {
     const glm::dvec3 half_m = 2.0 * glm::abs(somewhere());
     const VisibleBox box{centre_m - half_m, centre_m + half_m};
     const auto pieces = pieces_of({box}, {from_m - 0.1, from_m + 0.1});
-    const auto sights = sights_of(pieces, from_m, axes, beam);
+    const auto directions = directional_bounds(pieces, from_m, axes, beam);
     for (int i = 0; i < 50; ++i) {
       const glm::dvec3 point_m = glm::mix(box.low_m, box.high_m, 0.5 + 0.5 * somewhere());
       const glm::dvec3 p = point_m - from_m;
@@ -25,11 +25,12 @@ TEST_CASE("pieces cover their boxes, and sights bound every point of them") {
       CHECK(std::ranges::any_of(pieces, [&](const VisibleBox &piece) {
         return glm::clamp(point_m, piece.low_m, piece.high_m) == point_m;
       }));
-      CHECK(std::ranges::any_of(sights, [&](const Sight &sight) {
+      CHECK(std::ranges::any_of(directions, [&](const DirectionalBounds &direction) {
         const glm::dvec3 along = glm::transpose(axes) * p / range_m;
-        return sight.range_m <= range_m && glm::dot(beam, p) >= (sight.beam_cosine - rounding) * range_m &&
-               glm::all(glm::lessThanEqual(sight.least - rounding, along)) &&
-               glm::all(glm::lessThanEqual(along, sight.largest + rounding));
+        return direction.range_m <= range_m &&
+               glm::dot(beam, p) >= (direction.beam_cosine - rounding) * range_m &&
+               glm::all(glm::lessThanEqual(direction.least - rounding, along)) &&
+               glm::all(glm::lessThanEqual(along, direction.largest + rounding));
       }));
     }
   }

@@ -178,3 +178,12 @@ TEST_CASE("progress runs once over all exposures of a frame") {
   CHECK(frame.measurement.returns[0].taps.empty());
   CHECK(frame.sensor.modulation_hz.size() == 2);
 }
+
+TEST_CASE("a frame knows its sensor and its number") {
+  for (const bool tap_by_tap : {false, true}) {
+    const LoadedWall wall(tap_by_tap ? 1e-3 : 0.0, tap_by_tap);
+    Exposures exposures(wall.setup, "reference", false);
+    const TakenFrame frame = exposures.take(0, 3, Light::beside_lens, no_progress);
+    CHECK(frame.measurement.number == ExposureNumber{0, 3, 0});
+  }
+}

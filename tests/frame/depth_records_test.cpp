@@ -1,4 +1,4 @@
-// What as depth records leaves out changes nothing: a backscatter that is not looked up, ground truth that
+// What depth records leave out changes nothing: a backscatter that is not looked up, ground truth that
 // has no channels.
 
 #include "tests/comparison/frame_bytes.h"
