@@ -38,7 +38,6 @@ struct Case {
   std::uint32_t samples = 1;
   Mode mode = Mode::exact;
   std::function<void(Setup &)> change = [](Setup &) {};
-  double max_error_m = Accuracy{}.max_error_m;
 };
 
 void give_cosines(Setup &setup, double order) {
@@ -67,10 +66,7 @@ const std::vector<Case> cases{
     {"Lambert wall, cos^3, auto, S = 4", "paper_ring", 4, Mode::automatic, give_wide_beams},
     {"lit room, auto", "room", 1, Mode::automatic, light_through},
     {"lit room, auto, S = 4", "room", 4, Mode::automatic, light_through},
-    {"paper ring, auto, S = 4, 10 um", "paper_ring", 4, Mode::automatic, [](Setup &) {}, 10e-6},
-    {"lit room, auto, S = 4, 10 um", "room", 4, Mode::automatic, light_through, 10e-6},
     {"narrow beams, auto, S = 4", "paper_ring", 4, Mode::automatic, give_narrow_beams},
-    {"narrow beams, auto, S = 4, 10 um", "paper_ring", 4, Mode::automatic, give_narrow_beams, 10e-6},
 };
 
 Setup setup_of(const Case &of) {
@@ -84,7 +80,6 @@ Setup setup_of(const Case &of) {
 Simulator prepared(const Case &of, const Setup &setup, const PathForms &allowed) {
   Accuracy accuracy;
   accuracy.mode = of.mode;
-  accuracy.max_error_m = of.max_error_m;
   Simulator simulator({.device = {}, .allowed = allowed});
   simulator.prepare(setup.start.scene, setup.start.sensors[0], setup.start.illuminators, setup.backscatter,
                     setup.shadows, accuracy);
