@@ -21,7 +21,7 @@ say() { printf '%s\n' "do: $*" >&2; }
 usage() {
   cat >&2 <<'END'
 usage: ./do COMMAND
-  demo       install what is missing, build, compute the paper's figures 11 and 13
+  demo       install what is missing, build, compute the paper's figures 6, 11 and 13
   run ARGS   run pmdsim with ARGS, e.g. ./do run deform scenes/paper_ring.json
   test       build and run what every change must pass, some minutes; prints the accuracy tables
              --smoke  only a few cases of each kind, within a minute

@@ -191,7 +191,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.moments = plan.all.moments;
   path.equal_weights = plan.all.polynomials.equal_weights;
   path.coplanar = plan.all.polynomials.coplanar;
-  path.single_batch = plan.all.runs.size() == 1;
+  path.single_run = plan.all.runs.size() == 1;
   path.painted = facts.paint.painted;
   path.vignetting = sensor.vignetting == Vignetting::cos4;
   path.phased = plan.all.phased;

@@ -53,7 +53,7 @@ struct FramePath {
   Summation summation;
   std::uint32_t powers, moments; // of the sum over all sources
   bool equal_weights, coplanar;
-  bool single_batch; // all sources are one batch
+  bool single_run; // all sources are one run
   bool painted, vignetting, phased;
   bool one_backscatter;  // need not be looked up
   bool host_reads_truth; // coverage, depth and IDs come off the records

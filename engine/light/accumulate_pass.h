@@ -1,7 +1,7 @@
 #pragma once
-// The accumulate pass, `exact`: every sample times every diode, run by run of diodes, in a fixed order. By
-// moments, which serve every tone at once, or, where light is square, diode by diode for one frequency at a
-// time.
+// The accumulate pass: every sample of its pixels times every source, run by run of sources, in a fixed
+// order. By moments, which serve every tone at once, or, where light is square, diode by diode for one
+// frequency at a time.
 
 #include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"

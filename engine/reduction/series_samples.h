@@ -1,5 +1,5 @@
 #pragma once
-// The lowest powers of a seen's series (dominant_moments.h), not by bounds of each, but all together at
+// The lowest powers of a direction's series (dominant_moments.h), not by bounds of each, but all together at
 // many points and at each frequency: where they cancel, the bound is smaller.
 //
 // With tau = R / rho, R the cluster's radius, and P's direction u a coefficient is a polynomial in tau and

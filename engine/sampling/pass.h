@@ -26,7 +26,7 @@ enum Resource : std::uint32_t {
 };
 using Resources = std::uint32_t;
 
-// Parts of a pass, the last one excluded: batches of sources.
+// Parts of a pass, the last one excluded: runs of sources.
 struct Parts {
   std::uint32_t first = 0, last = 1;
 };

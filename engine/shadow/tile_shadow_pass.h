@@ -38,7 +38,7 @@ struct LitPipelines {
 
 class TileShadowPass {
 public:
-  // `tiled` as in LitForm. Throws Error (out_of_memory).
+  // `tiled`: the IDs lie in tiles (shaders/shared/interface.h). Throws Error (out_of_memory).
   TileShadowPass(const vulkan::Device &device, const Occluders &occluders, const SourceGroups &groups,
                  const std::vector<SourceWindow> &windows, const SceneBuffers &scene,
                  std::span<const PlannedStrip> strips, bool tiled, SamplePrecision precision);

@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles meet along an edge, and the visible ones as the search pass walks over them. Files repeat
+// Which triangles meet along an edge, and the visible ones as the lens search walks over them. Files repeat
 // vertices along seams, so places count and not indices.
 
 #include "engine/model/scene.h"

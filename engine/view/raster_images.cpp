@@ -16,9 +16,8 @@ using Layout = vk::ImageLayout;
 using Usage = vk::ImageUsageFlagBits;
 
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-constexpr auto users_of_tags = Stage::eComputeShader | Stage::eTransfer;
-constexpr auto uses_of_tags =
-    Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead;
+constexpr auto users_of_ids = Stage::eComputeShader | Stage::eTransfer;
+constexpr auto uses_of_ids = Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead;
 
 vk::Extent2D largest_of(const std::vector<vk::Extent2D> &extents) {
   vk::Extent2D largest;
@@ -45,35 +44,35 @@ std::optional<vulkan::Image> image_in_place(const vulkan::Device &device,
 RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents,
                            vk::Format format, const vulkan::Buffer &id_buffer,
                            std::optional<RasterImages> &&previous)
-    : extent_(largest_of(extents)), tag_format_(format) {
+    : extent_(largest_of(extents)), id_format_(format) {
   if (previous && previous->extent_ != extent_)
     previous.reset(); // its memory first
   depth_ = previous ? std::move(previous->depth_)
                     : vulkan::Image(device, extent_, depth_format, Usage::eDepthStencilAttachment,
                                     vk::ImageAspectFlagBits::eDepth);
-  tags_ = image_in_place(device, extents, extent_, format, id_buffer);
-  in_place_ = tags_.has_value();
-  if (!in_place_ && previous && previous->tag_format_ == format)
-    tags_ = std::move(previous->tags_);
-  if (!tags_) {
+  ids_ = image_in_place(device, extents, extent_, format, id_buffer);
+  in_place_ = ids_.has_value();
+  if (!in_place_ && previous && previous->id_format_ == format)
+    ids_ = std::move(previous->ids_);
+  if (!ids_) {
     previous.reset();
-    tags_.emplace(device, extent_, format, Usage::eColorAttachment | Usage::eTransferSrc,
-                  vk::ImageAspectFlagBits::eColor);
+    ids_.emplace(device, extent_, format, Usage::eColorAttachment | Usage::eTransferSrc,
+                 vk::ImageAspectFlagBits::eColor);
   }
 }
 
 void RasterImages::leave_buffer() {
   if (in_place_)
-    tags_.reset();
+    ids_.reset();
 }
 
 void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
                          const vulkan::Buffer &id_buffer) const {
-  const auto [layout, load] = begin_tags(commands, extent, id_buffer);
+  const auto [layout, load] = begin_ids(commands, extent, id_buffer);
   depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
                     Access::eDepthStencilAttachmentWrite, depth_tests,
                     Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-  const vk::RenderingAttachmentInfo color(tags_->view(), layout, vk::ResolveModeFlagBits::eNone, {},
+  const vk::RenderingAttachmentInfo color(ids_->view(), layout, vk::ResolveModeFlagBits::eNone, {},
                                           Layout::eUndefined, load, vk::AttachmentStoreOp::eStore,
                                           vk::ClearColorValue(std::array<std::uint32_t, 4>{}));
   const vk::RenderingAttachmentInfo depth(
@@ -84,18 +83,18 @@ void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D e
 
 // The layout in which the IDs are drawn, and whether they are still to be cleared. Lavapipe clears images of
 // more than 4 bytes a pixel one pixel after the other, but fills buffers.
-std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_tags(const vk::raii::CommandBuffer &commands,
-                                                                 vk::Extent2D extent,
-                                                                 const vulkan::Buffer &id_buffer) const {
+std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_ids(const vk::raii::CommandBuffer &commands,
+                                                                vk::Extent2D extent,
+                                                                const vulkan::Buffer &id_buffer) const {
   if (!in_place_) {
-    tags_->transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
-                      Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    ids_->transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
+                     Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
     return {Layout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear};
   }
-  tags_->transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_tags, {}, Stage::eTransfer,
-                    Access::eTransferWrite);
+  ids_->transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_ids, {}, Stage::eTransfer,
+                   Access::eTransferWrite);
   commands.fillBuffer(id_buffer.get(), 0,
-                      vk::DeviceSize{extent.width} * extent.height * vk::blockSize(tag_format_), 0);
+                      vk::DeviceSize{extent.width} * extent.height * vk::blockSize(id_format_), 0);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
                          Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
   return {Layout::eGeneral, vk::AttachmentLoadOp::eLoad};
@@ -106,20 +105,20 @@ void RasterImages::end(const vk::raii::CommandBuffer &commands, vk::Extent2D ext
   commands.endRendering();
   if (in_place_)
     vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-                           users_of_tags, uses_of_tags);
+                           users_of_ids, uses_of_ids);
   else
-    copy_tags(commands, extent, id_buffer);
+    copy_ids(commands, extent, id_buffer);
 }
 
-void RasterImages::copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                             const vulkan::Buffer &id_buffer) const {
-  tags_->transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
-                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
-                    Access::eTransferRead);
+void RasterImages::copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                            const vulkan::Buffer &id_buffer) const {
+  ids_->transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
+                   Access::eTransferRead);
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(tags_->get(), Layout::eTransferSrcOptimal, id_buffer.get(), region);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_tags, uses_of_tags);
+  commands.copyImageToBuffer(ids_->get(), Layout::eTransferSrcOptimal, id_buffer.get(), region);
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_ids, uses_of_ids);
 }
 
 } // namespace pmdsim

@@ -1,5 +1,5 @@
 #pragma once
-// What the ID raster draws on: an image of depths, and one of id_buffer, which lies in the very buffer
+// What the ID raster draws on: an image of depths, and one of IDs, which lies in the very buffer
 // that the IDs are wanted in where it can.
 
 #include "engine/vulkan/buffer.h"
@@ -34,17 +34,17 @@ public:
   void leave_buffer();
 
 private:
-  std::pair<vk::ImageLayout, vk::AttachmentLoadOp> begin_tags(const vk::raii::CommandBuffer &commands,
-                                                              vk::Extent2D extent,
-                                                              const vulkan::Buffer &id_buffer) const;
-  void copy_tags(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                 const vulkan::Buffer &id_buffer) const;
+  std::pair<vk::ImageLayout, vk::AttachmentLoadOp> begin_ids(const vk::raii::CommandBuffer &commands,
+                                                             vk::Extent2D extent,
+                                                             const vulkan::Buffer &id_buffer) const;
+  void copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
+                const vulkan::Buffer &id_buffer) const;
 
   vk::Extent2D extent_;
-  vk::Format tag_format_;
+  vk::Format id_format_;
   vulkan::Image depth_;
-  std::optional<vulkan::Image> tags_; // nothing after leave_buffer
-  bool in_place_ = false;             // the IDs lie in the buffer, and need no copy
+  std::optional<vulkan::Image> ids_; // nothing after leave_buffer
+  bool in_place_ = false;            // the IDs lie in the buffer, and need no copy
 };
 
 } // namespace pmdsim

@@ -121,7 +121,7 @@ struct LitDecideConstants {
   uvec2 diodes;     // in: BundleDiodes
   uvec2 work;       // in, trace: and out
   uvec2 candidates; // in, try
-  uvec2 visibility;    // in and out: the bundle's word of each sample
+  uvec2 visibility; // in and out: the bundle's word of each sample
   uint bundle;      // of the window
   uint part_count;
   uint slots;                 // clear, trace: parts that `candidates` has room for

@@ -34,7 +34,7 @@ uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool til
 vec4 load_vec4(uvec2 address, uint i) { return Vec4s(address).at[i]; }
 void store_vec4(uvec2 address, uint i, vec4 value) { Vec4s(address).at[i] = value; }
 uvec2 load_words(uvec2 address, uint i) { return WordPairs(address).at[i]; }
-void store_words(uvec2 address, uint i, uvec2 ids) { WordPairs(address).at[i] = ids; }
+void store_words(uvec2 address, uint i, uvec2 words) { WordPairs(address).at[i] = words; }
 #else
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer DoubleWords { double at[]; };
 vec2 two_floats(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
@@ -48,7 +48,7 @@ void store_vec4(uvec2 address, uint i, vec4 value) {
   to.at[2 * i + 1] = packDouble2x32(floatBitsToUint(value.zw));
 }
 uvec2 load_words(uvec2 address, uint i) { return unpackDouble2x32(DoubleWords(address).at[i]); }
-void store_words(uvec2 address, uint i, uvec2 ids) { DoubleWords(address).at[i] = packDouble2x32(ids); }
+void store_words(uvec2 address, uint i, uvec2 words) { DoubleWords(address).at[i] = packDouble2x32(words); }
 #endif
 // A sample's record (interface.h).
 uvec2 load_record_ids(uvec2 address, uint i) { return load_words(address, 2 * i); }

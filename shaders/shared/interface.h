@@ -1,6 +1,7 @@
-// What the host and the shaders agree on: structs, workgroup sizes, values of specialization constants. Read by GLSL
-// and C++ alike. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them out in the
-// same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a uvec2.
+// What the host and the shaders agree on: structs, workgroup sizes, values of specialization constants. Read
+// by GLSL and C++ alike. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them out
+// in the same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a
+// uvec2.
 #ifndef PMDSIM_INTERFACE_H
 #define PMDSIM_INTERFACE_H
 
@@ -137,7 +138,7 @@ struct GroupSource {
   float intensity; // over the frame's largest
   float order;     // of the cosine; below 0 the number of another law (engine/light/radiation_laws.cpp)
   // What follows is the law's own; of a measured diagram:
-  uint diagram;    // index of its first value in the table of all (diagram_tables.h)
+  uint diagram; // index of its first value in the table of all (diagram_tables.h)
   float theta_steps;
   float first_theta; // rad
   float theta_steps_per_rad;
@@ -163,13 +164,15 @@ struct LightRun {
   vec2 phase_turns;  // of the group's illuminator, -1/2 to 1/2: hi, lo
   float radius_m;    // at most, of its diodes about the reference point
   float intensity;   // of all its diodes, relative
-  float heights;  // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
-                  // I / r^3, m
-  float diagrams; // likewise of measured diagrams, times r^2
-  float beam_edges;     // likewise of cosines to the diodes' axes beyond 45 degrees, over weights * W^-beam_edge_root
+  float heights;    // with Lambert's law: what rounding the diodes' heights counts as in sum of |terms|, over
+                    // I / r^3, m
+  float diagrams;   // likewise of measured diagrams, times r^2
+  float beam_edges; // likewise of cosines to the diodes' axes beyond 45 degrees, over weights *
+                    // W^-beam_edge_root
   float beam_edge_root; // W = sum of weights / (I / r^2)
-  vec4 detours;   // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
-  // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i) (moment_polynomials.h).
+  vec4 detours; // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
+  // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i)
+  // (moment_polynomials.h).
   vec4 moments_of_powers[27];
 };
 PMDSIM_CONSTANT largest_powers = 12; // of q
@@ -182,12 +185,12 @@ struct Tone {
   float harmonic;   // how many of its turns a turn of the fundamental is
 };
 
-// A strip's samples where they are an even grid over the chip, row by row. Counted in half samples from the frame's middle
-// they lie at first + 2 (column, row).
+// A strip's samples where they are an even grid over the chip, row by row. Counted in half samples from the
+// frame's middle they lie at first + 2 (column, row).
 struct SampleGrid {
-  vec4 slope;            // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
-  vec2 first;            // of the strip's first sample
-  uint columns;          // samples in a row
+  vec4 slope;   // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
+  vec2 first;   // of the strip's first sample
+  uint columns; // samples in a row
   float inverse_columns; // 1 / columns
 };
 
@@ -201,7 +204,7 @@ struct Strip {
   uint padded_pixels; // columns * rows, rounded up to whole workgroups, and one more of these
 };
 
-// WordPairs are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
+// IDs are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
 // was hit. Those of samples that are an even grid over the whole strip lie row by row. Where pixels are
 // filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
 // samples: their IDs only say what is seen (pixel id 1), and the samples' IDs follow from a search, row by
@@ -230,7 +233,7 @@ struct RecordDepthsConstants {
   SampleGrid grid; // of all fragments
   uvec2 chip;      // in: ChipPlace
   uvec2 planes;    // in: TrianglePlane[]
-  uvec2 ids;      // in: records without depths; out: with them
+  uvec2 ids;       // in: records without depths; out: with them
   uint fragments;  // in all
   uint padding;
 };
@@ -240,11 +243,11 @@ struct PointsConstants {
   Strip strip;
   vec4 slope;   // nominal chip: half a sample's width in units of the image distance: x hi, x lo, y hi, y lo
   uvec2 chip;   // in, else: ChipPlace
-  uvec2 ids;   // in: ids
+  uvec2 ids;    // in: ids
   uvec2 planes; // in: TrianglePlane[]
   uvec2 position; // out: Real[3] a sample, the point in the camera frame, m; z = 0 where nothing was hit
-  uvec2 surface; // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
-                 // it; where it is precise each followed by its rest
+  uvec2 surface;  // out: vec4[], normal turned to the lens, distance lens - plane (m), where the sum asks for
+                  // it; where it is precise each followed by its rest
   uvec2 backscatter; // out: float[], as in TrianglePlane, 0 where nothing was hit
   uvec2 shapes;      // in, where painted: ShapePaint[]
   uvec2 surfaces;    // in, where painted: SurfacePaint[]
@@ -253,13 +256,13 @@ struct PointsConstants {
 
 struct LensSearchConstants {
   Strip strip;
-  uvec2 lens;        // in: LensModel and its table
-  uvec2 view;        // in: RasterView
-  uvec2 fragments;   // in: ids of the view's fragments
-  uvec2 planes;      // in: TrianglePlane[]
-  uvec2 corners;     // in: TriangleCorners[]
-  uvec2 ids;        // out: ids of the samples
-  uvec2 position;    // out, as in PointsConstants
+  uvec2 lens;      // in: LensModel and its table
+  uvec2 view;      // in: RasterView
+  uvec2 fragments; // in: ids of the view's fragments
+  uvec2 planes;    // in: TrianglePlane[]
+  uvec2 corners;   // in: TriangleCorners[]
+  uvec2 ids;       // out: ids of the samples
+  uvec2 position;  // out, as in PointsConstants
   uvec2 surface;
   uvec2 backscatter;
   uvec2 shapes;
@@ -274,14 +277,16 @@ struct AccumulateConstants {
   uvec2 position; // in, as the points pass left them
   uvec2 surface;
   uvec2 backscatter;
-  uvec2 sum;      // in (but for the first run) and out: of the first tone, or direct, of the frequency
-  uvec2 run;      // in: LightRun
-  uvec2 diodes;   // in: the run's, GroupSource[] or, precise, PreciseSource[]; of alike ones (constant_equal_weights) only the
-                  // positions, vec4[], which take a fifth of a processor's cache
-  uvec2 tones;    // in: Tone[]
-  uvec2 diagrams; // in: vec2[], the diagrams' values, each with the next theta's
-  uvec2 visibility;  // in, where shadowed: the words of the run's bundles, bundle by bundle
-  uvec2 terms; // in (but for the first run) and out, where terms are kept: float[], sum of |terms| of each sample
+  uvec2 sum;    // in (but for the first run) and out: of the first tone, or of the frequency
+  uvec2 run;    // in: LightRun
+  uvec2 diodes; // in: the run's, GroupSource[] or, precise, PreciseSource[]; of alike ones
+                // (constant_equal_weights) only the positions, vec4[], which take a fifth of a processor's
+                // cache
+  uvec2 tones;      // in: Tone[]
+  uvec2 diagrams;   // in: vec2[], the diagrams' values, each with the next theta's
+  uvec2 visibility; // in, where shadowed: the words of the run's bundles, bundle by bundle
+  uvec2 terms; // in (but for the first run) and out, where terms are kept: float[], sum of |terms| of each
+               // sample
   uvec2 list;  // in, where listed: PixelList and its pixels
   uint blocks; // blocks of diodes to sum, for the looped variant
   uint plane;  // elements of a plane of the sum
@@ -308,14 +313,14 @@ struct DemodulationConstants {
   uvec2 sum; // of the frequency, the first plane
   uvec2 ids;
   uvec2 planes;
-  uvec2 channels;  // out: pair by pair of channels (channel_*), of each pixel two values of 32 bits
-  uvec2 harmonics; // in: float[], amplitudes of the harmonics
-  uvec2 frequency; // in: Frequency
-  uvec2 lit;       // in: uint a sample, the diodes that reach it
-  uvec2 terms;     // in, where terms are kept: sum of |terms| of each sample
-  uvec2 violations;    // in and out, where terms are kept: BudgetViolations
-  uvec2 list;      // in, where listed: PixelList and its pixels
-  uint columns;    // of the strip
+  uvec2 channels;   // out: pair by pair of channels (channel_*), of each pixel two values of 32 bits
+  uvec2 harmonics;  // in: float[], amplitudes of the harmonics
+  uvec2 frequency;  // in: Frequency
+  uvec2 lit;        // in: uint a sample, the diodes that reach it
+  uvec2 terms;      // in, where terms are kept: sum of |terms| of each sample
+  uvec2 violations; // in and out, where terms are kept: BudgetViolations
+  uvec2 list;       // in, where listed: PixelList and its pixels
+  uint columns;     // of the strip
   uint samples;
   uint padded_pixels;
   uint pixels; // of the strip
@@ -324,8 +329,9 @@ struct DemodulationConstants {
   uint diodes; // of all illuminators
 };
 
-// The sum over depth records and what becomes of it: all samples alike, row by row, each with a record of two words of IDs and two of
-// depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as above, or, of a frame's only run, a vec2.
+// The sum over depth records and what becomes of it: all samples alike, row by row, each with a record of two
+// words of IDs and two of depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as
+// above, or, of a frame's only run, a vec2.
 struct DepthSumConstants {
   SampleGrid grid;
   uvec2 chip; // in: ChipPlace
@@ -351,7 +357,7 @@ struct DepthDemodulationConstants {
   uvec2 channels;
   uvec2 harmonics;
   uvec2 frequency;
-  uvec2 shapes;   // as in PointsConstants
+  uvec2 shapes; // as in PointsConstants
   uvec2 surfaces;
   uint pixels; // of the strip
   uint padded_pixels;
@@ -368,9 +374,9 @@ struct PixelList {
   uint padding;
 };
 PMDSIM_CONSTANT pixel_lists = 3;
-PMDSIM_CONSTANT list_unshadowed = 0;  // every diode lights whatever they see
-PMDSIM_CONSTANT list_rest = 1; // not every one does
-PMDSIM_CONSTANT list_refined = 2;  // one surface that every diode lights, which few points may do for
+PMDSIM_CONSTANT list_unshadowed = 0; // every diode lights whatever they see
+PMDSIM_CONSTANT list_rest = 1;       // not every one does
+PMDSIM_CONSTANT list_refined = 2;    // one surface that every diode lights, which few points may do for
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
@@ -385,8 +391,8 @@ struct BudgetViolations {
   uint padding;
 };
 
-// The light as the uniform-pixel pass sees it. The LightRuns of the diodes that stand in for all follow. (What has an
-// address in memory, lavapipe fetches for each lane.)
+// The light as the uniform-pixel pass sees it. The LightRuns of the diodes that stand in for all follow.
+// (What has an address in memory, lavapipe fetches for each lane.)
 PMDSIM_CONSTANT uniform_tones = 4; // at most
 struct UniformPixelsLight {
   vec4 middle_m;       // of the box around the light, camera frame

@@ -1,5 +1,5 @@
 #version 460
-// WordPairs a visible fragment with its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
+// Gives a visible fragment its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
 // holes, what is not there where the fragment's ray meets it leaves no ids.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_id.glsl"

@@ -1,9 +1,9 @@
 #version 460
 // A triangle's corner, already projected onto the raster and snapped to its 1/256 fragment by the host, so that
 // every step from here to the rasteriser is exact and a strip's place in the frame cannot change a bit.
-// TAG_DEPTH: with what its fragments need for their depths.
+// RECORD_DEPTH: with what its fragments need for their depths.
 #extension GL_GOOGLE_include_directive : require
-#ifdef TAG_DEPTH
+#ifdef RECORD_DEPTH
 #define VERTEX_STAGE
 #include "shaders/shared/buffers.glsl"
 #include "shaders/view/sight.glsl"
@@ -22,7 +22,7 @@ void main() {
   // The block's fragments fill the middle half of the viewport.
   gl_Position = vec4((corner.xy - constants.shift - 0.5 * half_viewport) / half_viewport, corner.z, 1.0);
   visible_triangle = triangle;
-#ifdef TAG_DEPTH
+#ifdef RECORD_DEPTH
   TrianglePlane plane = load_plane(constants.planes, triangle);
   plane_hi = plane.plane_hi;
   plane_lo = plane.plane_lo;

@@ -1,6 +1,6 @@
 // What a shape looks like where a ray meets it: whether it is there at all, and how much it scatters back.
-#ifndef PMDSIM_PAINT_GLSL
-#define PMDSIM_PAINT_GLSL
+#ifndef PMDSIM_SURFACE_APPEARANCE_GLSL
+#define PMDSIM_SURFACE_APPEARANCE_GLSL
 
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/real.glsl"
