@@ -203,8 +203,9 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   return report;
 }
 
-FramePasses make_passes(const Basis &on, std::vector<PlannedStrip> strips, std::vector<SourceWindow> windows,
-                        std::unique_ptr<FrameMemory> memory, std::optional<RasterImages> images) {
+FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
+                        const std::vector<SourceWindow> &windows, std::unique_ptr<FrameMemory> memory,
+                        std::optional<RasterImages> images) {
   const auto &[device, options, request, facts, plan, path, _] = on;
   std::optional<ChipGrid> grid;
   if (path.record == SampleRecord::depth)
@@ -254,12 +255,12 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
-  std::vector<SourceWindow> windows =
+  const std::vector<SourceWindow> windows =
       facts.modulation.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);
   const FramePath path = choose_path(facts, plan, request, windows.size(), backscatter, options.allowed);
-  std::vector<PlannedStrip> strips =
+  const std::vector<PlannedStrip> strips =
       plan_strips(request.sensor, facts.projection.blocks,
                   options.max_strip_samples > 0 ? options.max_strip_samples : facts.largest_strip);
   auto memory = std::make_unique<FrameMemory>(FrameMemory{
@@ -269,7 +270,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
        upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
        path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m}});
   const Basis on{device, options, request, facts, plan, path, *memory};
-  return make_passes(on, std::move(strips), std::move(windows), std::move(memory), std::move(spare.images));
+  return make_passes(on, strips, windows, std::move(memory), std::move(spare.images));
 }
 
 } // namespace pmdsim
