@@ -34,11 +34,12 @@ std::string bytes_with_threads(const std::string &name, unsigned threads) {
   return bytes.str();
 }
 
-void check_strips(const std::string &name, const RepeatabilityFrame &frame) {
+void check_strips(const std::string &name, const RepeatabilityFrame &frame,
+                  const std::vector<std::uint32_t> &heights) {
   const std::uint32_t samples_per_row =
       frame.sensor.resolution.x * frame.sensor.samples * frame.sensor.samples;
   const std::string whole = bytes_in_strips(frame);
-  for (const std::uint32_t rows : {1u, 7u, 191u}) {
+  for (const std::uint32_t rows : heights) {
     INFO(name << ", strips of " << rows << " pixel rows");
     CHECK((bytes_in_strips(frame, rows * samples_per_row) == whole));
   }
@@ -72,9 +73,9 @@ void check_used_simulator(const std::vector<std::string> &names) {
     }
 }
 
-void check_all_strips(const std::vector<std::string> &names) {
+void check_all_strips(const std::vector<std::string> &names, const std::vector<std::uint32_t> &heights) {
   for (const std::string &name : names)
-    check_strips(name, repeatability_frame(name));
+    check_strips(name, repeatability_frame(name), heights);
 }
 
 void check_threads(const std::vector<std::string> &names) {
@@ -124,10 +125,10 @@ TEST_CASE("a simulator that has measured other frames gives the same bits, all f
   check_used_simulator(repeatability_frames());
 }
 
-TEST_CASE("strips of any height give the same bits, some frames") { check_all_strips(some_frames); }
+TEST_CASE("strips of any height give the same bits, some frames") { check_all_strips(some_frames, {191}); }
 
 TEST_CASE("strips of any height give the same bits, all frames", "[long]") {
-  check_all_strips(repeatability_frames());
+  check_all_strips(repeatability_frames(), {1, 7, 191});
 }
 
 TEST_CASE("one thread and two give the same bits, some frames") { check_threads(some_frames); }
