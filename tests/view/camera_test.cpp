@@ -209,7 +209,7 @@ TEST_CASE("every parameter of the sensor agrees with the reference", "[long]") {
   check_sensor_cases(1, {1, 2});
 }
 
-TEST_CASE("some parameters of the signal agree with the reference") { check_signal_cases(3); }
+TEST_CASE("some parameters of the signal agree with the reference") { check_signal_cases(4); }
 
 TEST_CASE("every parameter of the signal agrees with the reference", "[long]") { check_signal_cases(1); }
 
