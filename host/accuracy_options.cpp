@@ -98,7 +98,9 @@ Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference) {
 
 std::optional<double> length_m(std::string_view text) {
   const auto parsed = leading_number(text);
-  const auto unit = parsed ? units_per_m.find(parsed->rest) : units_per_m.end();
+  if (!parsed)
+    return std::nullopt;
+  const auto unit = units_per_m.find(parsed->rest);
   if (unit == units_per_m.end())
     return std::nullopt;
   const double length_m = parsed->number / unit->second;

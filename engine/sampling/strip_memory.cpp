@@ -13,7 +13,7 @@ vulkan::Buffer make_or_take(const vulkan::Device &device, vulkan::Buffer &previo
                             vk::BufferUsageFlags usage, vulkan::Memory memory) {
   if (previous.bytes() == bytes)
     return std::move(previous);
-  previous = vulkan::Buffer(); // its memory first
+  { const vulkan::Buffer freed = std::move(previous); } // its memory first
   return {device, bytes, usage, memory};
 }
 
