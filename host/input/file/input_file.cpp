@@ -10,6 +10,8 @@
 #include <memory>
 #include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
+#include <variant>
 
 namespace pmdsim {
 namespace {
@@ -31,52 +33,63 @@ struct Close {
   void operator()(std::FILE *stream) const { std::fclose(stream); }
 };
 
-// A regular file, open for reading.
-struct RegularFile {
-  std::unique_ptr<std::FILE, Close> stream;
-  std::size_t size_bytes;
+using Stream = std::unique_ptr<std::FILE, Close>;
 
-  std::string front(std::size_t length_bytes) const {
-    std::string bytes(length_bytes, '\0');
-    bytes.resize(std::fread(bytes.data(), 1, length_bytes, stream.get()));
-    return bytes;
-  }
-};
-
-RegularFile opened(const std::filesystem::path &file, const AnyPlace &named_at) {
+Stream opened(const std::filesystem::path &file, const AnyPlace &named_at) {
   if (file.native().find('\0') != std::string::npos) // the system takes it for the end of a name
     throw refused(file, "expected a file's name without NUL", named_at);
   // Without O_NONBLOCK, opening a FIFO waits for a writer.
   const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-  std::unique_ptr<std::FILE, Close> stream(descriptor < 0 ? nullptr : fdopen(descriptor, "rb"));
+  Stream stream(descriptor < 0 ? nullptr : fdopen(descriptor, "rb"));
+  if (!stream) {
+    const int error = errno;
+    if (descriptor >= 0)
+      close(descriptor);
+    throw refused(file, reason(error), named_at);
+  }
+  return stream;
+}
+
+std::size_t size_of_regular(const Stream &stream, const std::filesystem::path &file,
+                            const AnyPlace &named_at) {
   struct stat status {};
-  if (!stream || fstat(descriptor, &status) != 0)
+  if (fstat(fileno(stream.get()), &status) != 0)
     throw refused(file, reason(errno), named_at);
   if (S_ISDIR(status.st_mode))
     throw refused(file, "is a directory, expected a file", named_at);
   if (!S_ISREG(status.st_mode))
     throw refused(file, "is no regular file", named_at);
-  return {std::move(stream), static_cast<std::size_t>(status.st_size)};
+  return static_cast<std::size_t>(status.st_size);
+}
+
+std::string front_of(const Stream &stream, std::size_t length_bytes, const std::filesystem::path &file,
+                     const AnyPlace &named_at) {
+  std::string bytes(length_bytes, '\0');
+  if (std::fread(bytes.data(), 1, length_bytes, stream.get()) != length_bytes)
+    throw refused(file, std::ferror(stream.get()) ? reason(errno) : "became shorter while it was read",
+                  named_at);
+  return bytes;
 }
 
 } // namespace
 
 std::string read_regular_file(const std::filesystem::path &file, std::size_t max_bytes,
                               const AnyPlace &named_at) {
-  const RegularFile regular = opened(file, named_at);
-  if (regular.size_bytes > max_bytes)
-    throw refused(file, fmt::format("has {} bytes, expected at most {}", regular.size_bytes, max_bytes),
-                  named_at);
-  return regular.front(regular.size_bytes);
+  const Stream stream = opened(file, named_at);
+  const std::size_t size_bytes = size_of_regular(stream, file, named_at);
+  if (size_bytes > max_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at most {}", size_bytes, max_bytes), named_at);
+  return front_of(stream, size_bytes, file, named_at);
 }
 
 std::string read_front_of_regular_file(const std::filesystem::path &file, std::size_t length_bytes,
                                        const Place &named_at) {
-  const RegularFile regular = opened(file, named_at);
-  if (regular.size_bytes < length_bytes)
-    throw refused(file, fmt::format("has {} bytes, expected at least {}", regular.size_bytes, length_bytes),
+  const Stream stream = opened(file, named_at);
+  const std::size_t size_bytes = size_of_regular(stream, file, named_at);
+  if (size_bytes < length_bytes)
+    throw refused(file, fmt::format("has {} bytes, expected at least {}", size_bytes, length_bytes),
                   named_at);
-  return regular.front(length_bytes);
+  return front_of(stream, length_bytes, file, named_at);
 }
 
 std::string read_text_file(const std::filesystem::path &file, const AnyPlace &named_at) {
