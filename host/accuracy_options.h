@@ -3,6 +3,7 @@
 
 #include "engine/model/accuracy.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 

@@ -2,9 +2,11 @@
 #include "host/commands/commands.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <new>
+#include <optional>
 
 namespace pmdsim {
 namespace {

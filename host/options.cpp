@@ -9,6 +9,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
+#include <vector>
 
 namespace pmdsim {
 namespace {

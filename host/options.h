@@ -3,6 +3,10 @@
 
 #include "host/capture/capture.h"
 
+#include <filesystem>
+#include <optional>
+#include <string>
+
 namespace pmdsim {
 
 struct Options {

@@ -5,6 +5,7 @@
 #include "engine/sampling/pass.h"
 #include "engine/vulkan/commands.h"
 
+#include <functional>
 #include <vector>
 
 namespace pmdsim {

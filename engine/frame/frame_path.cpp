@@ -4,6 +4,7 @@
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,7 @@
 #include "engine/reduction/dominant_moments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>

@@ -5,6 +5,7 @@
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace pmdsim {
 namespace {

@@ -9,6 +9,7 @@
 #include "engine/vulkan/compute_pipeline.h"
 
 #include <span>
+#include <vector>
 
 namespace pmdsim {
 

@@ -7,6 +7,8 @@
 #include "engine/model/sensor.h"
 #include "engine/sampling/strip_memory.h"
 
+#include <vector>
+
 namespace pmdsim {
 
 // Every bit 0.

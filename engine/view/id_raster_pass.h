@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 namespace pmdsim {

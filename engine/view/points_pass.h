@@ -6,6 +6,8 @@
 #include "engine/sampling/strip_memory.h"
 #include "engine/view/surface_appearance.h"
 
+#include <vector>
+
 namespace pmdsim {
 
 // From the sample's triangle's plane and its exact ray, for sensors without distortion; of the pixels of

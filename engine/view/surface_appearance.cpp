@@ -4,6 +4,7 @@
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace pmdsim {

@@ -3,6 +3,7 @@
 
 #include "engine/model/error.h"
 
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vulkan/vulkan_raii.hpp>

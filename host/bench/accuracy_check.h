@@ -5,6 +5,8 @@
 #include "host/input/setup/setup.h"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

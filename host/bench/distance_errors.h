@@ -5,6 +5,8 @@
 #include "host/input/setup/setup.h"
 #include "host/output/tables/tradeoff.h"
 
+#include <vector>
+
 namespace pmdsim {
 
 // `count` of a frame's pixels, ascending, or all where it has no more; the same ones every time.

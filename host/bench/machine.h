@@ -3,6 +3,9 @@
 
 #include "host/capture/camera.h"
 
+#include <optional>
+#include <string>
+
 namespace pmdsim {
 
 // Everything that must be known to measure the same again.

@@ -5,7 +5,10 @@
 #include "host/bench/native/native_bench.h"
 #include "host/bench/timing.h"
 
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pmdsim {
 

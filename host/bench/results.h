@@ -6,6 +6,10 @@
 #include "host/bench/modes.h"
 #include "host/bench/sweep.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pmdsim {
 
 struct BenchReport {

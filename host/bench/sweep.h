@@ -5,6 +5,11 @@
 #include "host/bench/accuracy_check.h"
 #include "host/bench/timing.h"
 
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 namespace pmdsim {
 
 enum class SweptQuantity { resolution, diodes, samples, triangles, frequencies };

@@ -6,7 +6,11 @@
 #include "host/report/report.h"
 
 #include <chrono>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace pmdsim {
 

@@ -4,6 +4,11 @@
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
 
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pmdsim {
 
 // What a measurement shall hold beside its other channels.

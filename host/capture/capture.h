@@ -8,6 +8,12 @@
 #include "host/capture/progress.h"
 #include "host/input/setup/setup.h"
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
 namespace pmdsim {
 
 struct CaptureRequest {

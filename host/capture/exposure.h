@@ -4,7 +4,12 @@
 
 #include "host/capture/camera.h"
 
+#include <functional>
 #include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

@@ -6,6 +6,13 @@
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pmdsim {
 
 inline constexpr const char *manifest_name = "manifest.json";

@@ -6,7 +6,11 @@
 #include "host/output/files/channel.h"
 #include "host/output/files/output_set.h"
 
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

@@ -1,5 +1,6 @@
 #include "engine/reference/signal/channels.h"
 
+#include <complex>
 #include <limits>
 
 namespace pmdsim::reference {

@@ -4,6 +4,7 @@
 
 #include "engine/reference/view/camera_frame.h"
 
+#include <array>
 #include <cstdint>
 #include <embree3/rtcore.h>
 #include <functional>

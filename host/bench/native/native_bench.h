@@ -6,6 +6,9 @@
 #include "host/bench/native/native_kernel.h"
 #include "host/input/setup/setup.h"
 
+#include <string>
+#include <vector>
+
 namespace pmdsim {
 
 // 240 isotropic diodes in five rings of 0.126 to 0.166 m about the lens and 640 x 640 points of a wall of

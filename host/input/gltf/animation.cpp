@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <optional>
+#include <string>
 #include <tiny_gltf.h>
 #include <tuple>
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <png.h>
+#include <string>
 #include <string_view>
 #include <turbojpeg.h>
 

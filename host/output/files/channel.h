@@ -4,7 +4,11 @@
 #include "engine/model/channels.h"
 #include "host/output/files/output_file.h"
 
+#include <optional>
 #include <span>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace pmdsim {
 

@@ -1,5 +1,7 @@
 #include "host/output/files/intrinsics.h"
 
+#include <cmath>
+
 namespace pmdsim {
 namespace {
 

@@ -4,6 +4,8 @@
 #include "engine/model/sensor.h"
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

@@ -16,6 +16,9 @@
 #include "host/output/files/output_file.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

@@ -3,6 +3,7 @@
 
 #include "host/output/files/output_file.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>

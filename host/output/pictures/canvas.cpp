@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <fmt/format.h>
 #include <new>

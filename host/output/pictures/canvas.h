@@ -8,6 +8,7 @@
 #include <cairo.h>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 
 namespace pmdsim {

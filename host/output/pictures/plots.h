@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 
 namespace pmdsim {
 

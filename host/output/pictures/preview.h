@@ -6,6 +6,8 @@
 #include "host/output/pictures/canvas.h"
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 

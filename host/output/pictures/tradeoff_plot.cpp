@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace pmdsim {
 namespace {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <string>
+#include <variant>
 
 namespace pmdsim {
 namespace {

@@ -4,6 +4,7 @@
 #include "engine/model/accuracy.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 

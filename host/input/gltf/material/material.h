@@ -5,6 +5,9 @@
 #include "engine/model/scene.h"
 #include "host/input/gltf/material/textures.h"
 
+#include <filesystem>
+#include <memory>
+
 namespace pmdsim {
 
 struct GltfMaterial {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <string>
 #include <tiny_gltf.h>
 
 namespace pmdsim {
