@@ -202,10 +202,7 @@ std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &
 void run_deform(const Options &options) {
   Capture capture(options.capture, "deform", false, 2.0);
   const std::deque<DeformedFrame> deformed = deform(capture);
-  if (options.json)
-    print(report_json(deformed, capture.sequence()));
-  else
-    print(report_text(deformed, capture));
+  print(options.json ? json_text(report_json(deformed, capture.sequence())) : report_text(deformed, capture));
 }
 
 } // namespace pmdsim
