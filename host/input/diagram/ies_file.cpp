@@ -31,7 +31,9 @@ public:
   }
 
   double number(std::string_view what, Range range = {}) {
-    const std::string_view word = expect_word(what);
+    const std::string_view word = next_word();
+    if (word.empty())
+      throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
     return number_of(word, what, here(), range);
   }
   std::size_t count(std::string_view what, Range range) {
@@ -64,13 +66,6 @@ private:
     place_line_ = next_line_;
     const std::string_view word = rest_.substr(0, rest_.find_first_of(delimiters));
     take(word.size());
-    return word;
-  }
-
-  std::string_view expect_word(std::string_view what) {
-    const std::string_view word = next_word();
-    if (word.empty())
-      throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
     return word;
   }
 
