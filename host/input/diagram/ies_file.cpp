@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -112,11 +113,8 @@ void expect_type_c(IesText &text) {
                                                type, type == 2 ? 'B' : 'A'));
 }
 
-struct Counts {
-  std::size_t vertical, horizontal;
-};
-
-Counts read_head(IesText &text) {
+// Returns how many vertical and how many horizontal angles there are.
+std::pair<std::size_t, std::size_t> read_head(IesText &text) {
   text.number("number of lamps");
   text.number("lumens per lamp");
   if (!(text.number("candela multiplier") > 0.0))
