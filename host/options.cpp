@@ -212,11 +212,8 @@ std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
   std::string text = app.get_subcommands().empty() && !app.remaining().empty()
                          ? fmt::format("unknown command or option {}", app.remaining().front())
                          : error.what();
-  while (!text.empty() && text.back() == '\n')
-    text.pop_back();
-  for (char &character : text)
-    if (character == '\n')
-      character = ' ';
+  text.erase(text.find_last_not_of('\n') + 1);
+  std::ranges::replace(text, '\n', ' ');
   return text + " (see pmdsim --help)";
 }
 

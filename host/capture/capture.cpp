@@ -37,14 +37,12 @@ Setup requested_setup(const CaptureRequest &request) {
   return setup;
 }
 
-Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps,
-                 double exposures_of_sample)
+Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
     : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       exposures_(setup_, request.device, keep_taps, request.accuracy),
       sequence_(setup_, frames_, request.output_directory,
                 {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
-                 setup_.as_used}),
-      exposures_of_sample_(exposures_of_sample) {}
+                 setup_.as_used}) {}
 
 std::string Capture::device_text() const {
   return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());
@@ -56,8 +54,9 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
   return exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
 }
 
-void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes) {
-  bar_.emplace(exposures_of_sample_ * frames_.count() * samples_of_frame(setup_));
+void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes,
+                    double exposures_of_sample) {
+  bar_.emplace(exposures_of_sample * frames_.count() * samples_of_frame(setup_));
   sequence_.write(measure, part_bytes);
   bar_.reset(); // before anything is printed
 }

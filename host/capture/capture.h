@@ -32,10 +32,9 @@ Setup requested_setup(const CaptureRequest &request);
 // The frames of a setup that one command leaves in a directory, with a bar of its progress.
 class Capture {
 public:
-  // `command` is what the manifest calls it; of each sample it measures `exposures_of_sample`. Without
-  // `keep_taps` as Exposures. Throws Error: nothing is measured in vain where a file cannot be written.
-  Capture(const CaptureRequest &request, const std::string &command, bool keep_taps,
-          double exposures_of_sample = 1.0);
+  // `command` is what the manifest calls it. Without `keep_taps` as Exposures. Throws Error: nothing is
+  // measured in vain where a file cannot be written.
+  Capture(const CaptureRequest &request, const std::string &command, bool keep_taps);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t first_frame() const { return frames_.first; }
@@ -49,8 +48,8 @@ public:
                   const std::string &label = "");
   // As Exposures::share().
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame) { return exposures_.share(std::move(frame)); }
-  // As FrameSequence::write().
-  void write(const FrameSequence::Measure &measure, std::size_t part_bytes);
+  // As FrameSequence::write(); of each sample `measure` takes so many exposures.
+  void write(const FrameSequence::Measure &measure, std::size_t part_bytes, double exposures_of_sample = 1.0);
 
 private:
   Setup setup_;
@@ -58,7 +57,6 @@ private:
   std::set<Format> formats_;
   Exposures exposures_;
   FrameSequence sequence_;
-  double exposures_of_sample_;
   std::optional<ProgressBar> bar_; // while it writes
 };
 

@@ -1,6 +1,7 @@
 #include "host/bench/results.h"
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
+#include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
 #include <fmt/format.h>
@@ -33,10 +34,7 @@ void run_bench(const Options &options) {
     report.sequence = measure_sequence_rate(setup, request, sequence_frames);
     report.sweep = run_sweep(all_sweeps(), request);
   }
-  if (options.json)
-    print(bench_json(report));
-  else
-    print(bench_markdown(report));
+  print(options.json ? json_text(bench_json(report)) : bench_markdown(report));
 }
 
 } // namespace pmdsim

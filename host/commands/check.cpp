@@ -175,10 +175,7 @@ void run_check(const Options &options) {
   const Findings findings = findings_of(setup);
   for (const std::string &warning : warnings_of(setup, findings))
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);
-  if (options.json)
-    print(report_json(setup, findings));
-  else
-    print(report_text(setup, findings));
+  print(options.json ? json_text(report_json(setup, findings)) : report_text(setup, findings));
 }
 
 } // namespace pmdsim

@@ -119,7 +119,7 @@ std::deque<DeformedFrame> deform(Capture &capture) {
               return deformation_files(pair, told.record.frame, formats);
             }};
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2));
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2), 2.0);
   return deformed;
 }
 
@@ -200,12 +200,9 @@ std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &
 } // namespace
 
 void run_deform(const Options &options) {
-  Capture capture(options.capture, "deform", false, 2.0);
+  Capture capture(options.capture, "deform", false);
   const std::deque<DeformedFrame> deformed = deform(capture);
-  if (options.json)
-    print(report_json(deformed, capture.sequence()));
-  else
-    print(report_text(deformed, capture));
+  print(options.json ? json_text(report_json(deformed, capture.sequence())) : report_text(deformed, capture));
 }
 
 } // namespace pmdsim

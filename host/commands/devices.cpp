@@ -29,10 +29,8 @@ std::string report_text(const std::vector<DeviceInfo> &devices) {
 
 void run_devices(const Options &options) {
   const std::vector<DeviceInfo> devices = list_devices();
-  if (options.json)
-    print(ordered_json{{"devices", array_of(devices, device_json)}, {"reference", true}});
-  else
-    print(report_text(devices));
+  print(options.json ? json_text({{"devices", array_of(devices, device_json)}, {"reference", true}})
+                     : report_text(devices));
 }
 
 } // namespace pmdsim

@@ -1,5 +1,6 @@
 #include "host/commands/commands.h"
 #include "host/input/calibration/calibration_sensor.h"
+#include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ void run_import_calibration(const Options &options) {
                         pixel_pitch_m);
   fmt::print(stderr, "pmdsim: note: {}modulation_hz is assumed to be {:g}; no calibration file has it\n",
              pitch, sensor.modulation_hz.front());
-  print(sensor_block(sensor));
+  print(json_text(sensor_block(sensor)));
 }
 
 } // namespace pmdsim

@@ -1,5 +1,6 @@
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
+#include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
 #include <cmath>
@@ -82,10 +83,8 @@ std::string render(Capture &capture) {
 void run_render(const Options &options) {
   Capture capture(options.capture, "render", true);
   const std::string text = render(capture);
-  if (options.json)
-    print(report_json(capture.sequence()));
-  else
-    print(capture.device_text() + text + capture.sequence().written_text());
+  print(options.json ? json_text(report_json(capture.sequence()))
+                     : capture.device_text() + text + capture.sequence().written_text());
 }
 
 } // namespace pmdsim

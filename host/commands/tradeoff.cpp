@@ -201,7 +201,7 @@ void run_tradeoff(const Options &options) {
   if (options.json) {
     nlohmann::ordered_json json = tradeoff_json(tradeoff);
     json["outputs"] = paths;
-    print(json);
+    print(json_text(json));
   } else {
     print(fmt::format("device  {} ({})\n\n{}\nwritten:\n  {}\n", tradeoff.device, tradeoff.driver,
                       tradeoff_text(tradeoff), fmt::join(paths, "\n  ")));

@@ -50,8 +50,6 @@ void print(const std::string &text) {
                                               std::generic_category().message(errno)));
 }
 
-void print(const nlohmann::ordered_json &json) { print(json_text(json)); }
-
 std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
 
 std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value); }

@@ -3,7 +3,6 @@
 
 #include "engine/model/accuracy.h"
 
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
@@ -11,7 +10,6 @@ namespace pmdsim {
 
 // Text as it is, at once. Throws Error (output) where stdout cannot take it.
 void print(const std::string &text);
-void print(const nlohmann::ordered_json &json);
 
 // "20 MHz".
 std::string frequency_text(double modulation_hz);

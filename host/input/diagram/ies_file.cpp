@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -31,7 +32,9 @@ public:
   }
 
   double number(std::string_view what, Range range = {}) {
-    const std::string_view word = expect_word(what);
+    const std::string_view word = next_word();
+    if (word.empty())
+      throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
     return number_of(word, what, here(), range);
   }
   std::size_t count(std::string_view what, Range range) {
@@ -64,13 +67,6 @@ private:
     place_line_ = next_line_;
     const std::string_view word = rest_.substr(0, rest_.find_first_of(delimiters));
     take(word.size());
-    return word;
-  }
-
-  std::string_view expect_word(std::string_view what) {
-    const std::string_view word = next_word();
-    if (word.empty())
-      throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
     return word;
   }
 
@@ -117,11 +113,8 @@ void expect_type_c(IesText &text) {
                                                type, type == 2 ? 'B' : 'A'));
 }
 
-struct Counts {
-  std::size_t vertical, horizontal;
-};
-
-Counts read_head(IesText &text) {
+// Returns how many vertical and how many horizontal angles there are.
+std::pair<std::size_t, std::size_t> read_head(IesText &text) {
   text.number("number of lamps");
   text.number("lumens per lamp");
   if (!(text.number("candela multiplier") > 0.0))

@@ -5,6 +5,7 @@
 #include "host/input/schema/schema_check.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -17,11 +18,8 @@ namespace {
 constexpr std::size_t max_values = std::size_t{1} << 24; // of all diagrams of a setup, 128 MiB
 
 bool is_ies(const std::filesystem::path &file) {
-  std::string extension = file.extension().string();
-  for (char &c : extension)
-    if (c >= 'A' && c <= 'Z')
-      c = static_cast<char>(c - 'A' + 'a');
-  return extension == ".ies";
+  return std::ranges::equal(file.extension().native(), std::string_view(".ies"), {},
+                            [](unsigned char c) { return std::tolower(c); });
 }
 
 Pattern numbered(const LawName &law, double number) {

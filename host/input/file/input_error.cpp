@@ -1,5 +1,6 @@
 #include "host/input/file/input_error.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace pmdsim {
@@ -7,11 +8,8 @@ namespace {
 
 // File names come from the user too and may hold line breaks.
 std::string one_line(std::string text) {
-  for (char &c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f)
-      c = '?';
-  }
+  std::ranges::replace_if(
+      text, [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; }, '?');
   return text;
 }
 

@@ -31,36 +31,44 @@ void for_each_at(const json &from, std::string_view path, const Place &place, co
     for_each_at(from.at(key), rest, place / key, visit);
 }
 
-// An array that others refer into: a member of `owner`, the document or what is at `place` in it.
-class Array {
-public:
-  Array(const json &owner, const std::string &name, const Place &place = {})
-      : pointer_((place / name).pointer.to_string()) {
-    if (owner.contains(name))
-      count_ = owner.at(name).size();
-  }
+// The indices that `path` leads to from `object`, which is at `place`, into the array `name` of `owner`: of
+// the document, or of what is at `owner_place` in it.
+void check_indices(const json &object, std::string_view path, const Place &place, const json &owner,
+                   const std::string &name, const Place &owner_place = {}) {
+  const std::size_t count = owner.contains(name) ? owner.at(name).size() : 0;
+  for_each_at(object, path, place, [&](const json &index, const Place &at) {
+    if (index.get<std::size_t>() >= count)
+      throw input_error(at, fmt::format("index {} into {}, which has {}", index.dump(),
+                                        (owner_place / name).pointer.to_string(), count));
+  });
+}
 
-  // The indices that `path` leads to from `object`, which is at `place`.
-  void check(const json &object, std::string_view path, const Place &place) const {
-    for_each_at(object, path, place, [&](const json &index, const Place &at) {
-      if (index.get<std::size_t>() >= count_)
-        throw input_error(at, fmt::format("index {} into {}, which has {}", index.dump(), pointer_, count_));
-    });
-  }
-
-private:
-  std::string pointer_;
-  std::size_t count_ = 0;
-};
+// The indices of a document into its own arrays.
+constexpr std::array<std::pair<std::string_view, const char *>, 21> all_indices{
+    {{"scene", "scenes"},
+     {"scenes/*/nodes/*", "nodes"},
+     {"nodes/*/children/*", "nodes"},
+     {"nodes/*/mesh", "meshes"},
+     {"nodes/*/skin", "skins"},
+     {"skins/*/joints/*", "nodes"},
+     {"skins/*/inverseBindMatrices", "accessors"},
+     {"animations/*/samplers/*/input", "accessors"},
+     {"animations/*/samplers/*/output", "accessors"},
+     {"animations/*/channels/*/target/node", "nodes"},
+     {"meshes/*/primitives/*/attributes/*", "accessors"},
+     {"meshes/*/primitives/*/indices", "accessors"},
+     {"meshes/*/primitives/*/material", "materials"},
+     {"accessors/*/bufferView", "bufferViews"},
+     {"accessors/*/sparse/indices/bufferView", "bufferViews"},
+     {"accessors/*/sparse/values/bufferView", "bufferViews"},
+     {"materials/*/pbrMetallicRoughness/baseColorTexture/index", "textures"},
+     {"textures/*/source", "images"},
+     {"textures/*/sampler", "samplers"},
+     {"images/*/bufferView", "bufferViews"},
+     {"bufferViews/*/buffer", "buffers"}}};
 
 void check_nodes(const json &document, const Place &root) {
-  const Array nodes(document, "nodes"), meshes(document, "meshes"), skins(document, "skins");
-  Array(document, "scenes").check(document, "scene", root);
-  nodes.check(document, "scenes/*/nodes/*", root);
   for_each_at(document, "nodes/*", root, [&](const json &node, const Place &place) {
-    nodes.check(node, "children/*", place);
-    meshes.check(node, "mesh", place);
-    skins.check(node, "skin", place);
     if (node.contains("skin") && !node.contains("mesh"))
       throw input_error(place / "skin", "expected a mesh beside it");
     if (node.contains("matrix") &&
@@ -83,17 +91,10 @@ void check_animated_path(const std::string &path, const json &node, std::size_t 
 
 // A channel without a node animates nothing that is known here and is ignored, as glTF says.
 void check_animations(const json &document, const Place &root) {
-  const Array nodes(document, "nodes"), accessors(document, "accessors");
   std::map<std::pair<std::size_t, std::string>, std::string> animated; // node and path: by which channel
   for_each_at(document, "animations/*", root, [&](const json &animation, const Place &animation_place) {
-    const Array samplers(animation, "samplers", animation_place);
-    for_each_at(animation, "samplers/*", animation_place, [&](const json &sampler, const Place &place) {
-      accessors.check(sampler, "input", place);
-      accessors.check(sampler, "output", place);
-    });
     for_each_at(animation, "channels/*", animation_place, [&](const json &channel, const Place &place) {
-      samplers.check(channel, "sampler", place);
-      nodes.check(channel, "target/node", place);
+      check_indices(channel, "sampler", place, animation, "samplers", animation_place);
       const json &target = channel.at("target");
       if (!target.contains("node"))
         return;
@@ -108,33 +109,13 @@ void check_animations(const json &document, const Place &root) {
   });
 }
 
-void check_primitives(const json &document, const Place &root) {
-  const Array accessors(document, "accessors"), materials(document, "materials");
-  for_each_at(document, "meshes/*/primitives/*", root, [&](const json &primitive, const Place &place) {
-    accessors.check(primitive, "attributes/*", place);
-    accessors.check(primitive, "indices", place);
-    // glTF allows indices that are all 0, and tinygltf refuses them without their place.
-    for_each_at(primitive, "indices", place, [&](const json &index, const Place &) {
-      const auto accessor = index.get<std::size_t>();
-      if (!document.at("accessors").at(accessor).contains("bufferView"))
-        throw input_error(root / "accessors" / accessor, "missing key \"bufferView\", which indices need");
-    });
-    materials.check(primitive, "material", place);
+// glTF allows indices that are all 0, and tinygltf refuses them without their place.
+void check_vertex_indices(const json &document, const Place &root) {
+  for_each_at(document, "meshes/*/primitives/*/indices", root, [&](const json &index, const Place &) {
+    const auto accessor = index.get<std::size_t>();
+    if (!document.at("accessors").at(accessor).contains("bufferView"))
+      throw input_error(root / "accessors" / accessor, "missing key \"bufferView\", which indices need");
   });
-}
-
-// Members of the objects that `objects` leads to, paths too, and the arrays of the document that they index.
-struct Indices {
-  std::string_view objects;
-  std::vector<std::pair<std::string_view, const char *>> members;
-};
-
-void check_indices(const json &document, const std::vector<Indices> &rows, const Place &root) {
-  for (const Indices &row : rows)
-    for_each_at(document, row.objects, root, [&](const json &object, const Place &place) {
-      for (const auto &[path, array] : row.members)
-        Array(document, array).check(object, path, place);
-    });
 }
 
 void check_extensions(const json &document, const Place &root) {
@@ -142,28 +123,19 @@ void check_extensions(const json &document, const Place &root) {
     for (const ExtensionReference &reference : extension.references)
       for_each_at(document, reference.holder, root, [&](const json &holder, const Place &place) {
         if (const json *part = extension_part(holder, extension.name))
-          Array(document, std::string(reference.into))
-              .check(*part, reference.member, place / "extensions" / std::string(extension.name));
+          check_indices(*part, reference.member, place / "extensions" / std::string(extension.name), document,
+                        std::string(reference.into));
       });
 }
 
 } // namespace
 
 void check_references(const json &document, const Place &root) {
+  for (const auto &[path, array] : all_indices)
+    check_indices(document, path, root, document, array);
   check_nodes(document, root);
-  check_indices(document, {{"skins/*", {{"joints/*", "nodes"}, {"inverseBindMatrices", "accessors"}}}}, root);
   check_animations(document, root);
-  check_primitives(document, root);
-  check_indices(document,
-                {{"accessors/*",
-                  {{"bufferView", "bufferViews"},
-                   {"sparse/indices/bufferView", "bufferViews"},
-                   {"sparse/values/bufferView", "bufferViews"}}},
-                 {"materials/*", {{"pbrMetallicRoughness/baseColorTexture/index", "textures"}}},
-                 {"textures/*", {{"source", "images"}, {"sampler", "samplers"}}},
-                 {"images/*", {{"bufferView", "bufferViews"}}},
-                 {"bufferViews/*", {{"buffer", "buffers"}}}},
-                root);
+  check_vertex_indices(document, root);
   check_extensions(document, root);
 }
 

@@ -89,12 +89,6 @@ std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
                      pixels_to_fold(lens, lens.pixel(*axis_m), *place), place->x, place->y);
 }
 
-std::string limit_expectation(const Sensor &sensor) {
-  return std::holds_alternative<Fisheye>(sensor.distortion)
-             ? "expected an image within 179 degrees of the optical axis (fisheye)"
-             : "expected an image within 89 degrees of the optical axis (brown)";
-}
-
 LensProblem problem_of(LensFault fault, const Sensor &sensor, const Lens &lens) {
   switch (fault) {
   case LensFault::chip_behind_lens:
@@ -102,7 +96,9 @@ LensProblem problem_of(LensFault fault, const Sensor &sensor, const Lens &lens) 
   case LensFault::distortion_folds:
     return {"distortion", fold_expectation(sensor, lens)};
   case LensFault::beyond_model:
-    return {"distortion", limit_expectation(sensor)};
+    return {"distortion", std::holds_alternative<Fisheye>(sensor.distortion)
+                              ? "expected an image within 179 degrees of the optical axis (fisheye)"
+                              : "expected an image within 89 degrees of the optical axis (brown)"};
   case LensFault::pixel_too_wide:
     break;
   }

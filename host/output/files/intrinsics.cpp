@@ -1,9 +1,16 @@
-#include "host/output/files/intrinsics.h"
+// The sensor's lens and chip as OpenCV describes a camera.
+
+#include "host/output/files/manifest.h"
+
+#include <array>
+#include <cmath>
 
 #include <cmath>
 
 namespace pmdsim {
 namespace {
+
+using nlohmann::ordered_json;
 
 std::string model_of(const Distortion &distortion) {
   if (std::holds_alternative<Fisheye>(distortion))
@@ -46,24 +53,48 @@ TiltedPlane tilted_plane(const Sensor &sensor) {
   return {scale_m, scale_m * glm::dvec2(third_column) - glm::dvec2(tau_m)};
 }
 
-} // namespace
-
-Intrinsics intrinsics_of(const Sensor &sensor) {
+// Row by row; 0.0, not -0.0, where gamma is 0.
+std::array<std::array<double, 3>, 3> camera_matrix_of(const Sensor &sensor) {
   const auto [scale_m, offset_m] = tilted_plane(sensor);
   const double gamma_rad = sensor.chip.rotation_rad.z;
   const double cosine = std::cos(gamma_rad), sine = std::sin(gamma_rad);
   const glm::dvec2 pitch_m = sensor.pixel_pitch_m;
   const glm::dvec2 chip_m(cosine * offset_m.x + sine * offset_m.y, cosine * offset_m.y - sine * offset_m.x);
   const glm::dvec2 centre = chip_m / pitch_m + 0.5 * (glm::dvec2(sensor.resolution) - 1.0);
-  const glm::dvec2 tilt_rad(sensor.chip.rotation_rad);
   const glm::dvec2 focal = scale_m / pitch_m;
-  return {model_of(sensor.distortion),
-          {{{focal.x * cosine, focal.x * sine, centre.x},
-            {0.0 - focal.y * sine, focal.y * cosine, centre.y}, // 0.0, not -0.0, where gamma is 0
-            {0.0, 0.0, 1.0}}},
-          gamma_rad != 0.0,
-          distortion_of(sensor.distortion, tilt_rad),
-          tilt_rad};
+  return {{{focal.x * cosine, focal.x * sine, centre.x},
+           {0.0 - focal.y * sine, focal.y * cosine, centre.y},
+           {0.0, 0.0, 1.0}}};
+}
+
+ordered_json matrix_json(const Pose &a_from_b) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 3; ++row)
+    rows.push_back({a_from_b.rotation[0][row], a_from_b.rotation[1][row], a_from_b.rotation[2][row],
+                    a_from_b.translation_m[row]});
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+} // namespace
+
+ordered_json camera_json(const Sensor &sensor) {
+  const auto matrix = camera_matrix_of(sensor);
+  const glm::dvec2 tilt_rad(sensor.chip.rotation_rad);
+  const auto focal = [&](double pixels) {
+    return sensor.chip.rotation_rad.z != 0.0 ? ordered_json(nullptr) : ordered_json(pixels);
+  };
+  ordered_json camera{{"model", model_of(sensor.distortion)},
+                      {"fx", focal(matrix[0][0])},
+                      {"fy", focal(matrix[1][1])},
+                      {"cx", matrix[0][2]},
+                      {"cy", matrix[1][2]},
+                      {"camera_matrix", matrix},
+                      {"distortion", distortion_of(sensor.distortion, tilt_rad)}};
+  if (camera["model"] == "fisheye" && tilt_rad != glm::dvec2(0.0))
+    camera["tilt_rad"] = {tilt_rad.x, tilt_rad.y};
+  camera["world_from_camera"] = matrix_json(sensor.world_from_camera);
+  return camera;
 }
 
 } // namespace pmdsim

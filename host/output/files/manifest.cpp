@@ -1,24 +1,13 @@
 #include "host/output/files/manifest.h"
 
-#include "host/output/files/intrinsics.h"
-
+#include <array>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace pmdsim {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json matrix_json(const Pose &a_from_b) {
-  ordered_json rows = ordered_json::array();
-  for (int row = 0; row < 3; ++row)
-    rows.push_back({a_from_b.rotation[0][row], a_from_b.rotation[1][row], a_from_b.rotation[2][row],
-                    a_from_b.translation_m[row]});
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
 
 // The error that is bounded, null where none is.
 ordered_json asked_json(const Accuracy &accuracy) {
@@ -74,48 +63,16 @@ ordered_json how_to_make_points() {
 } // namespace
 
 std::string mode_name(Mode mode) {
-  switch (mode) {
-  case Mode::exact:
-    return "exact";
-  case Mode::reduced:
-    return "reduced";
-  case Mode::automatic:
-    return "auto";
-  }
-  throw std::logic_error("a mode of no kind");
+  constexpr std::array names{"exact", "reduced", "auto"}; // in the order of Mode
+  return names.at(static_cast<std::size_t>(mode));
 }
 
 std::string precision_name(Precision precision) { return precision == Precision::fp64 ? "fp64" : "fp32"; }
 
-ordered_json camera_json(const Sensor &sensor) {
-  const Intrinsics intrinsics = intrinsics_of(sensor);
-  const auto &matrix = intrinsics.camera_matrix;
-  const auto focal = [&](double pixels) {
-    return intrinsics.rotated ? ordered_json(nullptr) : ordered_json(pixels);
-  };
-  ordered_json camera{{"model", intrinsics.model},
-                      {"fx", focal(matrix[0][0])},
-                      {"fy", focal(matrix[1][1])},
-                      {"cx", matrix[0][2]},
-                      {"cy", matrix[1][2]},
-                      {"camera_matrix", matrix},
-                      {"distortion", intrinsics.distortion}};
-  if (intrinsics.model == "fisheye" && intrinsics.tilt_rad != glm::dvec2(0.0))
-    camera["tilt_rad"] = {intrinsics.tilt_rad.x, intrinsics.tilt_rad.y};
-  camera["world_from_camera"] = matrix_json(sensor.world_from_camera);
-  return camera;
-}
-
 ordered_json waveform_json(const Waveform &waveform) {
-  switch (waveform.kind) {
-  case Waveform::Kind::sine:
-    return "sine";
-  case Waveform::Kind::square:
-    return "square";
-  case Waveform::Kind::harmonics:
+  if (waveform.kind == Waveform::Kind::harmonics)
     return {{"harmonics", waveform.harmonics}};
-  }
-  throw std::logic_error("a waveform of no kind");
+  return waveform.kind == Waveform::Kind::square ? "square" : "sine";
 }
 
 std::vector<double> ambiguities_m(const Sensor &sensor) {

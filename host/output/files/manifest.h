@@ -3,7 +3,7 @@
 // which commands print, too.
 //
 // From distances to points: `distance_m` is radial, from the lens to the point along the pixel's ray, NOT the
-// depth z. With the frame's `camera` (Intrinsics says what its figures mean) and the slopes (x, y) of the
+// depth z. With the frame's `camera` (camera_json() says what its figures mean) and the slopes (x, y) of the
 // pixel's ray,
 //   (x''', y''', 1) = inverse(camera_matrix) * (column, row, 1)
 //   (x, y)          = (x''', y''') less tilt and distortion, by OpenCV
@@ -59,9 +59,17 @@ nlohmann::ordered_json array_of(const auto &list, const auto &json_of) {
   return array;
 }
 
-// model, fx, fy (null where the chip is turned about z), cx, cy, camera_matrix (3 x 3), distortion,
-// world_from_camera (4 x 4, rows; camera frame x right, y down, z forward; world as in glTF); of a tilted
-// fisheye tilt_rad. Intrinsics says what the figures mean.
+// The sensor's lens and chip as OpenCV describes a camera: model ("pinhole", "brown" or "fisheye"), fx, fy
+// (null where gamma is not 0: camera_matrix has four figures where OpenCV expects these two alone), cx, cy,
+// camera_matrix (3 x 3), distortion, world_from_camera (4 x 4, rows; camera frame x right, y down, z forward;
+// world as in glTF); of a tilted fisheye tilt_rad (tauX, tauY).
+//
+// A point (X, Y, Z) of the camera frame appears at the pixel camera_matrix * (x''', y''', 1), where (x''',
+// y''') comes from the slopes (X/Z, Y/Z) by OpenCV's distortion and then its tilted sensor, tauX = alpha,
+// tauY = beta of eq. 1; gamma is a rotation within camera_matrix, whose last row is 0, 0, 1. The CENTRE of
+// pixel (0, 0) lies at (0, 0). Focal lengths follow from the image distance S2, not from the lens's own focal
+// length. The distortion is in OpenCV's order. Pinhole and brown: k1, k2, p1, p2, k3, with a tilt all 14, of
+// which tauX, tauY are the last. Fisheye: k1 to k4; OpenCV's has no tilt.
 nlohmann::ordered_json camera_json(const Sensor &sensor);
 
 // As a setup writes it: "sine", "square" or {"harmonics": [...]}.

@@ -38,13 +38,6 @@ double capital_height(cairo_t *context) {
   return extents.height;
 }
 
-SurfacePtr make_surface(int width, int height) {
-  SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), &cairo_surface_destroy);
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
-    throw std::bad_alloc();
-  return surface;
-}
-
 struct PngSink {
   OutputFile &file;
   std::exception_ptr failure;
@@ -63,6 +56,13 @@ cairo_status_t append(void *closure, const unsigned char *bytes, unsigned count)
 }
 
 } // namespace
+
+SurfacePtr make_surface(int width, int height) {
+  SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), &cairo_surface_destroy);
+  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
+    throw std::bad_alloc();
+  return surface;
+}
 
 std::mutex &drawing_mutex() {
   static std::mutex mutex;

@@ -30,6 +30,8 @@ struct Box {
 enum class Anchor { left, centre, right };
 
 using SurfacePtr = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+// Throws std::bad_alloc where there is no memory.
+SurfacePtr make_surface(int width, int height);
 
 // Whoever draws while other threads may holds this from before the first text is measured until the canvas is
 // gone: Cairo (1.16) keeps its fonts for all threads and does not guard them.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 
 namespace pmdsim {
@@ -63,11 +62,7 @@ std::uint32_t rgb24(const Colour &colour) {
 
 template <typename ColourOfPixel>
 SurfacePtr make_image(const glm::uvec2 &resolution, ColourOfPixel colour_of_pixel) {
-  SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(resolution.x),
-                                                static_cast<int>(resolution.y)),
-                     &cairo_surface_destroy);
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
-    throw std::bad_alloc();
+  SurfacePtr surface = make_surface(static_cast<int>(resolution.x), static_cast<int>(resolution.y));
   unsigned char *bytes = cairo_image_surface_get_data(surface.get());
   const int stride_bytes = cairo_image_surface_get_stride(surface.get());
   for (std::uint32_t row = 0; row < resolution.y; ++row) {

@@ -82,21 +82,20 @@ Bytes read_buffer(const GltfDocument &document, const fs::path &file, std::size_
     return front_of_chunk(document.binary_chunk, length_bytes, place);
   if (uri.starts_with("data:"))
     return decoded_data_uri(uri, length_bytes, place / "uri");
-  const std::string bytes = read_front_of_regular_file(file_in_folder(uri, folder_of(file), place / "uri"),
-                                                       length_bytes, place / "uri");
+  const std::string bytes =
+      read_front_of_regular_file(file_beside(uri, place / "uri"), length_bytes, place / "uri");
   return {bytes.begin(), bytes.end()};
 }
 
 } // namespace
 
-fs::path folder_of(const fs::path &file) { return file.has_parent_path() ? file.parent_path() : "."; }
-
-fs::path file_in_folder(const std::string &uri, const fs::path &folder, const Place &place) {
+fs::path file_beside(const std::string &uri, const Place &place) {
   if (has_scheme(uri))
     throw input_error(place, "expected a relative file name or a data: URI, found " + in_quotes(uri));
   const std::optional<std::string> name = percent_decoded(uri);
   if (!name)
     throw input_error(place, "expected a percent-encoded relative path, found " + in_quotes(uri));
+  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : ".";
   std::error_code unresolved;
   const fs::path inside = fs::weakly_canonical(folder, unresolved);
   fs::path file = unresolved ? fs::path{} : fs::weakly_canonical(folder / *name, unresolved);

@@ -11,13 +11,10 @@
 
 namespace pmdsim {
 
-// The folder of a scene's file.
-std::filesystem::path folder_of(const std::filesystem::path &file);
-
-// The file in `folder` that a relative reference names. Throws Error (input) at `place`: also for a URI that
-// leads out of the folder, by "..", an absolute path or a link, and for one with a scheme.
-std::filesystem::path file_in_folder(const std::string &uri, const std::filesystem::path &folder,
-                                     const Place &place);
+// The file that a relative reference at `place` names, in the folder of that place's file. Throws Error
+// (input) at `place`: also for a URI that leads out of the folder, by "..", an absolute path or a link, and
+// for one with a scheme.
+std::filesystem::path file_beside(const std::string &uri, const Place &place);
 
 // In the document's order, each of the byteLength that it states, together at most max_gltf_file_bytes. Those
 // that only stand in for compressed bufferViews (meshopt_fallbacks()) are not read and stay empty. Throws

@@ -31,8 +31,7 @@ std::size_t source_of(const json &texture, const Place &place) {
 
 Bytes bytes_of_uri(const std::string &uri, const Place &place) {
   if (!uri.starts_with("data:")) {
-    const std::string bytes =
-        read_regular_file(file_in_folder(uri, folder_of(place.file), place), max_gltf_file_bytes, place);
+    const std::string bytes = read_regular_file(file_beside(uri, place), max_gltf_file_bytes, place);
     return {bytes.begin(), bytes.end()};
   }
   Bytes bytes;
@@ -44,14 +43,10 @@ Bytes bytes_of_uri(const std::string &uri, const Place &place) {
 }
 
 Wrap wrap_of(const json &sampler, const char *key) {
-  switch (sampler.value(key, TINYGLTF_TEXTURE_WRAP_REPEAT)) {
-  case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+  const int wrap = sampler.value(key, TINYGLTF_TEXTURE_WRAP_REPEAT);
+  if (wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE)
     return Wrap::clamp;
-  case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-    return Wrap::mirrored_repeat;
-  default:
-    return Wrap::repeat;
-  }
+  return wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirrored_repeat : Wrap::repeat;
 }
 
 } // namespace

@@ -72,7 +72,8 @@ public:
                                   data().componentType, name_, condition));
   }
 
-  void check_count(std::size_t vertices) const {
+  void check_count() const {
+    const std::size_t vertices = Attribute(primitive_, "POSITION").data().count;
     if (data().count != vertices)
       throw input_error(primitive_.place / "attributes" / name_,
                         fmt::format("has {} elements, POSITION has {}", data().count, vertices));
@@ -87,10 +88,6 @@ private:
   std::string name_;
   std::size_t accessor_;
 };
-
-std::size_t vertex_count(const GltfPrimitive &primitive) {
-  return Attribute(primitive, "POSITION").data().count;
-}
 
 } // namespace
 
@@ -108,7 +105,7 @@ std::vector<glm::vec4> read_colours(const GltfPrimitive &primitive) {
   const tinygltf::Accessor &accessor = attribute.data();
   const bool has_alpha = accessor.type == TINYGLTF_TYPE_VEC4;
   attribute.check_type(has_alpha || accessor.type == TINYGLTF_TYPE_VEC3, "\"VEC3\" or \"VEC4\"");
-  attribute.check_count(vertex_count(primitive));
+  attribute.check_count();
   attribute.check_component(is_float(accessor) || is_unsigned_fraction(accessor),
                             "5126, or normalized 5121 or 5123, for COLOR_0");
   std::vector<glm::vec4> colours;
@@ -123,7 +120,7 @@ std::vector<glm::dvec2> read_texture_coordinates(const GltfPrimitive &primitive,
   const Attribute attribute(primitive, fmt::format("TEXCOORD_{}", set),
                             ", which its material's texture needs");
   attribute.check_type(attribute.data().type == TINYGLTF_TYPE_VEC2, "\"VEC2\"");
-  attribute.check_count(vertex_count(primitive));
+  attribute.check_count();
   attribute.check_quantizable(is_float(attribute.data()) || is_unsigned_fraction(attribute.data()));
   const std::vector<glm::dvec4> coordinates = attribute.read(2);
   return {coordinates.begin(), coordinates.end()};
@@ -134,7 +131,7 @@ std::vector<double> read_radii(const GltfPrimitive &primitive) {
     return {};
   const Attribute attribute(primitive, "_RADIUS");
   attribute.check_type(attribute.data().type == TINYGLTF_TYPE_SCALAR, "\"SCALAR\"");
-  attribute.check_count(vertex_count(primitive));
+  attribute.check_count();
   std::vector<double> radii;
   for (const glm::dvec4 &vector : attribute.read(1)) {
     if (!(vector.x > 0.0))
@@ -147,7 +144,6 @@ std::vector<double> read_radii(const GltfPrimitive &primitive) {
 
 std::vector<WeightSet> weight_sets(const GltfPrimitive &primitive) {
   const auto &attributes = primitive.data.attributes;
-  const std::size_t vertices = vertex_count(primitive);
   std::vector<WeightSet> sets;
   for (std::size_t n = 0;; ++n) {
     const std::string joints_name = fmt::format("JOINTS_{}", n), weights_name = fmt::format("WEIGHTS_{}", n);
@@ -156,11 +152,11 @@ std::vector<WeightSet> weight_sets(const GltfPrimitive &primitive) {
     const Attribute joints(primitive, joints_name);
     joints.check_component(is_unsigned_short(joints.data()) && !joints.data().normalized,
                            "5121 or 5123, not normalized, for joints");
-    joints.check_count(vertices);
+    joints.check_count();
     const Attribute weights(primitive, weights_name);
     weights.check_component(is_float(weights.data()) || is_unsigned_fraction(weights.data()),
                             "5126, or 5121 or 5123 normalized, for weights");
-    weights.check_count(vertices);
+    weights.check_count();
     sets.push_back({joints.accessor(), weights.accessor()});
   }
 }
