@@ -174,7 +174,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
   const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
   graph.add_before(check.list_pass());
-  if (on.path.check_makes_points)
+  if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor,
                                  on.facts.model.surface_vectors(precision), on.memory.buffers,
                                  on.memory.scene, &check.list()));
