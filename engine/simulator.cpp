@@ -13,16 +13,6 @@
 namespace pmdsim {
 
 struct Simulator::State {
-  // What a frame is to be made of; made again where the first plan does not keep the error asked for.
-  struct Requested {
-    const Scene *scene;
-    Sensor sensor;
-    std::vector<Illuminator> illuminators;
-    Backscatter backscatter;
-    Shadows shadows;
-    Accuracy accuracy;
-  };
-
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), instance(wanted.validate), info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
@@ -37,8 +27,8 @@ struct Simulator::State {
   vulkan::Device device;
   vulkan::PassRecorder recorder;
   TextureCache textures;
-  std::optional<Requested> requested;
-  std::uint32_t attempt = 0; // of frame_plans
+  std::optional<FrameRequest> requested;
+  std::uint32_t attempt = 0; // of frame_plans; made again where one does not keep the error asked for
   std::optional<Frame> frame;
   std::mutex spare_mutex;
   std::vector<Measurement> spare; // frames that are done with
@@ -54,11 +44,9 @@ Measurement Simulator::State::spare_memory() {
 }
 
 void Simulator::State::prepare() {
-  const auto &[scene, sensor, illuminators, backscatter, shadows, accuracy] = *requested;
-  const FrameRequest request{*scene, sensor, illuminators, backscatter, shadows, accuracy};
   const auto make = [&](SpareMemory &&memory) {
     frame.reset(); // the rest of its memory first
-    frame.emplace(device, options, request, attempt, textures, std::move(memory));
+    frame.emplace(device, options, *requested, attempt, textures, std::move(memory));
   };
   try {
     make(frame ? frame->release_memory() : SpareMemory());
@@ -92,7 +80,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
-  state_->requested = State::Requested{&scene, sensor, illuminators, backscatter, shadows, accuracy};
+  state_->requested.emplace(FrameRequest{scene, sensor, illuminators, backscatter, shadows, accuracy});
   state_->attempt = 0;
   state_->prepare();
 }

@@ -14,11 +14,11 @@
 
 namespace pmdsim {
 
-// What is measured, and how well. The references outlive the preparation only.
+// What is measured, and how well. The scene outlives the preparation only.
 struct FrameRequest {
   const Scene &scene;
-  const Sensor &sensor;
-  const std::vector<Illuminator> &illuminators;
+  Sensor sensor;
+  std::vector<Illuminator> illuminators;
   Backscatter backscatter;
   Shadows shadows;
   Accuracy accuracy;

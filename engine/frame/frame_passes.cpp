@@ -15,18 +15,11 @@ namespace pmdsim {
 namespace {
 
 // What all that is made for a frame follows from.
-struct Basis {
-  const vulkan::Device &device;
-  const SimulatorOptions &options;
+struct Basis : PassSetup {
   const FrameRequest &request;
   const FrameFacts &facts;
   const FramePlan &plan;
   const FramePath &path;
-  const FrameMemory &memory;
-
-  PassSetup setup() const {
-    return {device, options, request.sensor, facts.modulation, facts.model, memory.buffers, memory.scene};
-  }
 };
 
 std::vector<shader::TrianglePlane> planes_of(const FrameFacts &facts, const FrameRequest &request) {
@@ -77,22 +70,24 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .keeps_terms = modulation.keeps_terms};
 }
 
+// The points of all samples, or those of `list`, for a sum of that precision.
+Pass points_of(const Basis &on, Precision precision, const vulkan::Buffer *list = nullptr) {
+  return points_pass(on.device, on.options.precision, on.sensor, on.model.surface_vectors(precision),
+                     on.buffers, on.scene, list);
+}
+
 // What each sample sees, and where.
 void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster, FrameGraph &graph) {
-  graph.add_before({.name = "visibility",
-                    .reads = no_resource,
-                    .writes = ids,
-                    .record = [raster, &memory = on.memory](const Recording &at) {
-                      raster->record(at.commands, at.planned, memory.scene, drawn_ids(memory.buffers));
-                    }});
-  const std::uint32_t vectors = on.facts.model.surface_vectors(on.plan.precision);
+  graph.add_before(
+      {.name = "visibility", .reads = no_resource, .writes = ids, .record = [raster](const Recording &at) {
+         raster->record(at.commands, at.planned);
+       }});
   if (on.path.grid == SampleGrid::distorted)
-    graph.add_before(lens_search_pass(on.device, on.options.precision, on.request.sensor, on.facts.camera,
-                                      on.request.scene, on.facts.projection.blocks, vectors,
-                                      on.memory.buffers, on.memory.scene));
+    graph.add_before(lens_search_pass(on.device, on.options.precision, on.sensor, on.facts.camera,
+                                      on.request.scene, on.facts.projection.blocks,
+                                      on.model.surface_vectors(on.plan.precision), on.buffers, on.scene));
   else if (on.path.points_first)
-    graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor, vectors,
-                                 on.memory.buffers, on.memory.scene));
+    graph.add_before(points_of(on, on.plan.precision));
 }
 
 // Which sources reach which sample. The spot check finds the frame's tiles.
@@ -100,7 +95,7 @@ Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &s
   return {.name = "lit",
           .reads = ids | points,
           .writes = visibility_bits | visibility_counts,
-          .record = [=, &buffers = on.memory.buffers](const Recording &at) {
+          .record = [=, &buffers = on.buffers](const Recording &at) {
             if (at.window == 0 && makes_tiles)
               shadow->record_tiles(at.commands, at.of_strip(), buffers);
             shadow->record(at.commands, at.of_strip(), buffers, at.window);
@@ -114,11 +109,11 @@ Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> 
           .reads = visibility_bits,
           .writes = no_resource,
           .record =
-              [=, &buffers = on.memory.buffers](const Recording &at) {
+              [=, &buffers = on.buffers](const Recording &at) {
                 record_visibility(at.commands, at.of_strip(), buffers, windows[at.window]);
               },
           .store =
-              [=, &buffers = on.memory.buffers](const Recording &at, Measurement &to) {
+              [=, &buffers = on.buffers](const Recording &at, Measurement &to) {
                 store_visibility(at.of_strip(), buffers, windows[at.window], *sources, to.sample_visibility);
               }};
 }
@@ -127,15 +122,15 @@ Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> 
 void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &lists, FrameGraph &graph) {
   const PixelClass *uniform = on.path.of(PixelsOf::uniform), *refined = on.path.of(PixelsOf::uniform_refined);
   const ErrorBound &bound = on.plan.uniform_bound ? *on.plan.uniform_bound : *on.plan.bound;
-  const std::uint32_t points = uniform && on.request.sensor.samples > 1 ? uniform->points : 0;
-  graph.add_after(uniform_pixels_pass(on.setup(), on.plan.uniform_groups, on.plan.extent, bound,
+  const std::uint32_t points = uniform && on.sensor.samples > 1 ? uniform->points : 0;
+  graph.add_after(uniform_pixels_pass(on, on.plan.uniform_groups, on.plan.extent, bound,
                                       {.points = points,
                                        .refines = refined != nullptr,
                                        .sums = uniform != nullptr,
                                        .lists = on.path.lists_pixels()},
                                       lists));
   if (refined)
-    graph.add_after(uniform_pixels_pass(on.setup(), on.plan.uniform_groups, on.plan.extent, *refined->bound,
+    graph.add_after(uniform_pixels_pass(on, on.plan.uniform_groups, on.plan.extent, *refined->bound,
                                         {.points = refined->points}, lists));
 }
 
@@ -148,24 +143,20 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
   SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
   if (on.path.record == SampleRecord::depth)
-    scope.depth_records.emplace(on.device, on.request.sensor);
+    scope.depth_records.emplace(on.device, on.sensor);
   if (list && !on.path.points_first)
-    graph.add_after(points_pass(on.device, on.options.precision, on.request.sensor,
-                                on.facts.model.surface_vectors(pixels->precision), on.memory.buffers,
-                                on.memory.scene, list));
-  Pass sum =
-      accumulate_pass(on.setup(), groups, pixels->reduced ? std::vector{all_runs(groups)} : windows, scope);
+    graph.add_after(points_of(on, pixels->precision, list));
+  Pass sum = accumulate_pass(on, groups, pixels->reduced ? std::vector{all_runs(groups)} : windows, scope);
   list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
-  graph.add_after(demodulation_pass(on.setup(), groups, scope, on.path.host_reads_truth));
+  graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
                 const std::shared_ptr<const TileShadowPass> &shadow, FrameGraph &graph) {
-  Modulation modulation = on.facts.modulation;
+  Modulation modulation = on.modulation;
   modulation.keeps_terms = false;
-  PassSetup setup{on.device,      on.options,        on.request.sensor, modulation,
-                  on.facts.model, on.memory.buffers, on.memory.scene};
+  const PassSetup setup{on.device, on.options, on.sensor, modulation, on.model, on.buffers, on.scene};
   const Precision precision = *on.path.check;
   SourceGroups of_precision;
   if (precision != on.plan.precision)
@@ -174,16 +165,14 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
   const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
   graph.add_before(check.list_pass());
-  if (on.path.check_makes_points)
-    graph.add_before(points_pass(on.device, on.options.precision, on.request.sensor,
-                                 on.facts.model.surface_vectors(precision), on.memory.buffers,
-                                 on.memory.scene, &check.list()));
+  if (on.path.grid != SampleGrid::distorted)
+    graph.add_before(points_of(on, precision, &check.list()));
   if (shadow && windows.size() > 1)
     graph.add_to_window(shadow_pass(on, shadow, false));
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(demodulation_pass(setup, groups, scope));
-  Pass read_back = read_back_pass(on.request.sensor, on.facts.modulation, on.memory.buffers, {});
+  Pass read_back = read_back_pass(on.sensor, on.modulation, on.buffers, {});
   read_back.store = {}; // it is only compared
   graph.add_after(std::move(read_back));
 }
@@ -206,40 +195,40 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
 FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
                         const std::vector<SourceWindow> &windows, std::unique_ptr<FrameMemory> memory,
                         std::optional<RasterImages> images) {
-  const auto &[device, options, request, facts, plan, path, _] = on;
   std::optional<ChipGrid> grid;
-  if (path.record == SampleRecord::depth)
-    grid.emplace(device, request.sensor);
-  auto raster = std::make_shared<IdRasterPass>(device, facts.projection, request.sensor, strips,
-                                               memory->scene.paint.cutouts, options.precision, grid,
-                                               drawn_ids(memory->buffers), std::move(images));
-  const auto sources = std::make_shared<const SourceGroups>(plan.all);
+  if (on.path.record == SampleRecord::depth)
+    grid.emplace(on.device, on.sensor);
+  auto raster =
+      std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, strips, on.scene,
+                                     on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
+  const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   std::shared_ptr<const TileShadowPass> shadow;
-  if (path.windows > 0)
-    shadow = std::make_shared<const TileShadowPass>(device, facts.occluders, plan.all, windows, memory->scene,
-                                                    strips, is_tiled(request.sensor), options.precision);
+  if (on.path.windows > 0)
+    shadow =
+        std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,
+                                               strips, is_tiled(on.sensor), on.options.precision);
   std::optional<TruthOfRecords> truth;
-  if (path.host_reads_truth)
-    truth = truth_of_records(device, options, request.scene);
+  if (on.path.host_reads_truth)
+    truth = truth_of_records(on.device, on.options, on.request.scene);
 
-  FramePasses made{path,    request.sensor,    facts.modulation, strips, windows.size(),
-                   sources, std::move(memory), raster,           {},     report_of(plan, path)};
+  FramePasses made{on.path, on.sensor,         on.modulation, strips, windows.size(),
+                   sources, std::move(memory), raster,        {},     report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, graph);
   if (shadow)
     graph.add_to_window(shadow_pass(on, shadow, true));
-  if (shadow && options.keep_visibility)
+  if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   list_class(on, PixelsOf::all, windows, nullptr, graph);
-  if (path.is_sorted()) {
-    const auto lists = std::make_shared<const PixelLists>(device, strips);
+  if (on.path.is_sorted()) {
+    const auto lists = std::make_shared<const PixelLists>(on.device, strips);
     list_sorting(on, lists, graph);
     list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_unshadowed), graph);
     list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
   }
-  graph.add_after(read_back_pass(request.sensor, facts.modulation, on.memory.buffers, truth));
-  if (path.check) {
-    made.check.emplace(on.setup(), strips);
+  graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
+  if (on.path.check) {
+    made.check.emplace(on, strips);
     list_check(on, *made.check, windows, shadow, made.check_graph);
   }
   return made;
@@ -269,7 +258,12 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
       {vulkan::upload(device, planes),
        upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
        path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m}});
-  const Basis on{device, options, request, facts, plan, path, *memory};
+  const Basis on{
+      {device, options, request.sensor, facts.modulation, facts.model, memory->buffers, memory->scene},
+      request,
+      facts,
+      plan,
+      path};
   return make_passes(on, strips, windows, std::move(memory), std::move(spare.images));
 }
 

@@ -111,32 +111,21 @@ Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const 
                                                          : sum_precision(facts.modulation, Precision::fp64);
 }
 
-std::string name_of(PixelsOf who) {
-  switch (who) {
-  case PixelsOf::all:
-    return "all";
-  case PixelsOf::uniform:
-    return "uniform";
-  case PixelsOf::uniform_refined:
-    return "uniform_refined";
-  case PixelsOf::unshadowed:
-    return "unshadowed";
-  case PixelsOf::rest:
-    return "rest";
-  }
-  return {};
-}
+// In the order of the numbers that they stand for.
+constexpr std::array pixels_names{"all", "uniform", "uniform_refined", "unshadowed", "rest"};
+constexpr std::array grid_names{"nominal", "posed", "tiled", "distorted"};
+constexpr std::array surface_names{"constant, all facing", "constant, tested", "lambert"};
+constexpr std::array pattern_names{"isotropic", "whole power of the cosine", "power of the cosine",
+                                   "diagram around the axis", "any"};
+constexpr std::array precision_names{"fp32", "fp64"};
+
+std::string name_among(const auto &names, auto number) { return names[static_cast<std::size_t>(number)]; }
 
 std::string text_of(const PixelClass &pixels) {
-  return fmt::format("{}: {} sources, {} points a pixel, {}{}", name_of(pixels.who),
+  return fmt::format("{}: {} sources, {} points a pixel, {}{}", name_among(pixels_names, pixels.who),
                      pixels.reduced ? "reduced" : "all", pixels.points,
-                     pixels.precision == Precision::fp64 ? "fp64" : "fp32",
+                     name_among(precision_names, pixels.precision),
                      pixels.shadowed ? ", visibility bits" : "");
-}
-
-std::string grid_name(SampleGrid grid) {
-  constexpr std::array names{"nominal", "posed", "tiled", "distorted"};
-  return names[static_cast<std::size_t>(grid)];
 }
 
 std::string summation_text(const FramePath &path) {
@@ -152,24 +141,10 @@ std::string summation_text(const FramePath &path) {
   return {};
 }
 
-std::string law_name(std::uint32_t pattern) {
-  return pattern == shader::pattern_isotropic ? "isotropic"
-         : pattern == shader::pattern_power   ? "whole power of the cosine"
-         : pattern == shader::pattern_general ? "power of the cosine"
-         : pattern == shader::pattern_axial   ? "diagram around the axis"
-                                              : "any";
-}
-
 std::string record_text(const FramePath &path) {
   return path.record == SampleRecord::point ? "point"
          : path.one_backscatter             ? "depth, one backscatter"
                                             : "depth";
-}
-
-std::string surface_name(std::uint32_t backscatter) {
-  return backscatter == shader::backscatter_flat     ? "constant, all facing"
-         : backscatter == shader::backscatter_facing ? "constant, tested"
-                                                     : "lambert";
 }
 
 } // namespace
@@ -193,9 +168,6 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.equal_weights = plan.all.polynomials.equal_weights;
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
-  path.painted = facts.paint.painted;
-  path.vignetting = sensor.vignetting == Vignetting::cos4;
-  path.phased = plan.all.phased;
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   path.classes = classes_of(facts, plan, request, windows, allowed);
   path.record =
@@ -205,23 +177,20 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);
-  path.check_makes_points = !sensor.has_distortion();
   return path;
 }
 
 std::vector<std::pair<std::string, std::string>> description(const FramePath &path) {
   std::vector<std::string> classes;
   std::ranges::transform(path.classes, std::back_inserter(classes), text_of);
-  return {{"grid", grid_name(path.grid)},
+  return {{"grid", name_among(grid_names, path.grid)},
           {"record", record_text(path)},
           {"visibility_windows", fmt::format("{}", path.windows)},
-          {"surface", surface_name(path.backscatter)},
-          {"radiation_law", law_name(path.pattern)},
+          {"surface", name_among(surface_names, path.backscatter)},
+          {"radiation_law", name_among(pattern_names, path.pattern)},
           {"sum", summation_text(path)},
           {"pixels", fmt::format("{}", fmt::join(classes, "; "))},
-          {"spot_check", !path.check                      ? "none"
-                         : *path.check == Precision::fp64 ? "fp64"
-                                                          : "fp32"}};
+          {"spot_check", path.check ? name_among(precision_names, *path.check) : "none"}};
 }
 
 } // namespace pmdsim

@@ -53,15 +53,13 @@ struct FramePath {
   Summation summation;
   std::uint32_t powers, moments; // of the sum over all sources
   bool equal_weights, coplanar;
-  bool single_run; // all sources are one run
-  bool painted, vignetting, phased;
+  bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
   bool host_reads_truth; // coverage, depth and IDs come off the records
   // In the order in which they are summed. One class of all pixels, or classes that pixels are sorted into:
   // those that the first ones leave are listed for those that follow.
   std::vector<PixelClass> classes;
   std::optional<Precision> check; // of the spot check; nothing where no error was asked for
-  bool check_makes_points;
 
   const PixelClass *of(PixelsOf who) const;
   // Whether pixels are sorted into classes.

@@ -95,12 +95,11 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
       diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.positions[i].law_error;
     }
     const DoublePair4 reference(run.reference_m, 0.0);
-    const DoublePair phase_turns(run.phase_turns);
     const double size_m = glm::length(run.reference_m) + run.reach.radius_m;
     shader::LightRun record{};
     record.reference_hi = reference.hi;
     record.reference_lo = reference.lo;
-    record.phase_turns = {phase_turns.hi, phase_turns.lo};
+    record.phase_turns = float_pair(run.phase_turns);
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.detours = detours;

@@ -22,13 +22,11 @@ std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illumin
 // Asked of each illuminator's own box: one around all of them would hold much more than their diodes.
 bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators) {
   return std::ranges::all_of(illuminators, [&](const CameraIlluminator &illuminator) {
-    glm::dvec3 low(illuminator.diodes.front().position_m), high(low);
-    for (const Diode &diode : illuminator.diodes) {
-      low = glm::min(low, diode.position_m);
-      high = glm::max(high, diode.position_m);
-    }
-    const glm::dvec3 centre = 0.5 * (low + high);
-    const double radius_m = glm::distance(centre, high);
+    VisibleBox box;
+    for (const Diode &diode : illuminator.diodes)
+      box.add(diode.position_m);
+    const glm::dvec3 centre = 0.5 * (box.low_m + box.high_m);
+    const double radius_m = glm::distance(centre, box.high_m);
     return std::ranges::all_of(camera.planes, [&](const Plane &plane) {
       return glm::dot(plane.normal, centre) - plane.offset_m > radius_m;
     });

@@ -144,13 +144,30 @@ double error_of(const Diagram &diagram, const DiagramGrid &grid) {
 
 // `steps` + 1 values, each with the next one; after the last it stays.
 template <class ValueOf>
-void append(std::uint32_t steps, const ValueOf &value_of, std::vector<glm::vec2> &table) {
+void append(std::uint32_t steps, std::vector<glm::vec2> &table, const ValueOf &value_of) {
   auto value = static_cast<float>(value_of(0));
   for (std::uint32_t step = 0; step <= steps; ++step) {
     const auto next = static_cast<float>(value_of(std::min(step + 1, steps)));
     table.emplace_back(value, next);
     value = next;
   }
+}
+
+// Of a diagram that is not the same for all phi; `theta_place`: which of its angles a step of theta is.
+template <class ThetaPlace>
+void append_both(const Diagram &diagram, const ThetaPlace &theta_place, DiagramGrid &grid,
+                 std::vector<glm::vec2> &table) {
+  const std::vector<double> phis = around(diagram);
+  grid.phi_steps = even_steps(phis, turn_rad).value_or(most_steps);
+  grid.row_length = static_cast<std::uint32_t>(diagram.theta_rad.size());
+  append(grid.theta_steps, table, theta_place);
+  append(grid.phi_steps, table, [&](std::uint32_t step) {
+    return place_among(phis, phis.front() + turn_rad * step / grid.phi_steps);
+  });
+  for (std::size_t phi = 0; phi < phis.size() + 1; ++phi) // and one more, which the last may ask for
+    append(grid.row_length - 1, table, [&](std::uint32_t theta) {
+      return diagram.relative[theta * diagram.phi_rad.size() + phi % diagram.phi_rad.size()];
+    });
 }
 
 } // namespace
@@ -173,32 +190,12 @@ DiagramGrid DiagramTables::grid_of(const std::shared_ptr<const Diagram> &diagram
     return place_among(thetas, thetas.front() + step / grid.theta_steps_per_rad);
   };
   if (diagram->phi_rad.size() == 1)
-    append(
-        grid.theta_steps, [&](std::uint32_t step) { return value_at(diagram->relative, theta_place(step)); },
-        values_);
+    append(grid.theta_steps, values_,
+           [&](std::uint32_t step) { return value_at(diagram->relative, theta_place(step)); });
   else
-    append_both(*diagram, theta_place, grid);
+    append_both(*diagram, theta_place, grid, values_);
   grid.error = error_of(*diagram, grid);
   return grid;
-}
-
-void DiagramTables::append_both(const Diagram &diagram,
-                                const std::function<double(std::uint32_t)> &theta_place, DiagramGrid &grid) {
-  const std::vector<double> phis = around(diagram);
-  grid.phi_steps = even_steps(phis, turn_rad).value_or(most_steps);
-  grid.row_length = static_cast<std::uint32_t>(diagram.theta_rad.size());
-  append(grid.theta_steps, theta_place, values_);
-  append(
-      grid.phi_steps,
-      [&](std::uint32_t step) { return place_among(phis, phis.front() + turn_rad * step / grid.phi_steps); },
-      values_);
-  for (std::size_t phi = 0; phi < phis.size() + 1; ++phi) // and one more, which the last may ask for
-    append(
-        grid.row_length - 1,
-        [&](std::uint32_t theta) {
-          return diagram.relative[theta * diagram.phi_rad.size() + phi % diagram.phi_rad.size()];
-        },
-        values_);
 }
 
 } // namespace pmdsim

@@ -4,7 +4,6 @@
 #include "engine/model/illuminator.h"
 
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -36,10 +35,6 @@ public:
   const std::vector<glm::vec2> &values() const { return values_; }
 
 private:
-  // `theta_place`: which of the diagram's angles a step of theta is.
-  void append_both(const Diagram &diagram, const std::function<double(std::uint32_t)> &theta_place,
-                   DiagramGrid &grid);
-
   std::map<std::shared_ptr<const Diagram>, DiagramGrid> grids_;
   std::vector<glm::vec2> values_;
 };

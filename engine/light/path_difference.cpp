@@ -6,24 +6,22 @@
 namespace pmdsim {
 namespace {
 
+// How far a place is from each axis.
+glm::dvec3 across(const glm::dvec3 &p) {
+  return {std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)};
+}
+
 // How far diodes reach from a reference point, along each axis and across it.
 struct Reach {
   glm::dvec3 along_m{0.0};
   glm::dvec3 across_m{0.0};
-
-  void add(const glm::dvec3 &p) {
-    along_m = glm::max(along_m, glm::abs(p));
-    across_m =
-        glm::max(across_m, glm::dvec3(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y)));
-  }
 };
 
 // A bound of |P . I| for points whose coordinates are at most `p` and diodes I within `reach`: Cauchy and
 // Schwarz in one plane of coordinates and its normal, the best of three. (In the plane of a ring it is
 // exact.)
 double largest_product(const glm::dvec3 &p, const Reach &reach) {
-  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
-  const glm::dvec3 bounds = p * reach.along_m + across * reach.across_m;
+  const glm::dvec3 bounds = p * reach.along_m + across(p) * reach.across_m;
   return std::min({bounds.x, bounds.y, bounds.z});
 }
 
@@ -34,10 +32,10 @@ double least_difference_m2(const glm::dvec3 &p, const Reach &reach) {
     const double worst_m = std::min(place_m, reach_m);
     return worst_m * (worst_m - 2.0 * place_m);
   };
-  const glm::dvec3 across(std::hypot(p.y, p.z), std::hypot(p.x, p.z), std::hypot(p.x, p.y));
+  const glm::dvec3 across_m = across(p);
   double best = -std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
-    best = std::max(best, part(p[axis], reach.along_m[axis]) + part(across[axis], reach.across_m[axis]));
+    best = std::max(best, part(p[axis], reach.along_m[axis]) + part(across_m[axis], reach.across_m[axis]));
   return best;
 }
 
@@ -70,7 +68,8 @@ PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const
   Reach reach;
   for (const glm::dvec3 &diode_m : diodes_m) {
     result.radius_m = std::max(result.radius_m, glm::distance(reference_m, diode_m));
-    reach.add(diode_m - reference_m);
+    reach.along_m = glm::max(reach.along_m, glm::abs(diode_m - reference_m));
+    reach.across_m = glm::max(reach.across_m, across(diode_m - reference_m));
   }
   for (const VisibleBox &seen : visible) {
     const double rho_m = glm::distance(reference_m, glm::clamp(reference_m, seen.low_m, seen.high_m));

@@ -27,16 +27,10 @@ struct NumberedDiode : Diode {
   std::uint32_t number; // among those of all illuminators
 };
 
-struct Box {
-  glm::dvec3 low_m, high_m;
-};
-
-Box box_of(std::span<const NumberedDiode> diodes) {
-  Box box{diodes.front().position_m, diodes.front().position_m};
-  for (const Diode &diode : diodes) {
-    box.low_m = glm::min(box.low_m, diode.position_m);
-    box.high_m = glm::max(box.high_m, diode.position_m);
-  }
+VisibleBox box_of(std::span<const NumberedDiode> diodes) {
+  VisibleBox box;
+  for (const Diode &diode : diodes)
+    box.add(diode.position_m);
   return box;
 }
 
@@ -48,7 +42,7 @@ struct Group {
 };
 
 Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
-  const Box box = box_of(diodes);
+  const VisibleBox box = box_of(diodes);
   // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
   Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
   std::vector<glm::dvec3> places_m;
@@ -123,9 +117,7 @@ std::vector<NumberedDiode> numbered(const std::vector<CameraIlluminator> &illumi
 // Brings `first` diodes to the front so that a plane across the longest side of their box parts them from the
 // rest.
 void part_in_two(std::span<NumberedDiode> diodes, std::size_t first) {
-  const Box box = box_of(diodes);
-  const glm::dvec3 spread = box.high_m - box.low_m;
-  const auto axis = spread.x >= spread.y ? (spread.x >= spread.z ? 0 : 2) : (spread.y >= spread.z ? 1 : 2);
+  const int axis = box_of(diodes).longest_side();
   std::ranges::nth_element(diodes, diodes.begin() + static_cast<std::ptrdiff_t>(first), {},
                            [axis](const Diode &diode) { return diode.position_m[axis]; });
 }

@@ -21,12 +21,9 @@ double Modulation::largest_wavenumber_rad_m() const {
 std::vector<shader::Tone> Modulation::all_tones() const {
   std::vector<shader::Tone> result;
   for (const double frequency_hz : modulation_hz)
-    for (std::uint32_t h = 1; h <= tones; ++h) {
-      const DoublePair turns_per_m(h * frequency_hz / speed_of_light_m_s);
-      result.push_back({{turns_per_m.hi, turns_per_m.lo},
-                        static_cast<float>(wavenumber_rad_m(h * frequency_hz)),
-                        static_cast<float>(h)});
-    }
+    for (std::uint32_t h = 1; h <= tones; ++h)
+      result.push_back({float_pair(h * frequency_hz / speed_of_light_m_s),
+                        static_cast<float>(wavenumber_rad_m(h * frequency_hz)), static_cast<float>(h)});
   return result;
 }
 

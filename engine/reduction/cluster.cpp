@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pmdsim {
 namespace {
@@ -34,38 +33,15 @@ glm::dmat3 axes_of(const Eigen::Matrix3d &covariance) {
   return {across, glm::cross(normal, across), normal};
 }
 
-// Powers, from 0, of what a moment is made of.
-class PowerTables {
-public:
-  PowerTables(const DiodeCluster &cluster, const glm::dvec3 &offset_m, std::size_t largest)
-      : largest_(largest) {
-    const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-    const double size = over(glm::length(offset_m), cluster.radius_m);
-    set(0, size * size);
-    for (int i = 0; i < 3; ++i)
-      set(static_cast<std::size_t>(i) + 1, over(offset_m[i], cluster.extents_m[i]));
-    set(4, over(glm::dot(cluster.axes * offset_m, cluster.beam), cluster.beam_extent_m));
-  }
-
-  double value(const Powers &powers) const {
-    double value = 1.0;
-    for (std::size_t part = 0; part < powers.size(); ++part)
-      value *= tables_[part][powers[part]];
-    return value;
-  }
-
-private:
-  void set(std::size_t part, double base) {
-    tables_[part][0] = 1.0;
-    for (std::size_t k = 1; k <= largest_; ++k)
-      tables_[part][k] = tables_[part][k - 1] * base;
-  }
-
-  std::size_t largest_;
-  std::array<std::array<double, std::numeric_limits<Powers::value_type>::max() + 1>,
-             std::tuple_size_v<Powers>>
-      tables_;
-};
+// Of what a moment is made of.
+std::array<std::vector<double>, std::tuple_size_v<Powers>>
+power_tables(const DiodeCluster &cluster, const glm::dvec3 &offset_m, int largest) {
+  const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+  const auto coordinate = [&](int i) { return powers_of(over(offset_m[i], cluster.extents_m[i]), largest); };
+  const double size = over(glm::length(offset_m), cluster.radius_m);
+  return {powers_of(size * size, largest), coordinate(0), coordinate(1), coordinate(2),
+          powers_of(over(glm::dot(cluster.axes * offset_m, cluster.beam), cluster.beam_extent_m), largest)};
+}
 
 } // namespace
 
@@ -103,17 +79,29 @@ DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::s
   return cluster;
 }
 
+std::vector<double> powers_of(double base, int degree) {
+  std::vector<double> powers{1.0};
+  for (int k = 0; k < degree; ++k)
+    powers.push_back(powers.back() * base);
+  return powers;
+}
+
 Eigen::MatrixXd moment_values(const std::vector<Powers> &moments, const DiodeCluster &cluster,
                               std::span<const glm::dvec3> offsets_m) {
   Eigen::MatrixXd values(static_cast<Eigen::Index>(moments.size()),
                          static_cast<Eigen::Index>(offsets_m.size()));
-  std::size_t largest = 0;
+  int largest = 0;
   for (const Powers &powers : moments)
-    largest = std::max<std::size_t>(largest, *std::ranges::max_element(powers));
+    largest = std::max<int>(largest, std::ranges::max(powers));
   for (Eigen::Index diode = 0; diode < values.cols(); ++diode) {
-    const PowerTables tables(cluster, offsets_m[static_cast<std::size_t>(diode)], largest);
-    for (Eigen::Index moment = 0; moment < values.rows(); ++moment)
-      values(moment, diode) = tables.value(moments[static_cast<std::size_t>(moment)]);
+    const auto tables = power_tables(cluster, offsets_m[static_cast<std::size_t>(diode)], largest);
+    for (Eigen::Index moment = 0; moment < values.rows(); ++moment) {
+      const Powers &powers = moments[static_cast<std::size_t>(moment)];
+      double value = 1.0;
+      for (std::size_t part = 0; part < powers.size(); ++part)
+        value *= tables[part][powers[part]];
+      values(moment, diode) = value;
+    }
   }
   return values;
 }

@@ -53,6 +53,9 @@ struct DiodeCluster {
   double slant(int axis) const { return clearance_m[axis] > 0.0 ? extents_m[axis] / clearance_m[axis] : 0.0; }
 };
 
+// From 0 to `degree`.
+std::vector<double> powers_of(double base, int degree);
+
 DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::size_t> members);
 
 // A moment: the sum over the diodes of these powers of |I|^2, the coordinates of I and a.I, each over its

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 
 namespace pmdsim {
 namespace {
@@ -93,11 +94,8 @@ std::vector<DirectionalBounds> directional_bounds(const std::vector<VisibleBox> 
     if (!is_new)
       widen(found->second, direction);
   }
-  std::vector<DirectionalBounds> directions;
-  directions.reserve(by_range.size());
-  for (const auto &[octave, direction] : by_range)
-    directions.push_back(direction);
-  return directions;
+  const auto directions = by_range | std::views::values;
+  return {directions.begin(), directions.end()};
 }
 
 } // namespace pmdsim

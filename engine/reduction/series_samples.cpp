@@ -57,13 +57,6 @@ std::vector<double> chebyshev_points(double from, double to, int count) {
 
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
-std::vector<double> powers_of(double base, int degree) {
-  std::vector<double> powers{1.0};
-  for (int k = 0; k < degree; ++k)
-    powers.push_back(powers.back() * base);
-  return powers;
-}
-
 // Where tau, up to largest_size, and the direction go. Components that no moment asks for are 0.
 struct Domain {
   double largest_size;

@@ -29,18 +29,16 @@ void barrier_after(const vk::raii::CommandBuffer &commands) {
       Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
 }
 
-std::uint32_t most_pixels(const std::vector<PlannedStrip> &strips) {
-  std::uint32_t most = 0;
-  for (const PlannedStrip &planned : strips)
-    most = std::max(most, planned.strip.padded_pixels);
-  return most;
+vulkan::Buffer make_largest_list(const vulkan::Device &device, const std::vector<PlannedStrip> &strips) {
+  const auto pixels = [](const PlannedStrip &planned) { return planned.strip.padded_pixels; };
+  return make_pixel_list(device, pixels(std::ranges::max(strips, {}, pixels)));
 }
 
 } // namespace
 
 PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
-    : lists_{make_pixel_list(device, most_pixels(strips)), make_pixel_list(device, most_pixels(strips)),
-             make_pixel_list(device, most_pixels(strips))},
+    : lists_{make_largest_list(device, strips), make_largest_list(device, strips),
+             make_largest_list(device, strips)},
       count_(device, vulkan::shader_module(device, SamplePrecision::automatic, "pixel_list_count"),
              sizeof(shader::PixelListConstants)) {}
 

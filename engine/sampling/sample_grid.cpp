@@ -33,8 +33,7 @@ shader::ChipPlace chip_place(const Sensor &sensor) {
 
 shader::vec4 half_sample_slope(const Sensor &sensor) {
   const glm::dvec2 slope = sensor.pixel_pitch_m / (2.0 * sensor.samples * sensor.image_distance_m());
-  const DoublePair x(slope.x), y(slope.y);
-  return {x.hi, x.lo, y.hi, y.lo};
+  return {float_pair(slope.x), float_pair(slope.y)};
 }
 
 vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {

@@ -41,10 +41,9 @@ float largest_float_below(double value) {
 shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
                             std::uint32_t first_channel) {
   const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_hz);
-  const DoublePair turns_per_m(1.0 / ambiguity_m), ambiguity(ambiguity_m);
   shader::Frequency record{};
-  record.turns_per_m = {turns_per_m.hi, turns_per_m.lo};
-  record.ambiguity_m = {ambiguity.hi, ambiguity.lo};
+  record.turns_per_m = float_pair(1.0 / ambiguity_m);
+  record.ambiguity_m = float_pair(ambiguity_m);
   record.below = {largest_float_below(2.0 * std::numbers::pi), largest_float_below(ambiguity_m)};
   record.amplitude_scale = static_cast<float>(largest_intensity_w_sr);
   record.first_channel = first_channel;

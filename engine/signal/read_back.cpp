@@ -13,7 +13,6 @@
 #include <limits>
 #include <span>
 #include <tbb/parallel_for.h>
-#include <type_traits>
 #include <variant>
 
 namespace pmdsim {
@@ -60,15 +59,6 @@ std::vector<Destination> destinations(const ChannelLayout &layout, Measurement &
   return result;
 }
 
-// Of a channel that a float may be too small for. Counted, not searched, as the compiler makes vectors of
-// that.
-void check_finite(const std::vector<float> &channel, const Row &row) {
-  const auto values = std::span(channel).subspan(row.in_frame, row.pixels);
-  if (std::ranges::count_if(values, [](float value) { return std::isinf(value); }) > 0)
-    throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
-                                 "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
-}
-
 // All of DeviceSlot::Area::truth, which is no more than a record tells.
 void store_truth(std::span<const shader::uvec4> records, const Row &row, const TruthOfRecords &truth,
                  Measurement &to) {
@@ -88,19 +78,16 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
   }
 }
 
-// `to`: of each channel; those before `first` are left out.
-void store_channels(const Row &row, const shader::Strip &strip, const StripBuffers &buffers,
-                    const std::vector<Destination> &to, std::uint32_t first) {
-  for (std::uint32_t channel = first; channel < to.size(); channel += 2)
-    store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
-}
-
-// Light has no upper bound.
+// Light has no upper bound. What a float is too small for is counted, not searched, as the compiler makes
+// vectors of that.
 void check_radiance(const Row &row, const Measurement &measurement) {
   for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
-    if constexpr (std::is_same_v<decltype(values), const std::vector<float> &>)
-      if (of.row.unit == radiance_unit && !values.empty())
-        check_finite(values, row);
+    if (of.row.unit != radiance_unit || values.empty())
+      return;
+    const auto of_row = std::span(values).subspan(row.in_frame, row.pixels);
+    if (std::ranges::count_if(of_row, [](auto value) { return std::isinf(value); }) > 0)
+      throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
+                                   "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
   });
 }
 
@@ -157,7 +144,8 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
     const Row row = row_of(strip, index);
     if (truth)
       store_truth(records_for_host(buffers), row, *truth, measurement);
-    store_channels(row, strip, buffers, to, truth ? layout.first_channel(0) : 0);
+    for (std::uint32_t channel = truth ? layout.first_channel(0) : 0; channel < to.size(); channel += 2)
+      store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
     check_radiance(row, measurement);
   });
   if (!measurement.sample_pixel_id.empty())

@@ -28,10 +28,9 @@ vk::Extent2D extent_of(const PlannedStrip &planned, const std::vector<RasterBloc
 
 std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
                                      const std::vector<RasterBlock> &blocks) {
-  std::vector<vk::Extent2D> extents;
-  extents.reserve(strips.size());
-  for (const PlannedStrip &planned : strips)
-    extents.push_back(extent_of(planned, blocks));
+  std::vector<vk::Extent2D> extents(strips.size());
+  std::ranges::transform(strips, extents.begin(),
+                         [&](const PlannedStrip &planned) { return extent_of(planned, blocks); });
   return extents;
 }
 
@@ -112,19 +111,20 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device) {
 }
 
 IdRasterPass::IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-                           const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
-                           const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
-                           std::optional<RasterImages> &&previous)
-    : sensor_(sensor), blocks_(projection.blocks),
+                           const std::vector<PlannedStrip> &strips, const SceneBuffers &scene,
+                           SamplePrecision precision, const std::optional<ChipGrid> &grid,
+                           const vulkan::Buffer &id_buffer, std::optional<RasterImages> &&previous)
+    : sensor_(sensor), scene_(scene), id_buffer_(id_buffer), blocks_(projection.blocks),
       vertices_(vulkan::upload(device, std::as_bytes(std::span(projection.vertices)),
                                vk::BufferUsageFlagBits::eVertexBuffer)),
-      planes_of_blocks_(cutouts ? upload_planes(device, projection.blocks) : vulkan::Buffer()), grid_(grid),
+      planes_of_blocks_(scene.paint.cutouts ? upload_planes(device, projection.blocks) : vulkan::Buffer()),
+      grid_(grid),
       half_viewport_(0.5f * static_cast<float>(std::bit_floor(device.limits().viewport_samples))) {
   const bool by_fragments = grid && vertices_fetch_planes(projection, sensor);
   const vulkan::Specialization constants{
       {shader::constant_half_viewport, std::bit_cast<std::uint32_t>(half_viewport_)},
       {shader::constant_general_chip, grid && !grid->is_nominal()},
-      {shader::constant_cutouts, cutouts}};
+      {shader::constant_cutouts, scene.paint.cutouts}};
   const vulkan::ShaderModule &vertex =
       vulkan::shader_module(device, precision, by_fragments ? "id_raster_depth_vert" : "id_raster_vert");
   const vulkan::ShaderModule &fragment =
@@ -145,30 +145,27 @@ std::optional<RasterImages> IdRasterPass::release_images() {
   return std::exchange(images_, std::nullopt);
 }
 
-void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                          const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const {
+void IdRasterPass::record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
-  images_->begin(commands, extent, id_buffer);
-  draw(commands, planned, scene);
-  images_->end(commands, extent, id_buffer);
+  images_->begin(commands, extent);
+  draw(commands, planned);
+  images_->end(commands, extent);
   if (depths_)
-    add_depths(commands, planned, scene, id_buffer);
+    add_depths(commands, planned);
 }
 
-void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                              const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const {
+void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
   const vk::Extent2D extent = extent_of(planned, blocks_);
   const std::uint32_t fragments = extent.width * extent.height;
-  const shader::RecordDepthsConstants constants{grid_->of(planned.strip), grid_->chip(), scene.planes.words(),
-                                                id_buffer.words(),        fragments,     0};
+  const shader::RecordDepthsConstants constants{
+      grid_->of(planned.strip), grid_->chip(), scene_.planes.words(), id_buffer_.words(), fragments, 0};
   depths_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,
                          Access::eShaderStorageRead | Access::eTransferRead);
 }
 
-void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                        const SceneBuffers &scene) const {
+void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {
   const RasterBlock &block = blocks_[planned.block];
   if (block.vertex_count == 0)
     return;
@@ -177,11 +174,11 @@ void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedSt
   const std::uint32_t tiles = is_tiled(sensor_) ? planned.strip.samples : 1;
   for (std::uint32_t row = 0; row < tiles; ++row)
     for (std::uint32_t column = 0; column < tiles; ++column)
-      draw_tile(commands, planned, scene, {column, row});
+      draw_tile(commands, planned, {column, row});
 }
 
 void IdRasterPass::draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                             const SceneBuffers &scene, const glm::uvec2 &tile) const {
+                             const glm::uvec2 &tile) const {
   const shader::Strip &strip = planned.strip;
   const RasterBlock &block = blocks_[planned.block];
   const bool tiled = is_tiled(sensor_);
@@ -211,9 +208,9 @@ void IdRasterPass::draw_tile(const vk::raii::CommandBuffer &commands, const Plan
       in_block.x,
       in_block.y,
       planes_of_blocks_.words(planned.block * sizeof(shader::BlockPlane)),
-      scene.planes.words(),
-      scene.paint.shapes.words(),
-      scene.paint.surfaces.words(),
+      scene_.planes.words(),
+      scene_.paint.shapes.words(),
+      scene_.paint.surfaces.words(),
       grid.slope,
       grid.first,
       grid_ ? grid_->chip() : shader::uvec2(0)};

@@ -23,31 +23,29 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class IdRasterPass {
 public:
-  // `strips` tell how large an image is needed; `cutouts`: whether shapes may have holes; `grid`: where the
-  // samples' records are asked for; `id_buffer`: what `record` will be given; `previous`: taken where they
-  // are the same.
+  // `strips` tell how large an image is needed; `grid`: where the samples' records are asked for; `previous`:
+  // taken where they are the same. `scene` and `id_buffer` stay where they are.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
-               const std::vector<PlannedStrip> &strips, bool cutouts, SamplePrecision precision,
+               const std::vector<PlannedStrip> &strips, const SceneBuffers &scene, SamplePrecision precision,
                const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
                std::optional<RasterImages> &&previous);
 
   // Leaves the IDs of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
-  // the IDs of its block's fragments, in `id_buffer`, visible to compute shaders and transfers. Of a strip
+  // the IDs of its block's fragments, in the buffer, visible to compute shaders and transfers. Of a strip
   // that is not one of those planned, only the first row may be right.
-  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned, const SceneBuffers &scene,
-              const vulkan::Buffer &id_buffer) const;
+  void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
 
   std::optional<RasterImages> release_images();
 
 private:
-  void add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                  const SceneBuffers &scene, const vulkan::Buffer &id_buffer) const;
-  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-            const SceneBuffers &scene) const;
+  void add_depths(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
+  void draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
   void draw_tile(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
-                 const SceneBuffers &scene, const glm::uvec2 &tile) const;
+                 const glm::uvec2 &tile) const;
 
   Sensor sensor_;
+  const SceneBuffers &scene_;
+  const vulkan::Buffer &id_buffer_;
   std::vector<RasterBlock> blocks_;
   vulkan::Buffer vertices_;
   vulkan::Buffer planes_of_blocks_;               // BlockPlane of each where shapes may have holes

@@ -58,16 +58,9 @@ LensRecord lens_record(const Sensor &sensor) {
   const double nodes_per_radius =
       (shader::lens_guesses - 1.0) / std::max(1e-9, distorted_radius_of_image(sensor, lens));
   const auto [k, p] = lens.coefficients();
-  const std::array radial{DoublePair(k[0]), DoublePair(k[1]), DoublePair(k[2]), DoublePair(k[3])};
-  const DoublePair p1(p[0]), p2(p[1]);
-  return {{chip_place(sensor),
-           {radial[0].hi, radial[1].hi, radial[2].hi, radial[3].hi},
-           {radial[0].lo, radial[1].lo, radial[2].lo, radial[3].lo},
-           {p1.hi, p1.lo, p2.hi, p2.lo},
-           static_cast<float>(nodes_per_radius),
-           0,
-           0,
-           0},
+  const DoublePair4 radial(glm::dvec4(k[0], k[1], k[2], k[3]));
+  return {{chip_place(sensor), radial.hi, radial.lo, glm::vec4(float_pair(p[0]), float_pair(p[1])),
+           static_cast<float>(nodes_per_radius), 0, 0, 0},
           guesses_of(lens, nodes_per_radius)};
 }
 

@@ -60,27 +60,6 @@ void clip(Polygon &polygon, Polygon &scratch, const HalfSpace &half_space) {
   std::swap(polygon, scratch);
 }
 
-// Boxes around what is visible of consecutive triangles; how many share one follows from how many there are.
-class BoxBuilder {
-public:
-  explicit BoxBuilder(std::size_t triangles)
-      : triangles_per_box_(triangles / boxes_at_most + 1), boxes_(triangles / triangles_per_box_ + 1) {}
-
-  void add(std::size_t triangle, const Polygon &polygon) {
-    for (const glm::dvec3 &p : polygon)
-      boxes_[triangle / triangles_per_box_].add(p);
-  }
-
-  std::vector<VisibleBox> take() {
-    std::erase_if(boxes_, [](const VisibleBox &box) { return box.low_m.x > box.high_m.x; });
-    return std::move(boxes_);
-  }
-
-private:
-  std::size_t triangles_per_box_;
-  std::vector<VisibleBox> boxes_; // low above high: nothing visible
-};
-
 shader::RasterVertex raster_vertex(const glm::dvec3 &p, const RasterBlock &block, std::uint32_t triangle) {
   const glm::dvec3 h = block.raster_from_camera * p;
   const glm::dvec2 snapped = glm::roundEven(glm::dvec2(h) / h.z * grid) / grid;
@@ -88,7 +67,8 @@ shader::RasterVertex raster_vertex(const glm::dvec3 &p, const RasterBlock &block
           triangle};
 }
 
-void project_block(const CameraScene &camera, RasterBlock &block, Projection &projection, BoxBuilder &boxes) {
+void project_block(const CameraScene &camera, std::size_t triangles_per_box, RasterBlock &block,
+                   Projection &projection) {
   const Frustum frustum = frustum_of(block);
   Polygon polygon, scratch;
   block.first_vertex = static_cast<std::uint32_t>(projection.vertices.size());
@@ -99,7 +79,8 @@ void project_block(const CameraScene &camera, RasterBlock &block, Projection &pr
       clip(polygon, scratch, frustum[side]);
     if (polygon.size() < 3)
       continue;
-    boxes.add(i, polygon);
+    for (const glm::dvec3 &p : polygon)
+      projection.visible[i / triangles_per_box].add(p);
     const auto vertex = [&](std::size_t k) { return raster_vertex(polygon[k], block, triangle.id); };
     for (std::size_t k = 2; k < polygon.size(); ++k)
       projection.vertices.insert(projection.vertices.end(), {vertex(0), vertex(k - 1), vertex(k)});
@@ -121,11 +102,14 @@ void scale_depths(Projection &projection) {
 Projection project(const CameraScene &camera, std::vector<RasterBlock> blocks) {
   Projection projection;
   projection.blocks = std::move(blocks);
-  BoxBuilder boxes(camera.triangles.size());
+  // Consecutive ones share a box.
+  const std::size_t triangles_per_box = camera.triangles.size() / boxes_at_most + 1;
+  projection.visible.resize(camera.triangles.size() / triangles_per_box + 1);
   for (RasterBlock &block : projection.blocks)
-    project_block(camera, block, projection, boxes);
+    project_block(camera, triangles_per_box, block, projection);
   scale_depths(projection);
-  projection.visible = boxes.take();
+  // Those in which nothing is visible.
+  std::erase_if(projection.visible, [](const VisibleBox &box) { return box.low_m.x > box.high_m.x; });
   return projection;
 }
 

@@ -44,7 +44,7 @@ std::optional<vulkan::Image> image_in_place(const vulkan::Device &device,
 RasterImages::RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents,
                            vk::Format format, const vulkan::Buffer &id_buffer,
                            std::optional<RasterImages> &&previous)
-    : extent_(largest_of(extents)), id_format_(format) {
+    : extent_(largest_of(extents)), id_format_(format), id_buffer_(&id_buffer) {
   if (previous && previous->extent_ != extent_)
     previous.reset(); // its memory first
   depth_ = previous ? std::move(previous->depth_)
@@ -66,9 +66,8 @@ void RasterImages::leave_buffer() {
     ids_.reset();
 }
 
-void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                         const vulkan::Buffer &id_buffer) const {
-  const auto [layout, load] = begin_ids(commands, extent, id_buffer);
+void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const {
+  const auto [layout, load] = begin_ids(commands, extent);
   depth_.transition(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests,
                     Access::eDepthStencilAttachmentWrite, depth_tests,
                     Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
@@ -84,8 +83,7 @@ void RasterImages::begin(const vk::raii::CommandBuffer &commands, vk::Extent2D e
 // The layout in which the IDs are drawn, and whether they are still to be cleared. Lavapipe clears images of
 // more than 4 bytes a pixel one pixel after the other, but fills buffers.
 std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_ids(const vk::raii::CommandBuffer &commands,
-                                                                vk::Extent2D extent,
-                                                                const vulkan::Buffer &id_buffer) const {
+                                                                vk::Extent2D extent) const {
   if (!in_place_) {
     ids_->transition(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal, Stage::eTransfer, {},
                      Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
@@ -93,31 +91,29 @@ std::pair<Layout, vk::AttachmentLoadOp> RasterImages::begin_ids(const vk::raii::
   }
   ids_->transition(commands, Layout::eUndefined, Layout::eGeneral, users_of_ids, {}, Stage::eTransfer,
                    Access::eTransferWrite);
-  commands.fillBuffer(id_buffer.get(), 0,
+  commands.fillBuffer(id_buffer_->get(), 0,
                       vk::DeviceSize{extent.width} * extent.height * vk::blockSize(id_format_), 0);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eColorAttachmentOutput,
                          Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
   return {Layout::eGeneral, vk::AttachmentLoadOp::eLoad};
 }
 
-void RasterImages::end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                       const vulkan::Buffer &id_buffer) const {
+void RasterImages::end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const {
   commands.endRendering();
   if (in_place_)
     vulkan::memory_barrier(commands, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                            users_of_ids, uses_of_ids);
   else
-    copy_ids(commands, extent, id_buffer);
+    copy_ids(commands, extent);
 }
 
-void RasterImages::copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                            const vulkan::Buffer &id_buffer) const {
+void RasterImages::copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const {
   ids_->transition(commands, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
                    Access::eTransferRead);
   const vk::BufferImageCopy region(0, extent.width, extent.height, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                    {0, 0, 0}, {extent.width, extent.height, 1});
-  commands.copyImageToBuffer(ids_->get(), Layout::eTransferSrcOptimal, id_buffer.get(), region);
+  commands.copyImageToBuffer(ids_->get(), Layout::eTransferSrcOptimal, id_buffer_->get(), region);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, users_of_ids, uses_of_ids);
 }
 

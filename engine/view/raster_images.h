@@ -17,31 +17,28 @@ class RasterImages {
 public:
   static constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 
-  // Large enough for each of `extents`. `id_buffer`: the buffer; `previous`: of passes that are done with,
-  // whose memory is taken where it can be.
+  // Large enough for each of `extents`. `id_buffer`: the buffer, which stays there; `previous`: of passes
+  // that are done with, whose memory is taken where it can be.
   RasterImages(const vulkan::Device &device, const std::vector<vk::Extent2D> &extents, vk::Format id_format,
                const vulkan::Buffer &id_buffer, std::optional<RasterImages> &&previous);
 
   // Begins to draw on `extent`, where no ID is left from before and all depths are 0.
-  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-             const vulkan::Buffer &id_buffer) const;
+  void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const;
   // Ends that: the IDs are in the buffer row by row, visible to compute shaders and transfers. Of an extent
   // that is not one of those asked for, and not as wide, only the first row may be.
-  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-           const vulkan::Buffer &id_buffer) const;
+  void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const;
 
   // Before the buffer goes: only what may be taken by others stays.
   void leave_buffer();
 
 private:
   std::pair<vk::ImageLayout, vk::AttachmentLoadOp> begin_ids(const vk::raii::CommandBuffer &commands,
-                                                             vk::Extent2D extent,
-                                                             const vulkan::Buffer &id_buffer) const;
-  void copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent,
-                const vulkan::Buffer &id_buffer) const;
+                                                             vk::Extent2D extent) const;
+  void copy_ids(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const;
 
   vk::Extent2D extent_;
   vk::Format id_format_;
+  const vulkan::Buffer *id_buffer_;
   vulkan::Image depth_;
   std::optional<vulkan::Image> ids_; // nothing after leave_buffer
   bool in_place_ = false;            // the IDs lie in the buffer, and need no copy

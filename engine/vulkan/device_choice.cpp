@@ -18,18 +18,10 @@ std::string lower_case(std::string text) {
 }
 
 std::string kind_of(vk::PhysicalDeviceType type) {
-  switch (type) {
-  case vk::PhysicalDeviceType::eDiscreteGpu:
-    return "discrete GPU";
-  case vk::PhysicalDeviceType::eIntegratedGpu:
-    return "integrated GPU";
-  case vk::PhysicalDeviceType::eVirtualGpu:
-    return "virtual GPU";
-  case vk::PhysicalDeviceType::eCpu:
-    return "CPU";
-  default:
-    return "other";
-  }
+  // In Vulkan's order.
+  constexpr std::array kinds{"other", "integrated GPU", "discrete GPU", "virtual GPU", "CPU"};
+  const auto number = static_cast<std::size_t>(type);
+  return kinds[number < kinds.size() ? number : 0];
 }
 
 int preference(const DeviceInfo &device) {

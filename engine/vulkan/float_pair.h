@@ -5,13 +5,10 @@
 
 namespace pmdsim {
 
-struct DoublePair {
-  float hi;
-  float lo;
-
-  explicit DoublePair(double value)
-      : hi(static_cast<float>(value)), lo(static_cast<float>(value - static_cast<double>(hi))) {}
-};
+inline glm::vec2 float_pair(double value) {
+  const auto hi = static_cast<float>(value);
+  return {hi, static_cast<float>(value - static_cast<double>(hi))};
+}
 
 struct DoublePair4 {
   glm::vec4 hi;

@@ -14,28 +14,26 @@ namespace {
 // all.
 constexpr double height_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-TriangleBlocker blocker_of(const CameraTriangle &triangle, double origin_range_m) {
+ShapePlane plane_of(const CameraTriangle &triangle, double origin_range_m) {
   const auto &[a, b, c] = triangle.corners_m;
   const glm::dvec3 front = triangle.front();
   const double range_m = std::max({glm::length(a), glm::length(b), glm::length(c)}) + origin_range_m;
   // A needle's cross product is shorter than what it is rounded by.
   const double rounding = height_rounding * glm::length(b - a) * glm::length(c - a);
-  return {triangle.corners_m, {front, glm::dot(front, a), rounding, range_m}, triangle.cutouts};
+  return {front, glm::dot(front, a), rounding, range_m};
 }
 
-DiscBlocker blocker_of(const CameraDisc &disc, double origin_range_m) {
+ShapePlane plane_of(const CameraDisc &disc, double origin_range_m) {
   const glm::dvec3 axis = disc.axis();
-  const ShapePlane plane{axis, glm::dot(axis, disc.centre_m), height_rounding,
-                         glm::length(disc.centre_m) + origin_range_m};
-  return {disc.centre_m, disc.radius_m, plane, disc.cutouts};
+  return {axis, glm::dot(axis, disc.centre_m), height_rounding, glm::length(disc.centre_m) + origin_range_m};
 }
 
-template <class Blocker, class Shape>
-std::vector<Blocker> blockers_of(const std::vector<Shape> &shapes, double origin_range_m) {
-  std::vector<Blocker> blockers;
+template <class Shape>
+std::vector<Blocker<Shape>> blockers_of(const std::vector<Shape> &shapes, double origin_range_m) {
+  std::vector<Blocker<Shape>> blockers;
   blockers.reserve(shapes.size());
   for (const Shape &shape : shapes)
-    blockers.push_back(blocker_of(shape, origin_range_m));
+    blockers.push_back({shape, plane_of(shape, origin_range_m)});
   return blockers;
 }
 
@@ -58,19 +56,19 @@ double farthest_m(const std::vector<Place> &places) {
 
 // How much the corners count where the line between two places, on either side of the plane, meets the shape;
 // nothing where it passes beside.
-std::optional<glm::dvec3> crossing(const TriangleBlocker &triangle, const glm::dvec3 &from_m,
+std::optional<glm::dvec3> crossing(const Blocker<CameraTriangle> &triangle, const glm::dvec3 &from_m,
                                    const glm::dvec3 &to_m) {
-  const auto &[a, b, c] = triangle.corners_m;
+  const auto &[a, b, c] = triangle.shape.corners_m;
   const SeenTriangle seen(to_m - from_m, {a - from_m, b - from_m, c - from_m});
   return seen.holds_ray() ? std::optional(seen.weights()) : std::nullopt;
 }
 
-std::optional<glm::dvec3> crossing(const DiscBlocker &disc, const glm::dvec3 &from_m,
+std::optional<glm::dvec3> crossing(const Blocker<CameraDisc> &disc, const glm::dvec3 &from_m,
                                    const glm::dvec3 &to_m) {
-  const glm::dvec3 way_m = to_m - from_m, to_centre_m = disc.centre_m - from_m;
+  const glm::dvec3 way_m = to_m - from_m, to_centre_m = disc.shape.centre_m - from_m;
   const double fraction = glm::dot(disc.plane.normal, to_centre_m) / glm::dot(disc.plane.normal, way_m);
   const double from_centre_m = glm::length(fraction * way_m - to_centre_m);
-  return from_centre_m <= disc.radius_m ? std::optional(disc_weights) : std::nullopt;
+  return from_centre_m <= disc.shape.radius_m ? std::optional(disc_weights) : std::nullopt;
 }
 
 } // namespace
@@ -88,19 +86,19 @@ struct ShadowQuery {
   Place point, diode;
   std::uint32_t own_id;
 
-  template <class Blocker>
-  void ask(const Blocker &blocker, std::uint32_t id, const RTCOccludedFunctionNArguments *args) const {
+  template <class Shape>
+  void ask(const Blocker<Shape> &blocker, std::uint32_t id, const RTCOccludedFunctionNArguments *args) const {
     if (id != own_id && blocks(blocker, id))
       RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
   }
 
-  template <class Blocker>
-  bool blocks(const Blocker &blocker, std::uint32_t id) const {
+  template <class Shape>
+  bool blocks(const Blocker<Shape> &blocker, std::uint32_t id) const {
     const int point_side = blocker.plane.side_of(point);
     if (point_side == 0 || blocker.plane.side_of(diode) != -point_side)
       return false;
     const auto weights = crossing(blocker, point.position_m, diode.position_m);
-    return weights && (!blocker.cutouts || caster->is_there_(id, *weights));
+    return weights && (!blocker.shape.cutouts || caster->is_there_(id, *weights));
   }
 
   static void ask_triangle(const RTCOccludedFunctionNArguments *args) {
@@ -117,10 +115,10 @@ struct ShadowQuery {
 
 ShadowCaster::ShadowCaster(const std::vector<CameraTriangle> &triangles, const std::vector<CameraDisc> &discs,
                            const std::vector<Light> &lights, double origin_range_m, IsThere is_there)
-    : triangles_(blockers_of<TriangleBlocker>(triangles, origin_range_m)),
-      discs_(blockers_of<DiscBlocker>(discs, origin_range_m)), diodes_(positions_of(lights)),
-      is_there_(std::move(is_there)), tree_(triangles, discs, {.occluded = ShadowQuery::ask_triangle},
-                                            {.occluded = ShadowQuery::ask_disc}, farthest_m(diodes_)) {}
+    : triangles_(blockers_of(triangles, origin_range_m)), discs_(blockers_of(discs, origin_range_m)),
+      diodes_(positions_of(lights)), is_there_(std::move(is_there)),
+      tree_(triangles, discs, {.occluded = ShadowQuery::ask_triangle}, {.occluded = ShadowQuery::ask_disc},
+            farthest_m(diodes_)) {}
 
 DiodeSet ShadowCaster::reached(const SurfacePoint &point, std::uint32_t id) const {
   ShadowQuery query{};

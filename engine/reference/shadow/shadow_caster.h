@@ -5,7 +5,6 @@
 #include "engine/reference/light/light_paths.h"
 #include "engine/reference/view/shape_tree.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,17 +27,11 @@ struct ShapePlane {
   int side_of(const Place &place) const;
 };
 
-struct TriangleBlocker {
-  std::array<glm::dvec3, 3> corners_m;
+// A triangle or a disc.
+template <class Shape>
+struct Blocker {
+  Shape shape;
   ShapePlane plane;
-  bool cutouts;
-};
-
-struct DiscBlocker {
-  glm::dvec3 centre_m;
-  double radius_m;
-  ShapePlane plane;
-  bool cutouts;
 };
 
 struct ShadowQuery;
@@ -59,8 +52,8 @@ private:
   friend ShadowQuery;
   bool is_blocked(ShadowQuery &query) const;
 
-  std::vector<TriangleBlocker> triangles_;
-  std::vector<DiscBlocker> discs_;
+  std::vector<Blocker<CameraTriangle>> triangles_;
+  std::vector<Blocker<CameraDisc>> discs_;
   std::vector<Place> diodes_;
   IsThere is_there_;
   ShapeTree tree_;
