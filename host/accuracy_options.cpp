@@ -6,7 +6,6 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
-#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -18,13 +17,17 @@ const std::map<std::string, Mode> mode_names{
 const std::map<std::string, Precision> precision_names{{"fp32", Precision::fp32}, {"fp64", Precision::fp64}};
 const std::map<std::string_view, double> units_per_m{{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}};
 
-// The number that `text` begins with, and the rest.
-std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
+struct NumberAndRest {
+  double number;
+  std::string_view rest;
+};
+
+std::optional<NumberAndRest> leading_number(std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc())
     return std::nullopt;
-  return std::pair(number, text.substr(static_cast<std::size_t>(end - text.data())));
+  return NumberAndRest{number, text.substr(static_cast<std::size_t>(end - text.data()))};
 }
 
 [[noreturn]] void refuse(const std::string &message) { throw Error(ExitCode::usage, message); }
@@ -39,10 +42,10 @@ double max_error_of(const std::string &text) {
 
 double max_amplitude_error_of(const std::string &text) {
   const auto parsed = leading_number(text);
-  if (!parsed || !parsed->second.empty() || !(parsed->first > 0.0 && parsed->first <= 1.0))
+  if (!parsed || !parsed->rest.empty() || !(parsed->number > 0.0 && parsed->number <= 1.0))
     refuse("--max-amplitude-error: expected a number above 0, at most 1, e.g. 1e-3, found " +
            in_quotes(text));
-  return parsed->first;
+  return parsed->number;
 }
 
 void check_exact(const WrittenAccuracy &written, const Accuracy &accuracy, bool on_reference) {
@@ -97,10 +100,10 @@ std::optional<double> length_m(std::string_view text) {
   const auto parsed = leading_number(text);
   if (!parsed)
     return std::nullopt;
-  const auto unit = units_per_m.find(parsed->second);
+  const auto unit = units_per_m.find(parsed->rest);
   if (unit == units_per_m.end())
     return std::nullopt;
-  const double length_m = parsed->first / unit->second;
+  const double length_m = parsed->number / unit->second;
   return length_m >= min_error_m && length_m <= max_error_m ? std::optional(length_m) : std::nullopt;
 }
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <memory>
 #include <system_error>
 
 namespace pmdsim {
@@ -15,24 +14,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Removed, with all that is in it, once nobody holds its path any more.
-std::shared_ptr<const fs::path> temporary_directory() {
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  if (error)
-    throw Error(ExitCode::output,
-                fmt::format("TMPDIR: expected a directory for temporary files: {}", error.message()));
-  std::string name = (parent / "pmdsim-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw Error(ExitCode::output, fmt::format("{}: temporary directory cannot be made: {}", name,
-                                              std::generic_category().message(errno)));
-  const auto remove = [](const fs::path *path) {
-    const std::unique_ptr<const fs::path> owned(path);
+class TemporaryDirectory {
+public:
+  TemporaryDirectory() {
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    if (error)
+      throw Error(ExitCode::output,
+                  fmt::format("TMPDIR: expected a directory for temporary files: {}", error.message()));
+    std::string name = (parent / "pmdsim-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(ExitCode::output, fmt::format("{}: temporary directory cannot be made: {}", name,
+                                                std::generic_category().message(errno)));
+    path_ = name;
+  }
+  ~TemporaryDirectory() {
     std::error_code ignored;
-    fs::remove_all(*owned, ignored);
-  };
-  return {std::make_unique<fs::path>(name).release(), remove};
-}
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory &) = delete;
+  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
+
+  const fs::path &path() const { return path_; }
+
+private:
+  fs::path path_;
+};
 
 } // namespace
 
@@ -49,11 +56,11 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
   };
   for (std::size_t sensor = 0; sensor < several.start.sensors.size(); ++sensor)
     take("warming up", sensor, 0, std::nullopt);
-  const auto directory = temporary_directory();
+  const TemporaryDirectory directory;
   const auto frames_per_s = [&](const std::string &what, const std::set<Format> &formats) {
     const auto start = std::chrono::steady_clock::now();
     const Camera &camera = exposures.camera();
-    FrameSequence sequence(several, {0, frames}, *directory / "frames",
+    FrameSequence sequence(several, {0, frames}, directory.path() / "frames",
                            {"render", camera.device(), camera.driver(), request.accuracy, several.as_used});
     const auto measure = [&](const SensorFrame &at) {
       const std::string label = fmt::format("{}, {}", what, at.label);
