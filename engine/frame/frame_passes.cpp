@@ -2,6 +2,7 @@
 
 #include "engine/frame/uniform_pixels_pass.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/shadow/sweep_pass.h"
 #include "engine/shadow/tile_shadow_pass.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
@@ -91,15 +92,46 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster, Fra
 }
 
 // Which sources reach which sample. The spot check finds the frame's tiles.
-Pass shadow_pass(const Basis &on, const std::shared_ptr<const TileShadowPass> &shadow, bool makes_tiles) {
+struct ShadowPasses {
+  std::shared_ptr<const TileShadowPass> tiles;
+  std::shared_ptr<const SweepPass> sweep;
+  explicit operator bool() const { return tiles || sweep; }
+};
+
+Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) {
   return {.name = "lit",
           .reads = ids | points,
           .writes = visibility_bits | visibility_counts,
           .record = [=, &buffers = on.buffers](const Recording &at) {
+            if (shadow.sweep) {
+              shadow.sweep->record(at.commands, at.of_strip(), buffers, at.window);
+              return;
+            }
             if (at.window == 0 && makes_tiles)
-              shadow->record_tiles(at.commands, at.of_strip(), buffers);
-            shadow->record(at.commands, at.of_strip(), buffers, at.window);
+              shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
+            shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
           }};
+}
+
+// Whether no light comes from beside or before what is seen, and all that stands in it has edges.
+bool can_sweep(const FrameFacts &facts, const SourceGroups &groups, const std::vector<SourceWindow> &windows) {
+  if (getenv("PMDSIM_TILES"))
+    return false;
+  if (
+      std::ranges::any_of(facts.occluders.shapes, [](const shader::Occluder &shape) { return shape.may_be_absent != 0; }))
+    return false;
+  return std::ranges::all_of(find_boards(groups, windows), [&](const Board &board) {
+    if (!board.is_flat)
+      return false;
+    for (const VisibleBox &box : facts.projection.visible)
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? box.low_m.x : box.high_m.x, corner & 2 ? box.low_m.y : box.high_m.y,
+                           corner & 4 ? box.low_m.z : box.high_m.z);
+        if (board.in_frame(p).z > -0.01 * board.radius_m)
+          return false;
+      }
+    return true;
+  });
 }
 
 // The bits for the host.
@@ -153,7 +185,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
-                const std::shared_ptr<const TileShadowPass> &shadow, FrameGraph &graph) {
+                const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
   modulation.keeps_terms = false;
   const PassSetup setup{on.device, on.options, on.sensor, modulation, on.model, on.buffers, on.scene};
@@ -202,9 +234,13 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
       std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, strips, on.scene,
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
-  std::shared_ptr<const TileShadowPass> shadow;
-  if (on.path.windows > 0)
-    shadow =
+  ShadowPasses shadow;
+  if (on.path.windows > 0 && can_sweep(on.facts, on.plan.all, windows))
+    shadow.sweep = std::make_shared<const SweepPass>(
+        on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene, strips, is_tiled(on.sensor),
+        on.model.backscatter == shader::backscatter_flat, on.options.precision);
+  else if (on.path.windows > 0)
+    shadow.tiles =
         std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,
                                                strips, is_tiled(on.sensor), on.options.precision);
   std::optional<TruthOfRecords> truth;

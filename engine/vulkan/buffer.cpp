@@ -69,7 +69,7 @@ Buffer upload(const Device &device, std::span<const std::byte> data, vk::BufferU
     memory_barrier(recorded, Stage::eTransfer, Access::eTransferWrite,
                    Stage::eVertexAttributeInput | Stage::eVertexShader | Stage::eFragmentShader |
                        Stage::eComputeShader,
-                   Access::eVertexAttributeRead | Access::eShaderStorageRead);
+                   Access::eVertexAttributeRead | Access::eShaderStorageRead | Access::eShaderSampledRead);
     commands.submit_and_wait();
   }
   return target;

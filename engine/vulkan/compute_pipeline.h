@@ -1,10 +1,11 @@
 #pragma once
-// Shaders, specialised: as a stage of any pipeline, and compute shaders, whose whole interface is their push
-// constants (buffers go by address).
+// Shaders, specialised: as a stage of any pipeline, and compute shaders, whose interface is their push constants
+// (buffers go by address) and, where they have any, texel buffers.
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
 #include "engine/vulkan/shader_module.h"
+#include "engine/vulkan/texel_buffers.h"
 
 #include <cstdint>
 #include <memory>
@@ -33,20 +34,26 @@ private:
   vk::PipelineShaderStageCreateInfo info_;
 };
 
+// Of a shader whose workgroups are subgroups.
+struct SubgroupUse {
+  std::uint32_t texel_buffers = 0;
+  std::uint32_t size = 0; // 0: any
+};
+
 class ComputePipeline {
 public:
   ComputePipeline() = default;
   // `constants`: all that the module declares, and any others. Throws std::logic_error where one is missing.
   ComputePipeline(const Device &device, const ShaderModule &module, std::size_t push_constant_bytes,
-                  const Specialization &constants = {});
+                  const Specialization &constants = {}, const SubgroupUse &subgroups = {});
 
   // Dispatches `invocations` / `workgroup` workgroups; the former is a multiple of the latter.
   template <typename Constants>
   void dispatch(const vk::raii::CommandBuffer &commands, const Constants &constants,
-                std::uint32_t invocations, std::uint32_t workgroup) const {
+                std::uint32_t invocations, std::uint32_t workgroup, const TexelBuffers *texels = nullptr) const {
     if (invocations % workgroup != 0)
       throw std::logic_error("a dispatch does not consist of whole workgroups");
-    bind(commands, constants);
+    bind(commands, constants, texels);
     commands.dispatch(invocations / workgroup, 1, 1);
   }
 
@@ -54,17 +61,20 @@ public:
   // it.
   template <typename Constants>
   void dispatch_indirect(const vk::raii::CommandBuffer &commands, const Constants &constants,
-                         const Buffer &arguments, vk::DeviceSize offset) const {
-    bind(commands, constants);
+                         const Buffer &arguments, vk::DeviceSize offset,
+                         const TexelBuffers *texels = nullptr) const {
+    bind(commands, constants, texels);
     commands.dispatchIndirect(arguments.get(), offset);
   }
 
 private:
   template <typename Constants>
-  void bind(const vk::raii::CommandBuffer &commands, const Constants &constants) const {
+  void bind(const vk::raii::CommandBuffer &commands, const Constants &constants, const TexelBuffers *texels) const {
     if (sizeof(Constants) != push_constant_bytes_)
       throw std::logic_error("push constants do not fit their pipeline");
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *compiled_->pipeline);
+    if (texels != nullptr)
+      commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *compiled_->layout, 0, texels->get(), nullptr);
     commands.pushConstants<Constants>(*compiled_->layout, vk::ShaderStageFlagBits::eCompute, 0, constants);
   }
 

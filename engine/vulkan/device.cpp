@@ -22,12 +22,33 @@ std::optional<std::uint32_t> find_queue_family(const vk::raii::PhysicalDevice &d
   return std::nullopt;
 }
 
+// The size of the subgroups that are used: 32 where a device has a choice.
+struct Subgroups {
+  std::uint32_t size;
+  bool sized;
+};
+
+Subgroups subgroups_of(const vk::raii::PhysicalDevice &device) {
+  const auto properties = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
+                                                vk::PhysicalDeviceVulkan13Properties>();
+  const auto features = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+  const auto &of_13 = properties.get<vk::PhysicalDeviceVulkan13Properties>();
+  const bool sized = features.get<vk::PhysicalDeviceVulkan13Features>().subgroupSizeControl &&
+                     features.get<vk::PhysicalDeviceVulkan13Features>().computeFullSubgroups &&
+                     (of_13.requiredSubgroupSizeStages & vk::ShaderStageFlagBits::eCompute);
+  const std::uint32_t usual = properties.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+  return {sized ? std::clamp(std::min(usual, 32u), of_13.minSubgroupSize, of_13.maxSubgroupSize) : usual, sized};
+}
+
 Limits read_limits(const vk::raii::PhysicalDevice &device) {
+  const Subgroups subgroups = subgroups_of(device);
   const vk::PhysicalDeviceLimits limits = device.getProperties().limits;
   return {limits.maxStorageBufferRange,
           std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D}),
           std::min(limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]),
-          static_cast<double>(limits.timestampPeriod)};
+          static_cast<double>(limits.timestampPeriod),
+          subgroups.size,
+          subgroups.sized};
 }
 
 // Fragments of 512 bits crash where they meet an attachment (Mesa 22.3 swizzles for vectors of 4 or 8 floats
@@ -43,6 +64,8 @@ vk::raii::Device create(const vk::raii::PhysicalDevice &physical, std::uint32_t 
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features vulkan13;
   vulkan13.setDynamicRendering(true).setSynchronization2(true).setMaintenance4(true);
+  const bool sized = subgroups_of(physical).sized;
+  vulkan13.setSubgroupSizeControl(sized).setComputeFullSubgroups(sized);
   vk::PhysicalDeviceVulkan12Features vulkan12;
   vulkan12.setBufferDeviceAddress(true).setPNext(&vulkan13);
   vk::PhysicalDeviceFeatures2 features(vk::PhysicalDeviceFeatures().setShaderFloat64(fp64), &vulkan12);

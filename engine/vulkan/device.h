@@ -20,6 +20,8 @@ struct Limits {
   std::uint32_t raster_samples = 0;   // width and height of an attachment, at most
   std::uint32_t viewport_samples = 0; // width and height of a viewport, at most
   double timestamp_ns = 1.0;          // of one tick
+  std::uint32_t subgroup = 0;         // invocations of those that are used: 8 to 32
+  bool subgroups_sized = false;       // and a pipeline may ask for this size
 };
 
 struct Pipeline {

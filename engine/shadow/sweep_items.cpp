@@ -1,0 +1,274 @@
+#include "engine/shadow/sweep_items.h"
+
+#include "engine/view/mesh_edges.h"
+#include "engine/vulkan/float_pair.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::size_t width = shader::tree_width;
+
+// A triangle as the board sees it.
+struct BoardTriangle {
+  std::array<glm::dvec3, 3> corners_m; // board frame
+  glm::dvec3 normal;
+  double offset_m;
+  int side; // 1 where all of the board and the lens are in front, -1 where behind, 0 else
+};
+
+// Of normal . p - offset over the board's disc and the lens.
+int side_of_board(const Board &board, const glm::dvec3 &normal, double offset_m) {
+  const double reach_m = board.radius_m * std::hypot(normal.x, normal.y);
+  const double at_lens_m = normal.z * board.lens_z_m - offset_m;
+  const double at_low_m = normal.z * board.lowest_m - offset_m, at_high_m = normal.z * board.highest_m - offset_m;
+  const double least_m = std::min({at_low_m - reach_m, at_high_m - reach_m, at_lens_m});
+  const double most_m = std::max({at_low_m + reach_m, at_high_m + reach_m, at_lens_m});
+  const double margin_m = 2e-6 + 1e-6 * std::abs(offset_m);
+  return least_m > margin_m ? 1 : most_m < -margin_m ? -1 : 0;
+}
+
+glm::dvec3 corner_m(const glm::vec4 &hi, const glm::vec4 &lo) { return glm::dvec3(hi) + glm::dvec3(lo); }
+
+BoardTriangle seen_from(const Board &board, const shader::Occluder &shape) {
+  const glm::dvec3 normal = glm::normalize(board.rotation * corner_m(shape.plane_hi, shape.plane_lo));
+  BoardTriangle triangle{{board.in_frame(corner_m(shape.a_hi, shape.a_lo)), board.in_frame(corner_m(shape.b_hi, shape.b_lo)),
+                          board.in_frame(corner_m(shape.c_hi, shape.c_lo))},
+                         normal,
+                         0.0,
+                         0};
+  triangle.offset_m = glm::dot(normal, triangle.corners_m[0]);
+  triangle.side = side_of_board(board, normal, triangle.offset_m);
+  return triangle;
+}
+
+// An edge between triangles, or of one alone.
+struct Edge {
+  glm::dvec3 a_m, b_m;
+  std::uint32_t first, second; // in the triangles; no_id
+  bool same_way;               // the second runs from a to b as well
+};
+
+// Whether its triangles' sides show to all of the board as to each other, so that it is no silhouette from anywhere on it.
+bool is_never_silhouette(const Edge &edge, const std::vector<BoardTriangle> &triangles) {
+  if (edge.second == no_id)
+    return false;
+  const int first = triangles[edge.first].side, second = triangles[edge.second].side;
+  return first != 0 && first == (edge.same_way ? -second : second);
+}
+
+std::uint32_t spread_bits(std::uint32_t v) {
+  v = (v | v << 16) & 0x030000ffu;
+  v = (v | v << 8) & 0x0300f00fu;
+  v = (v | v << 4) & 0x030c30c3u;
+  return (v | v << 2) & 0x09249249u;
+}
+
+// The order of some places along a Morton curve.
+std::vector<std::uint32_t> order_by_place(const std::vector<glm::dvec3> &places_m) {
+  glm::dvec3 low_m(std::numeric_limits<double>::infinity()), high_m = -low_m;
+  for (const glm::dvec3 &place_m : places_m) {
+    low_m = glm::min(low_m, place_m);
+    high_m = glm::max(high_m, place_m);
+  }
+  const glm::dvec3 scale = 1023.0 / glm::max(high_m - low_m, glm::dvec3(1e-9));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
+  for (std::uint32_t i = 0; i < places_m.size(); ++i) {
+    const glm::uvec3 at((places_m[i] - low_m) * scale);
+    codes.emplace_back(spread_bits(at.x) | spread_bits(at.y) << 1 | spread_bits(at.z) << 2, i);
+  }
+  std::ranges::sort(codes);
+  std::vector<std::uint32_t> order;
+  for (const auto &[code, i] : codes)
+    order.push_back(i);
+  return order;
+}
+
+std::uint32_t packed_rest(const glm::dvec3 &place_m, double step) {
+  std::uint32_t packed = 0;
+  for (glm::length_t k = 0; k < 3; ++k) {
+    const double rest = place_m[k] - static_cast<double>(static_cast<float>(place_m[k]));
+    const long steps = std::clamp(std::lround(rest / step), -511l, 511l);
+    packed |= (static_cast<std::uint32_t>(steps) & 1023u) << 10 * k;
+  }
+  return packed;
+}
+
+std::uint32_t packed_side(int side) { return side > 0 ? 1u << 30 : side < 0 ? 2u << 30 : 0u; }
+
+struct ItemMaker {
+  const std::vector<BoardTriangle> &triangles;
+  const Occluders &occluders;
+  double rest_step;
+
+  void add_edge(const Edge &edge, SweepItems &to) const {
+    const BoardTriangle &first = triangles[edge.first];
+    const double turn = edge.same_way ? -1.0 : 1.0;
+    const bool is_alone = edge.second == no_id;
+    const glm::dvec3 second_normal = is_alone ? glm::dvec3(0.0) : turn * triangles[edge.second].normal;
+    const double second_offset_m = is_alone ? 0.0 : turn * triangles[edge.second].offset_m;
+    const int second_side = is_alone ? 0 : static_cast<int>(turn) * triangles[edge.second].side;
+    to.edges.items.push_back({glm::vec3(edge.a_m), occluders.shapes[edge.first].id, glm::vec3(edge.b_m),
+                        is_alone ? shader::item_boundary : occluders.shapes[edge.second].id,
+                        glm::vec3(first.normal), packed_rest(edge.a_m, rest_step) | packed_side(first.side),
+                        glm::vec3(second_normal), packed_rest(edge.b_m, rest_step) | packed_side(second_side)});
+    const DoublePair4 first_plane(first.normal, first.offset_m), second_plane(second_normal, second_offset_m);
+    to.planes.push_back({first_plane.hi, first_plane.lo, second_plane.hi, second_plane.lo});
+  }
+
+  void add_hidden(std::uint32_t triangle, SweepItems &to) const {
+    const auto &[a_m, b_m, c_m] = triangles[triangle].corners_m;
+    to.hidden.items.push_back({glm::vec3(a_m), occluders.shapes[triangle].id, glm::vec3(b_m), shader::item_hidden, glm::vec3(c_m),
+                               packed_rest(a_m, rest_step),
+                               glm::vec3(std::bit_cast<float>(packed_rest(c_m, rest_step)), 0.0f, 0.0f), packed_rest(b_m, rest_step)});
+  }
+};
+
+using ItemBox = std::array<glm::vec4, 2>;
+
+// Met by nothing.
+const ItemBox empty_box{glm::vec4(1e30f), glm::vec4(-1e30f)};
+
+void fill_up(std::vector<ItemBox> &boxes, std::size_t first) {
+  while ((boxes.size() - first) % width != 0)
+    boxes.push_back(empty_box);
+}
+
+ItemBox box_of(const SweepItem &item) {
+  ItemBox box{glm::vec4(glm::min(item.a, item.b), 0.0f), glm::vec4(glm::max(item.a, item.b), 0.0f)};
+  if (item.second == shader::item_hidden)
+    box = {glm::min(box[0], glm::vec4(item.first_normal, 0.0f)), glm::max(box[1], glm::vec4(item.first_normal, 0.0f))};
+  return box;
+}
+
+// Fills up the last cluster with items that nothing meets, and builds the tree over them.
+void build_boxes(SweepTree &to) {
+  while (to.items.size() % width != 0 || to.items.empty())
+    to.items.push_back({glm::vec3(1e30f), no_id, glm::vec3(1e30f), shader::item_boundary, glm::vec3(0.0f), 0, glm::vec3(0.0f), 0});
+
+  const auto around = [](ItemBox &box, const ItemBox &other) {
+    box[0] = glm::min(box[0], other[0]);
+    box[1] = glm::max(box[1], other[1]);
+  };
+  std::vector<ItemBox> below;
+  for (const SweepItem &item : to.items)
+    below.push_back(box_of(item));
+  for (std::size_t level = 0; level < to.level_first.size(); ++level) {
+    const std::size_t first = to.boxes.size();
+    std::vector<ItemBox> boxes;
+    for (std::size_t i = 0; i < below.size(); i += width) {
+      boxes.push_back(empty_box);
+      for (std::size_t k = i; k < std::min(i + width, below.size()); ++k)
+        around(boxes.back(), below[k]);
+    }
+    to.level_first[level] = static_cast<std::uint32_t>(first);
+    to.level_count[level] = static_cast<std::uint32_t>(boxes.size());
+    to.boxes.insert(to.boxes.end(), boxes.begin(), boxes.end());
+    fill_up(to.boxes, first);
+    below.assign(to.boxes.begin() + static_cast<std::ptrdiff_t>(first), to.boxes.end());
+  }
+}
+
+// The edges of all shapes but those that may have holes.
+std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders, const Scene &scene) {
+  std::vector<std::uint32_t> ids, index(scene.triangles.size(), no_id);
+  for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i)
+    if (const std::uint32_t id = occluders.shapes[i].id; occluders.shapes[i].may_be_absent == 0) {
+      ids.push_back(id);
+      index[id] = i;
+    }
+  const auto first_at = first_at_same_place(scene.positions_m);
+  const std::vector<WeldedEdge> sides = welded_edges(scene, ids, first_at);
+  const auto start_of = [&](const WeldedEdge &side) { return first_at[scene.triangles[side.triangle].vertices[side.side]]; };
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const WeldedEdge &side = sides[i];
+    if (side.low == side.high)
+      continue;
+    const auto &corners_m = triangles[index[side.triangle]].corners_m;
+    Edge edge{corners_m[side.side], corners_m[(side.side + 1) % 3], index[side.triangle], no_id, false};
+    if (i + 1 < sides.size() && sides[i + 1].low == side.low && sides[i + 1].high == side.high) {
+      edge.second = index[sides[i + 1].triangle];
+      edge.same_way = start_of(sides[i + 1]) == start_of(side);
+      ++i;
+    }
+    edges.push_back(edge);
+  }
+  return edges;
+}
+
+// Those that the lens does not see.
+std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const CameraScene &camera, const Scene &scene) {
+  std::vector<bool> is_hidden(scene.shape_count());
+  for (const CameraTriangle &triangle : camera.hidden)
+    is_hidden[triangle.id] = true;
+  std::vector<std::uint32_t> hidden;
+  for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i)
+    if (is_hidden[occluders.shapes[i].id])
+      hidden.push_back(i);
+  return hidden;
+}
+
+// Whether a triangle meets the flat hull of board, origin and lens, or comes near it; by boxes and the eight supports.
+bool stands_in_the_way(const Board &board, const BoardTriangle &triangle) {
+  constexpr double margin_m = 2e-5, diagonal = 0.70710678118654752;
+  const auto &[a, b, c] = triangle.corners_m;
+  if (std::max({a.z, b.z, c.z}) < board.lowest_m - margin_m || std::min({a.z, b.z, c.z}) > board.highest_m + margin_m)
+    return false;
+  const auto along = [&](const glm::dvec2 &u) {
+    return std::min({glm::dot(glm::dvec2(a), u), glm::dot(glm::dvec2(b), u), glm::dot(glm::dvec2(c), u)});
+  };
+  constexpr std::array<glm::dvec2, 8> directions{glm::dvec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {diagonal, diagonal},
+                                                 {-diagonal, -diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}};
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    if (along(directions[i]) > board.supports_m[i] + margin_m)
+      return false;
+  return true;
+}
+
+} // namespace
+
+SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene) {
+  SweepItems made;
+  std::vector<BoardTriangle> triangles;
+  triangles.reserve(occluders.shapes.size());
+  double largest_m = 0.0;
+  for (const shader::Occluder &shape : occluders.shapes) {
+    triangles.push_back(seen_from(board, shape));
+    made.stands_in_the_way = made.stands_in_the_way || stands_in_the_way(board, triangles.back());
+    for (const glm::dvec3 &corner : triangles.back().corners_m)
+      largest_m = std::max({largest_m, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+  }
+  // Half a unit in the last place of the largest coordinate takes 256 steps.
+  const double step = std::exp2(std::ceil(std::log2(std::max(largest_m, 1e-9))) - 33.0);
+  made.rest_step = static_cast<float>(step);
+  const ItemMaker maker{triangles, occluders, step};
+
+  std::vector<Edge> edges = edges_of(triangles, occluders, scene);
+  std::erase_if(edges, [&](const Edge &edge) { return is_never_silhouette(edge, triangles); });
+  std::vector<glm::dvec3> middles_m;
+  for (const Edge &edge : edges)
+    middles_m.push_back(0.5 * (edge.a_m + edge.b_m));
+  for (const std::uint32_t i : order_by_place(middles_m))
+    maker.add_edge(edges[i], made);
+  build_boxes(made.edges);
+  made.planes.resize(made.edges.items.size());
+
+  std::vector<std::uint32_t> hidden;
+  middles_m.clear();
+  for (const std::uint32_t i : hidden_shapes(occluders, camera, scene)) {
+    hidden.push_back(i);
+    middles_m.push_back((triangles[i].corners_m[0] + triangles[i].corners_m[1] + triangles[i].corners_m[2]) / 3.0);
+  }
+  made.any_hidden = !hidden.empty();
+  for (const std::uint32_t i : order_by_place(middles_m))
+    maker.add_hidden(hidden[i], made);
+  build_boxes(made.hidden);
+  return made;
+}
+
+} // namespace pmdsim

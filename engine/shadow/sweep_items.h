@@ -1,0 +1,45 @@
+#pragma once
+// The edges that may be silhouettes as seen from a board, and the implicit tree of boxes over them.
+
+#include "engine/shadow/boards.h"
+#include "engine/shadow/occluders.h"
+#include "shaders/shadow/sweep_interface.h"
+
+#include <array>
+#include <vector>
+
+namespace pmdsim {
+
+// Four texels in the shader. Places and unit normals are in the board's frame.
+struct SweepItem {
+  glm::vec3 a;
+  std::uint32_t first; // triangle along which the edge runs from a to b
+  glm::vec3 b;
+  std::uint32_t second; // the other one, or item_boundary
+  glm::vec3 first_normal;
+  std::uint32_t first_packed; // rests of a, ten bits each; bits 30, 31: 1 if all of the board is in front of the
+                              // triangle, 2 if behind
+  glm::vec3 second_normal; // turned over where it runs from a to b as well
+  std::uint32_t second_packed; // likewise of b
+};
+static_assert(sizeof(SweepItem) == 64);
+
+struct SweepTree {
+  std::vector<SweepItem> items; // whole clusters of shader::tree_width
+  std::vector<std::array<glm::vec4, 2>> boxes; // low and high, level by level, each in whole clusters
+  std::array<std::uint32_t, shader::tree_levels> level_first{}, level_count{};
+};
+
+struct SweepItems {
+  SweepTree edges;
+  std::vector<shader::SweepPlanes> planes; // beside the edges
+  SweepTree hidden; // triangles that the lens does not see and that may hide something from it all the same
+  bool any_hidden = false;
+  float rest_step = 0.0f; // of the packed rests, m
+  // A triangle comes so near the way of the light's place from the lens to a diode that it may meet it.
+  bool stands_in_the_way = false;
+};
+
+SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene);
+
+} // namespace pmdsim

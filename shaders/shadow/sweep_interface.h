@@ -1,0 +1,95 @@
+// What the host and the shaders of the sweep agree on, by the rules of interface.h.
+#ifndef PMDSIM_SWEEP_INTERFACE_H
+#define PMDSIM_SWEEP_INTERFACE_H
+
+#include "shaders/shadow/lit_interface.h"
+
+#ifdef __cplusplus
+namespace pmdsim::shader {
+#endif
+
+// Samples are taken in tiles of pixels, diodes in windows. A sample has a word for each bundle of a window's
+// diodes, a bit for each diode.
+// The tree over the items is implicit: `tree_width` items to a box, as many boxes to one above.
+PMDSIM_CONSTANT tree_width = 8;
+PMDSIM_CONSTANT tree_levels = 3;
+// The table of half-planes: a line on the board goes by the direction of its normal and its distance from the
+// centre.
+PMDSIM_CONSTANT line_directions = 512;
+PMDSIM_CONSTANT line_offsets = 256;
+
+// What t2 of an item is that is no edge between two triangles.
+PMDSIM_CONSTANT item_boundary = 0xffffffffu; // an edge of one triangle alone
+PMDSIM_CONSTANT item_hidden = 0xfffffffeu; // no edge, but a triangle that the lens does not see: a, b, and c in
+                                           // place of the normal; its packed rest in place of the other's x
+
+// A board of diodes. Board frame: its centre is the foot of the lens, z = 0 its plane, the scene lies at
+// z < 0. Lengths in m.
+struct SweepBoard {
+  vec4 rows_hi[3]; // board_from_camera: of the rotation, w of the translation
+  vec4 rows_lo[3];
+  vec4 supports_a; // of diodes, centre and lens along +x, -x, +y, -y; not negative
+  vec4 supports_b; // along (1, 1), (-1, -1), (1, -1), (-1, 1), of unit length
+  float lens_z;
+  float radius; // of all diodes about the centre
+  float rest_step; // of what rounding to float took of an item's ends
+  float highest;   // of what may lie between: the board or the lens, whichever is in front
+  uint level_first[tree_levels]; // in the boxes; level 0 is that over the items
+  uint level_count[tree_levels];
+  float line_margin;    // by which a line may be off for the table of half-planes to be right
+  float world_rounding; // what double rounding in the world's frame leaves of places
+};
+
+// The bounds of the straight ways from a tile's samples to the board: u . xy + k z <= s for eight directions u.
+struct TileShaft {
+  vec4 slopes_a, slopes_b; // k
+  vec4 sights_a, sights_b; // likewise of the ways to the lens alone
+  // Box around the samples, board frame; low > high where there is none. low.w: 1 where one of them may turn its
+  // back to a diode.
+  vec4 low, high;
+};
+
+// Lists of the sweep. What follows: for each tile the length of its list of edges and the place where it begins,
+// the same of its list of hidden triangles, then the tiles one of whose lists is not empty, then the samples that
+// have to be decided exactly.
+struct SweepWork {
+  uint tile_groups_x, tile_groups_y, tile_groups_z;          // of the sweep over active tiles
+  uint tiles;                                                // active ones
+  uint sample_groups_x, sample_groups_y, sample_groups_z;    // of the exact sweep
+  uint samples;
+  uint entries;  // of all tiles' lists
+  uint is_full;  // 1: the lists did not fit
+  uint padding_1, padding_2;
+};
+
+struct SweepConstants {
+  Strip strip;
+  uvec2 position;
+  uvec2 ids;
+  uvec2 planes;     // in: TrianglePlane[], of what the samples lie on
+  uvec2 board;      // in: SweepBoard
+  uvec2 shafts;     // TileShaft[]
+  uvec2 work;       // SweepWork and its lists
+  uvec2 entries;    // uint[], the tiles' lists of items
+  uvec2 visibility; // out
+  uvec2 exact;      // in: SweepPlanes[], of each item
+  uint capacity;    // where a tile's list may begin, below it
+  uint spare_entry; // of entries, for whatever is of no use
+  uint tiles;
+  uint plane;  // samples
+  uint diodes; // of the window
+  uint rank_bins;
+};
+
+// The planes of an edge's triangles, board frame: normal . P = offset; zero where there is none.
+struct SweepPlanes {
+  vec4 first_hi, first_lo, second_hi, second_lo;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(SweepBoard) == 16 * 11 && sizeof(TileShaft) == 96 && sizeof(SweepWork) == 48);
+static_assert(sizeof(SweepConstants) <= 128);
+} // namespace pmdsim::shader
+#endif
+
+#endif
