@@ -113,25 +113,10 @@ Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) 
           }};
 }
 
-// Whether no light comes from beside or before what is seen, and all that stands in it has edges.
-bool can_sweep(const FrameFacts &facts, const SourceGroups &groups, const std::vector<SourceWindow> &windows) {
-  if (getenv("PMDSIM_TILES"))
-    return false;
-  if (
-      std::ranges::any_of(facts.occluders.shapes, [](const shader::Occluder &shape) { return shape.may_be_absent != 0; }))
-    return false;
-  return std::ranges::all_of(find_boards(groups, windows), [&](const Board &board) {
-    if (!board.is_flat)
-      return false;
-    for (const VisibleBox &box : facts.projection.visible)
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? box.low_m.x : box.high_m.x, corner & 2 ? box.low_m.y : box.high_m.y,
-                           corner & 4 ? box.low_m.z : box.high_m.z);
-        if (board.in_frame(p).z > -0.01 * board.radius_m)
-          return false;
-      }
-    return true;
-  });
+// Whether all that stands in the light has edges.
+bool can_sweep(const FrameFacts &facts) {
+  return !getenv("PMDSIM_TILES") &&
+      std::ranges::none_of(facts.occluders.shapes, [](const shader::Occluder &shape) { return shape.may_be_absent != 0; });
 }
 
 // The bits for the host.
@@ -235,7 +220,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   ShadowPasses shadow;
-  if (on.path.windows > 0 && can_sweep(on.facts, on.plan.all, windows))
+  if (on.path.windows > 0 && can_sweep(on.facts))
     shadow.sweep = std::make_shared<const SweepPass>(
         on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene, strips, is_tiled(on.sensor),
         on.model.backscatter == shader::backscatter_flat, on.options.precision);

@@ -63,21 +63,25 @@ Board board_of_space() {
   return board;
 }
 
-void add_to(Board &board, std::size_t window, std::span<const glm::dvec3> places_m) {
+void add_support(Board &board, const glm::dvec3 &place_m) {
   constexpr double diagonal = 0.70710678118654752;
+  const double u = diagonal * (place_m.x + place_m.y), v = diagonal * (place_m.x - place_m.y);
+  const std::array along{place_m.x, -place_m.x, place_m.y, -place_m.y, u, -u, v, -v};
+  for (std::size_t i = 0; i < along.size(); ++i)
+    board.supports_m[i] = std::max(board.supports_m[i], along[i]);
+}
+
+void add_to(Board &board, std::size_t window, std::span<const glm::dvec3> places_m) {
   board.windows.push_back(window);
-  const auto add = [&](const glm::dvec3 &place_m) {
-    const double u = diagonal * (place_m.x + place_m.y), v = diagonal * (place_m.x - place_m.y);
-    const std::array along{place_m.x, -place_m.x, place_m.y, -place_m.y, u, -u, v, -v};
-    for (std::size_t i = 0; i < along.size(); ++i)
-      board.supports_m[i] = std::max(board.supports_m[i], along[i]);
-    board.radius_m = std::max(board.radius_m, std::hypot(place_m.x, place_m.y));
-    board.lowest_m = std::min(board.lowest_m, place_m.z);
-    board.highest_m = std::max(board.highest_m, place_m.z);
-  };
-  for (const glm::dvec3 &place_m : places_m)
-    add(board.in_frame(place_m));
-  add({0.0, 0.0, board.lens_z_m});
+  for (const glm::dvec3 &place_m : places_m) {
+    const glm::dvec3 place = board.in_frame(place_m);
+    add_support(board, place);
+    board.radius_m = std::max(board.radius_m, std::hypot(place.x, place.y));
+    if (board.is_flat)
+      continue;
+    board.lowest_m = std::min(board.lowest_m, place.z);
+    board.highest_m = std::max(board.highest_m, place.z);
+  }
 }
 
 } // namespace

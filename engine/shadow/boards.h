@@ -16,7 +16,7 @@ struct Board {
   bool is_flat = false;
   double lens_z_m = 0.0; // the lens is at (0, 0, lens_z_m)
   double radius_m = 0.0; // of the diodes about the origin, in x and y
-  double lowest_m = 0.0, highest_m = 0.0; // z of diodes and lens
+  double lowest_m = 0.0, highest_m = 0.0; // z of the diodes
   // Of diodes, lens and origin along (1, 0), (-1, 0), (0, 1), (0, -1), and along the diagonals (1, 1), (-1, -1),
   // (1, -1), (-1, 1) of unit length, m.
   std::array<double, 8> supports_m{};

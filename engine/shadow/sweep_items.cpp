@@ -13,13 +13,8 @@ namespace {
 
 constexpr std::size_t width = shader::tree_width;
 
-// A triangle as the board sees it.
-struct BoardTriangle {
-  std::array<glm::dvec3, 3> corners_m; // board frame
-  glm::dvec3 normal;
-  double offset_m;
-  int side; // 1 where all of the board and the lens are in front, -1 where behind, 0 else
-};
+// A diode that is no farther from a triangle touches it, m: what rounding may leave of one that a file puts there.
+constexpr double touching_m = 1e-8;
 
 // Of normal . p - offset over the board's disc and the lens.
 int side_of_board(const Board &board, const glm::dvec3 &normal, double offset_m) {
@@ -217,7 +212,8 @@ std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const Camer
 bool stands_in_the_way(const Board &board, const BoardTriangle &triangle) {
   constexpr double margin_m = 2e-5, diagonal = 0.70710678118654752;
   const auto &[a, b, c] = triangle.corners_m;
-  if (std::max({a.z, b.z, c.z}) < board.lowest_m - margin_m || std::min({a.z, b.z, c.z}) > board.highest_m + margin_m)
+  if (std::max({a.z, b.z, c.z}) < std::min(board.lowest_m, board.lens_z_m) - margin_m ||
+      std::min({a.z, b.z, c.z}) > std::max(board.highest_m, board.lens_z_m) + margin_m)
     return false;
   const auto along = [&](const glm::dvec2 &u) {
     return std::min({glm::dot(glm::dvec2(a), u), glm::dot(glm::dvec2(b), u), glm::dot(glm::dvec2(c), u)});
@@ -232,6 +228,36 @@ bool stands_in_the_way(const Board &board, const BoardTriangle &triangle) {
 
 } // namespace
 
+std::vector<shader::Piercer> find_piercers(const Board &board, const std::vector<BoardTriangle> &triangles,
+                                           const std::vector<glm::dvec3> &places_m) {
+  const glm::dvec3 lens_m(0.0, 0.0, board.lens_z_m);
+  std::vector<shader::Piercer> piercers;
+  for (const BoardTriangle &triangle : triangles) {
+    const double lens_height_m = glm::dot(triangle.normal, lens_m) - triangle.offset_m;
+    const double turn = lens_height_m < 0.0 ? -1.0 : 1.0;
+    const DoublePair4 plane(turn * triangle.normal, turn * triangle.offset_m);
+    shader::Piercer piercer{plane.hi, plane.lo, {}};
+    bool any = false;
+    const auto &[a, b, c] = triangle.corners_m;
+    for (std::size_t d = 0; d < places_m.size(); ++d) {
+      const glm::dvec3 place_m = board.in_frame(places_m[d]), way = place_m - lens_m;
+      // A triangle that touches the diode is not in its way.
+      if (turn * (glm::dot(triangle.normal, place_m) - triangle.offset_m) >= -touching_m)
+        continue;
+      const auto side = [&](const glm::dvec3 &from, const glm::dvec3 &to) {
+        return glm::dot(glm::cross(from - lens_m, to - lens_m), way) > 0.0;
+      };
+      if (side(a, b) != side(b, c) || side(b, c) != side(c, a))
+        continue;
+      piercer.diodes[d / 32] |= 1u << d % 32;
+      any = true;
+    }
+    if (any)
+      piercers.push_back(piercer);
+  }
+  return piercers;
+}
+
 SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene) {
   SweepItems made;
   std::vector<BoardTriangle> triangles;
@@ -239,7 +265,8 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
   double largest_m = 0.0;
   for (const shader::Occluder &shape : occluders.shapes) {
     triangles.push_back(seen_from(board, shape));
-    made.stands_in_the_way = made.stands_in_the_way || stands_in_the_way(board, triangles.back());
+    if (stands_in_the_way(board, triangles.back()))
+      made.in_the_way.push_back(triangles.back());
     for (const glm::dvec3 &corner : triangles.back().corners_m)
       largest_m = std::max({largest_m, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
   }

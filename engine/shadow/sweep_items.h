@@ -24,6 +24,14 @@ struct SweepItem {
 };
 static_assert(sizeof(SweepItem) == 64);
 
+// A triangle as a board sees it.
+struct BoardTriangle {
+  std::array<glm::dvec3, 3> corners_m; // board frame
+  glm::dvec3 normal;
+  double offset_m;
+  int side; // 1 where all of the board and the lens are in front, -1 where behind, 0 else
+};
+
 struct SweepTree {
   std::vector<SweepItem> items; // whole clusters of shader::tree_width
   std::vector<std::array<glm::vec4, 2>> boxes; // low and high, level by level, each in whole clusters
@@ -36,10 +44,15 @@ struct SweepItems {
   SweepTree hidden; // triangles that the lens does not see and that may hide something from it all the same
   bool any_hidden = false;
   float rest_step = 0.0f; // of the packed rests, m
-  // A triangle comes so near the way of the light's place from the lens to a diode that it may meet it.
-  bool stands_in_the_way = false;
+  // Those that come so near the way of the light's place from the lens to a diode that they may meet it.
+  std::vector<BoardTriangle> in_the_way;
 };
 
 SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene);
+
+// Of the triangles those that the straight way from the lens to a diode goes through, each with these diodes.
+// `places_m` as places_of() gives them.
+std::vector<shader::Piercer> find_piercers(const Board &board, const std::vector<BoardTriangle> &triangles,
+                                           const std::vector<glm::dvec3> &places_m);
 
 } // namespace pmdsim

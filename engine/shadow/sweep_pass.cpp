@@ -57,9 +57,12 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
   record.lens_z = static_cast<float>(board.lens_z_m);
   record.radius = static_cast<float>(board.radius_m);
   record.rest_step = items.rest_step;
-  record.highest = static_cast<float>(board.highest_m);
+  record.highest = static_cast<float>(std::max(board.highest_m, board.lens_z_m));
+  record.diodes_low = static_cast<float>(board.lowest_m);
+  record.diodes_high = static_cast<float>(board.highest_m);
   std::ranges::copy(tree.level_first, record.level_first);
   std::ranges::copy(tree.level_count, record.level_count);
+  record.nearest = static_cast<float>(std::min(board.lowest_m, board.lens_z_m) - 0.01 * board.radius_m - 1e-4);
   record.line_margin = static_cast<float>(0.5 * line_margin_m(board));
   record.world_rounding = static_cast<float>(world_rounding_m);
   return record;
@@ -70,13 +73,14 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
 struct SweepPass::State {
   // A board on the device.
   struct BoardBuffers {
-    Buffer record, items, boxes, planes;
-    Buffer hidden_record, hidden_items, hidden_boxes;
+    Buffer items, boxes, planes;
+    Buffer hidden_items, hidden_boxes;
     bool any_hidden;
   };
 
   // A window on the device.
   struct WindowBuffers {
+    Buffer record, hidden_record, piercers; // the board's, with the window's piercers
     Buffer ranks, prefixes, lines, diodes, bits;
     vulkan::TexelBuffers texels, hidden_texels;
     std::size_t board;
@@ -101,7 +105,7 @@ struct SweepPass::State {
             buffers.position.words(),
             buffers.ids.words(),
             planes->words(),
-            board.record.words(),
+            of.record.words(),
             shafts.words(),
             work.words(),
             entries.words(),
@@ -146,16 +150,24 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
     const Board &board = boards[b];
     const SweepItems items = sweep_items(board, occluders, camera, scene);
     most_items = std::max({most_items, items.edges.items.size(), items.hidden.items.size()});
-    const shader::SweepBoard record = board_record(board, items, items.edges, buffers.world_rounding_m);
-    const shader::SweepBoard hidden_record = board_record(board, items, items.hidden, buffers.world_rounding_m);
-    state.boards.push_back({vulkan::upload(device, std::as_bytes(std::span(&record, 1))), upload_texels(device, items.edges.items),
-                            upload_texels(device, items.edges.boxes), vulkan::upload(device, items.planes),
-                            vulkan::upload(device, std::as_bytes(std::span(&hidden_record, 1))), upload_texels(device, items.hidden.items),
+    state.boards.push_back({upload_texels(device, items.edges.items), upload_texels(device, items.edges.boxes),
+                            vulkan::upload(device, items.planes), upload_texels(device, items.hidden.items),
                             upload_texels(device, items.hidden.boxes), items.any_hidden});
     constants.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
     for (const std::size_t window : board.windows) {
       const SweepTables tables = sweep_tables(board, places_of(windows[window], groups));
       auto &of = state.of_window[window];
+      const std::vector<shader::Piercer> piercers = find_piercers(board, items.in_the_way, places_of(windows[window], groups));
+      of.piercers = vulkan::upload(device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
+      const auto record_of = [&](const SweepTree &tree) {
+        shader::SweepBoard record = board_record(board, items, tree, buffers.world_rounding_m);
+        record.piercers = of.piercers.words();
+        record.piercer_count = static_cast<std::uint32_t>(piercers.size());
+        return vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
+      };
+      of.record = record_of(items.edges);
+      of.hidden_record = record_of(items.hidden);
+      constants.set(shader::constant_exact_only, !board.is_flat || !items.in_the_way.empty());
       of.ranks = upload_texels(device, tables.ranks);
       of.prefixes = upload_texels(device, tables.prefixes);
       of.lines = upload_texels(device, tables.lines);
@@ -245,7 +257,7 @@ void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::St
     const auto list = [&](const vulkan::ComputePipeline &how, bool hidden) {
       shader::SweepConstants of_kind = constants;
       if (hidden)
-        of_kind.board = board.hidden_record.words();
+        of_kind.board = of.hidden_record.words();
       how.dispatch(commands, of_kind, groups * state.lanes, state.lanes, hidden ? &of.hidden_texels : &of.texels);
       vulkan::compute_barrier(commands);
     };

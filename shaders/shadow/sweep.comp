@@ -12,6 +12,7 @@ layout(local_size_x_id = constant_lanes) in;
 layout(constant_id = constant_bundles) const uint bundles = bundles_per_window;
 layout(constant_id = constant_lens_apart) const uint lens_apart = 0; // from the board's plane
 layout(constant_id = constant_all_facing) const uint all_facing = 0;
+layout(constant_id = constant_exact_only) const uint exact_only = 0; // every sample is left to sweep_exact.comp
 
 const uint most_items = 512; // of a segment
 const uint most_steps = 30000; // of loops: lavapipe ends them after 65,535 without a word
@@ -158,13 +159,13 @@ void main() {
   [[unroll]] for (uint w = 0; w < bundles; ++w)
     [[unroll]] for (uint p = 0; p < planes_of_bits; ++p)
       counts[w][p] = 0u;
-  bool unclear = sees && depth < 1e-4 * board.radius; // beside the board or behind it
+  bool unclear = sees && (exact_only != 0 || !is_in_front(point, board));
   vec3 to_lens = vec3(-point.xy, board.lens_z + depth), to_centre = vec3(-point.xy, depth);
   vec3 lens_plane = cross(to_lens, to_centre); // only where they are apart
   uint base = 0u; // of all diodes, two's complement
-  uint length = lists.list[length_at(list_edges, tile)], first = lists.list[place_at(list_edges, tile)];
+  uint length = exact_only != 0 ? 0u : lists.list[length_at(list_edges, tile)], first = lists.list[place_at(list_edges, tile)];
   uint steps = 0u; // of all loops
-  if (sees && is_perhaps_hidden(lists, tile, to_lens))
+  if (exact_only == 0 && sees && is_perhaps_hidden(lists, tile, to_lens))
     unclear = true;
   for (uint segment = 0; segment < length; segment += most_items) {
     // Of the tile's items those that may matter here, an invocation an item.

@@ -60,7 +60,7 @@ vec4 along_diagonals(vec2 p) {
 
 // Slopes k of the half-spaces u . xy + k z <= s that hold the ways from a sample at p to the board.
 void slopes_of(vec3 p, SweepBoard board, out vec4 a, out vec4 b) {
-  float inverse_depth = -1.0 / p.z;
+  float inverse_depth = 1.0 / max(-p.z, 1e-6);
   a = (along_axes(p.xy) - board.supports_a) * inverse_depth;
   b = (along_diagonals(p.xy) - board.supports_b) * inverse_depth;
 }
@@ -77,15 +77,29 @@ Ways ways_of(vec4 slopes_a, vec4 slopes_b, vec3 low, vec3 high, SweepBoard board
   Ways ways;
   ways.slopes_a = slopes_a + shaft_slack_m;
   ways.slopes_b = slopes_b + shaft_slack_m;
-  // The lens, which may stand before the board or behind it.
-  ways.supports_a = max(board.supports_a, ways.slopes_a * board.lens_z) + shaft_slack_m;
-  ways.supports_b = max(board.supports_b, ways.slopes_b * board.lens_z) + shaft_slack_m;
+  // Diodes and lens may stand before the board or behind it.
+  ways.supports_a = max(board.supports_a + max(ways.slopes_a * board.diodes_low, ways.slopes_a * board.diodes_high),
+                        ways.slopes_a * board.lens_z) + shaft_slack_m;
+  ways.supports_b = max(board.supports_b + max(ways.slopes_b * board.diodes_low, ways.slopes_b * board.diodes_high),
+                        ways.slopes_b * board.lens_z) + shaft_slack_m;
   ways.centre = 0.5 * (low + high);
   ways.half_size = max(0.5 * (high - low), vec3(0.0)) + 1e-6 * (abs(low) + abs(high)) + shaft_slack_m;
   ways.farthest = low.z - shaft_slack_m;
   ways.highest = board.highest + shaft_slack_m;
   return ways;
 }
+
+// The same where nothing can be left out.
+Ways ways_anywhere(vec3 low, vec3 high, SweepBoard board) {
+  Ways ways = ways_of(vec4(0.0), vec4(0.0), low, high, board);
+  ways.supports_a = ways.supports_b = vec4(1e30);
+  ways.farthest = -1e30;
+  ways.highest = 1e30;
+  return ways;
+}
+
+// Whether a sample is in front of the board, so that slopes from there are of use.
+bool is_in_front(vec3 p, SweepBoard board) { return p.z < board.nearest; }
 
 bool may_meet_box(Ways ways, vec3 low, vec3 high) {
   bool between = high.z > ways.farthest && low.z < ways.highest;
@@ -145,11 +159,12 @@ struct Sights {
   vec4 slopes_a, slopes_b;
   vec3 low, high; // box of the samples
   float lens_z;
+  float anywhere; // added to the sides where nothing can be left out
 };
 
 Sights sights_of(vec4 slopes_a, vec4 slopes_b, vec3 low, vec3 high, float lens_z) {
   vec3 slack = 1e-6 * (abs(low) + abs(high)) + shaft_slack_m;
-  return Sights(slopes_a + shaft_slack_m, slopes_b + shaft_slack_m, low - slack, high + slack, lens_z);
+  return Sights(slopes_a + shaft_slack_m, slopes_b + shaft_slack_m, low - slack, high + slack, lens_z, 0.0);
 }
 
 bool may_cross(Sights sights, vec3 low, vec3 high) {
@@ -158,7 +173,8 @@ bool may_cross(Sights sights, vec3 low, vec3 high) {
   vec4 b = diagonal * vec4(low.x + low.y, -high.x - high.y, low.x - high.y, low.y - high.x) +
            min(sights.slopes_b * z_low, sights.slopes_b * z_high);
   vec4 outside = max(a, b);
-  return high.z > sights.low.z && low.z < sights.lens_z && max(max(outside.x, outside.y), max(outside.z, outside.w)) < shaft_slack_m;
+  bool between = high.z > sights.low.z && low.z < sights.lens_z;
+  return (between || sights.anywhere > 0.0) && max(max(outside.x, outside.y), max(outside.z, outside.w)) < shaft_slack_m + sights.anywhere;
 }
 
 // Whether a hidden triangle may lie between lens and samples: it turns its back to the lens, so a sample must be in front of it.

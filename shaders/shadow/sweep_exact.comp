@@ -5,6 +5,7 @@
 #include "shaders/shadow/sweep.glsl"
 #include "shaders/shadow/sweep_weight.glsl"
 
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Piercers { Piercer at[]; };
 layout(local_size_x_id = constant_lanes) in;
 
 const uint most_items = 512; // of a segment
@@ -110,12 +111,20 @@ void main() {
   Real3 point = in_board_frame(load_position(constants.position, at.i), board);
   vec4 slopes_a, slopes_b;
   slopes_of(high3(point), board, slopes_a, slopes_b);
-  Ways ways = ways_of(slopes_a, slopes_b, high3(point), high3(point), board);
+  Ways ways = ways_anywhere(high3(point), high3(point), board);
+  if (is_in_front(high3(point), board))
+    ways = ways_of(slopes_a, slopes_b, high3(point), high3(point), board);
   Real3 lens = subtract3(Real3(real(0.0), real(0.0), real(board.lens_z)), point);
 
   int hidden = count_hidden(lists, tile, point, lens, board);
   for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x)
     surfaces[d] = hidden;
+  for (uint i = 0; i < board.piercer_count; ++i) {
+    Piercer piercer = Piercers(board.piercers).at[i];
+    int side = exact_side(piercer.plane_hi, piercer.plane_lo, point, plane_rounding(piercer.plane_hi, point, board));
+    for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x)
+      surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
+  }
   uint length = lists.list[length_at(list_edges, tile)], first = lists.list[place_at(list_edges, tile)];
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);

@@ -33,9 +33,14 @@ struct SweepBoard {
   float lens_z;
   float radius; // of all diodes about the centre
   float rest_step; // of what rounding to float took of an item's ends
-  float highest;   // of what may lie between: the board or the lens, whichever is in front
+  float highest;   // z of diodes and lens, at most
+  float diodes_low, diodes_high; // z of the diodes
+  float padding_1, padding_2;
   uint level_first[tree_levels]; // in the boxes; level 0 is that over the items
   uint level_count[tree_levels];
+  uvec2 piercers; // Piercer[]: triangles that the straight ways from lens to diodes go through
+  uint piercer_count;
+  float nearest;        // z below which samples are in front of the board
   float line_margin;    // by which a line may be off for the table of half-planes to be right
   float world_rounding; // what double rounding in the world's frame leaves of places
 };
@@ -45,7 +50,7 @@ struct TileShaft {
   vec4 slopes_a, slopes_b; // k
   vec4 sights_a, sights_b; // likewise of the ways to the lens alone
   // Box around the samples, board frame; low > high where there is none. low.w: 1 where one of them may turn its
-  // back to a diode.
+  // back to a diode. high.w: 1 where not all of them are in front of the board: nothing is left out then.
   vec4 low, high;
 };
 
@@ -86,8 +91,15 @@ struct SweepPlanes {
   vec4 first_hi, first_lo, second_hi, second_lo;
 };
 
+// A triangle that the way from the lens to some diodes of a window goes through, board frame: there the light's
+// place comes from one side of it to the other.
+struct Piercer {
+  vec4 plane_hi, plane_lo; // normal . P = offset, the lens in front
+  uint diodes[bundles_per_window]; // a bit each
+};
+
 #ifdef __cplusplus
-static_assert(sizeof(SweepBoard) == 16 * 11 && sizeof(TileShaft) == 96 && sizeof(SweepWork) == 48);
+static_assert(sizeof(SweepBoard) == 16 * 13 && sizeof(TileShaft) == 96 && sizeof(SweepWork) == 48);
 static_assert(sizeof(SweepConstants) <= 128);
 } // namespace pmdsim::shader
 #endif

@@ -33,8 +33,13 @@ struct Outlook {
   Sights sights;
 };
 
-Outlook outlook_of(vec4 slopes_a, vec4 slopes_b, vec4 sights_a, vec4 sights_b, vec3 low, vec3 high, SweepBoard board) {
-  return Outlook(ways_of(slopes_a, slopes_b, low, high, board), sights_of(sights_a, sights_b, low, high, board.lens_z));
+Outlook outlook_of(TileShaft shaft, SweepBoard board) {
+  Sights sights = sights_of(shaft.sights_a, shaft.sights_b, shaft.low.xyz, shaft.high.xyz, board.lens_z);
+  if (shaft.high.w == 0.0)
+    return Outlook(ways_of(shaft.slopes_a, shaft.slopes_b, shaft.low.xyz, shaft.high.xyz, board), sights);
+  sights.slopes_a = sights.slopes_b = vec4(0.0);
+  sights.anywhere = 1e30;
+  return Outlook(ways_anywhere(shaft.low.xyz, shaft.high.xyz, board), sights);
 }
 
 bool meets_box(Outlook of, uint level_first, uint box) {
@@ -73,12 +78,14 @@ void main() {
   bool is_there = tile < constants.tiles;
   TileShaft shaft = Shafts(constants.shafts).at[is_there ? tile : 0u];
   if (!is_there)
-    shaft = TileShaft(vec4(-1e9), vec4(-1e9), vec4(-1e9), vec4(-1e9), vec4(1e9), vec4(-1e9));
-  Outlook own = outlook_of(shaft.slopes_a, shaft.slopes_b, shaft.sights_a, shaft.sights_b, shaft.low.xyz, shaft.high.xyz, board);
-  Outlook all = outlook_of(subgroupMax(shaft.slopes_a), subgroupMax(shaft.slopes_b), subgroupMax(shaft.sights_a), subgroupMax(shaft.sights_b),
-                           subgroupMin(shaft.low.xyz), subgroupMax(shaft.high.xyz), board);
-  if (shaft.low.x > shaft.high.x) // nothing is seen
-    own.ways.farthest = own.sights.low.z = 1e9;
+    shaft = TileShaft(vec4(-1e9), vec4(-1e9), vec4(-1e9), vec4(-1e9), vec4(1e9, 1e9, 1e9, 0.0), vec4(-1e9, -1e9, -1e9, 0.0));
+  Outlook own = outlook_of(shaft, board);
+  Outlook all = outlook_of(TileShaft(subgroupMax(shaft.slopes_a), subgroupMax(shaft.slopes_b), subgroupMax(shaft.sights_a),
+                                     subgroupMax(shaft.sights_b), subgroupMin(shaft.low), subgroupMax(shaft.high)), board);
+  if (shaft.low.x > shaft.high.x) { // nothing is seen
+    own.ways.farthest = own.sights.low.z = 1e30;
+    own.sights.anywhere = 0.0;
+  }
   listed = 0u;
   SweepLists lists = SweepLists(constants.work);
   first_entry = is_first == 0 && is_there ? lists.list[place_at(lists_hidden, tile)] : 0u;

@@ -19,7 +19,7 @@ void main() {
   SweepBoard board = Boards(constants.board).at;
   vec4 slopes_a = vec4(-1e9), slopes_b = vec4(-1e9), sights_a = vec4(-1e9), sights_b = vec4(-1e9);
   vec3 low = vec3(1e9), high = vec3(-1e9);
-  bool turns_away = false;
+  bool turns_away = false, in_front = true;
   for (uint within = 0; within < tile_samples; ++within) {
     TileSample at = tile_sample(constants.strip, min(tile, constants.tiles - 1u), within);
     Real3 position = load_position(constants.position, at.i);
@@ -29,6 +29,7 @@ void main() {
     slopes_of(p, board, a, b);
     slopes_a = sees ? max(slopes_a, a) : slopes_a;
     slopes_b = sees ? max(slopes_b, b) : slopes_b;
+    in_front = in_front && (!sees || is_in_front(p, board));
     float inverse_depth = 1.0 / (board.lens_z - p.z);
     sights_a = sees ? max(sights_a, along_axes(p.xy) * inverse_depth) : sights_a;
     sights_b = sees ? max(sights_b, along_diagonals(p.xy) * inverse_depth) : sights_b;
@@ -38,5 +39,5 @@ void main() {
     high = sees ? max(high, p) : high;
   }
   if (tile < constants.tiles)
-    Shafts(constants.shafts).at[tile] = TileShaft(slopes_a, slopes_b, sights_a, sights_b, vec4(low, turns_away ? 1.0 : 0.0), vec4(high, 0.0));
+    Shafts(constants.shafts).at[tile] = TileShaft(slopes_a, slopes_b, sights_a, sights_b, vec4(low, turns_away ? 1.0 : 0.0), vec4(high, in_front ? 0.0 : 1.0));
 }

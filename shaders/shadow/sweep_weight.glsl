@@ -21,11 +21,14 @@ int weight_of(int side, uint board_side) {
 
 const float own_rounding = 2.3e-13; // as in occlusion.glsl: a pair of floats holds 48 bits
 
+float plane_rounding(vec4 plane, Real3 p, SweepBoard board) {
+  return own_rounding * (dot(abs(high3(p)), vec3(1.0)) + abs(plane.w)) + board.world_rounding;
+}
+
 // The weight of an edge that has to be decided exactly.
 int exact_weight(uint index, uint sides_1, uint sides_2, bool is_boundary, Real3 p, SweepBoard board) {
   SweepPlanes planes = ExactPlanes(constants.exact).at[index];
-  vec3 size = abs(high3(p));
-  float rounding = own_rounding * (size.x + size.y + size.z + abs(planes.first_hi.w)) + board.world_rounding;
+  float rounding = plane_rounding(planes.first_hi, p, board);
   int first = weight_of(exact_side(planes.first_hi, planes.first_lo, p, rounding), sides_1);
   int second = weight_of(exact_side(planes.second_hi, planes.second_lo, p, rounding), sides_2);
   return is_boundary ? -first : second - first;
