@@ -116,7 +116,8 @@ Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) 
 // Whether all that stands in the light has edges.
 bool can_sweep(const FrameFacts &facts) {
   return !getenv("PMDSIM_TILES") &&
-      std::ranges::none_of(facts.occluders.shapes, [](const shader::Occluder &shape) { return shape.may_be_absent != 0; });
+         std::ranges::none_of(facts.occluders.shapes,
+                              [](const shader::Occluder &shape) { return shape.may_be_absent != 0; });
 }
 
 // The bits for the host.
@@ -222,8 +223,8 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   ShadowPasses shadow;
   if (on.path.windows > 0 && can_sweep(on.facts))
     shadow.sweep = std::make_shared<const SweepPass>(
-        on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene, strips, is_tiled(on.sensor),
-        on.model.backscatter == shader::backscatter_flat, on.options.precision);
+        on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene,
+        strips, is_tiled(on.sensor), on.model.backscatter == shader::backscatter_flat, on.options.precision);
   else if (on.path.windows > 0)
     shadow.tiles =
         std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,

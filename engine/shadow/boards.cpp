@@ -8,8 +8,8 @@
 namespace pmdsim {
 namespace {
 
-// How far a diode may lie from the plane of its board. Boards are built to a tenth of a millimetre, but files hold
-// them as planes, off by no more than rounding.
+// How far a diode may lie from the plane of its board. Boards are built to a tenth of a millimetre, but files
+// hold them as planes, off by no more than rounding.
 constexpr double flatness_m = 1e-9;
 
 // The plane normal . p = offset of some places.
@@ -31,7 +31,9 @@ std::optional<FlatPlane> plane_of(std::span<const glm::dvec3> places_m) {
     return across;
   const auto distance = [&](const glm::dvec3 &place_m) { return glm::distance(place_m, first_m); };
   const glm::dvec3 along = glm::normalize(*std::ranges::max_element(places_m, {}, distance) - first_m);
-  const auto beside = [&](const glm::dvec3 &place_m) { return glm::length(glm::cross(along, place_m - first_m)); };
+  const auto beside = [&](const glm::dvec3 &place_m) {
+    return glm::length(glm::cross(along, place_m - first_m));
+  };
   const glm::dvec3 &farthest_m = *std::ranges::max_element(places_m, {}, beside);
   glm::dvec3 normal = glm::cross(along, farthest_m - first_m);
   if (beside(farthest_m) <= flatness_m)

@@ -8,17 +8,17 @@
 
 namespace pmdsim {
 
-// A plane of diodes. Board frame: z = 0 is the plane, its origin the foot of the lens; the scene lies at z < 0.
-// Windows whose diodes lie in no plane have a frame of the lens, and `is_flat` is false.
+// A plane of diodes. Board frame: z = 0 is the plane, its origin the foot of the lens; the scene lies at z <
+// 0. Windows whose diodes lie in no plane have a frame of the lens, and `is_flat` is false.
 struct Board {
   glm::dmat3 rotation{1.0}; // board_from_camera: p -> rotation * p + translation_m
   glm::dvec3 translation_m{0.0};
   bool is_flat = false;
-  double lens_z_m = 0.0; // the lens is at (0, 0, lens_z_m)
-  double radius_m = 0.0; // of the diodes about the origin, in x and y
+  double lens_z_m = 0.0;                  // the lens is at (0, 0, lens_z_m)
+  double radius_m = 1e-3;                 // of the diodes about the origin, in x and y; a millimetre at least
   double lowest_m = 0.0, highest_m = 0.0; // z of the diodes
-  // Of diodes, lens and origin along (1, 0), (-1, 0), (0, 1), (0, -1), and along the diagonals (1, 1), (-1, -1),
-  // (1, -1), (-1, 1) of unit length, m.
+  // Of diodes, lens and origin along (1, 0), (-1, 0), (0, 1), (0, -1), and along the diagonals (1, 1), (-1,
+  // -1), (1, -1), (-1, 1) of unit length, m.
   std::array<double, 8> supports_m{};
   std::vector<std::size_t> windows;
 
@@ -28,8 +28,8 @@ struct Board {
 // Every window is on one board.
 std::vector<Board> find_boards(const SourceGroups &groups, const std::vector<SourceWindow> &windows);
 
-// The places of a window's diodes in the order of its bits, 32 to a bundle; where there are fewer in a bundle, the
-// last one again. Camera frame, m.
+// The places of a window's diodes in the order of its bits, 32 to a bundle; where there are fewer in a
+// bundle, the last one again. Camera frame, m.
 std::vector<glm::dvec3> places_of(const SourceWindow &window, const SourceGroups &groups);
 
 } // namespace pmdsim

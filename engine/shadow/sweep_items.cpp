@@ -13,14 +13,16 @@ namespace {
 
 constexpr std::size_t width = shader::tree_width;
 
-// A diode that is no farther from a triangle touches it, m: what rounding may leave of one that a file puts there.
+// A diode that is no farther from a triangle touches it, m: what rounding may leave of one that a file puts
+// there.
 constexpr double touching_m = 1e-8;
 
 // Of normal . p - offset over the board's disc and the lens.
 int side_of_board(const Board &board, const glm::dvec3 &normal, double offset_m) {
   const double reach_m = board.radius_m * std::hypot(normal.x, normal.y);
   const double at_lens_m = normal.z * board.lens_z_m - offset_m;
-  const double at_low_m = normal.z * board.lowest_m - offset_m, at_high_m = normal.z * board.highest_m - offset_m;
+  const double at_low_m = normal.z * board.lowest_m - offset_m,
+               at_high_m = normal.z * board.highest_m - offset_m;
   const double least_m = std::min({at_low_m - reach_m, at_high_m - reach_m, at_lens_m});
   const double most_m = std::max({at_low_m + reach_m, at_high_m + reach_m, at_lens_m});
   const double margin_m = 2e-6 + 1e-6 * std::abs(offset_m);
@@ -31,7 +33,8 @@ glm::dvec3 corner_m(const glm::vec4 &hi, const glm::vec4 &lo) { return glm::dvec
 
 BoardTriangle seen_from(const Board &board, const shader::Occluder &shape) {
   const glm::dvec3 normal = glm::normalize(board.rotation * corner_m(shape.plane_hi, shape.plane_lo));
-  BoardTriangle triangle{{board.in_frame(corner_m(shape.a_hi, shape.a_lo)), board.in_frame(corner_m(shape.b_hi, shape.b_lo)),
+  BoardTriangle triangle{{board.in_frame(corner_m(shape.a_hi, shape.a_lo)),
+                          board.in_frame(corner_m(shape.b_hi, shape.b_lo)),
                           board.in_frame(corner_m(shape.c_hi, shape.c_lo))},
                          normal,
                          0.0,
@@ -48,7 +51,8 @@ struct Edge {
   bool same_way;               // the second runs from a to b as well
 };
 
-// Whether its triangles' sides show to all of the board as to each other, so that it is no silhouette from anywhere on it.
+// Whether its triangles' sides show to all of the board as to each other, so that it is no silhouette from
+// anywhere on it.
 bool is_never_silhouette(const Edge &edge, const std::vector<BoardTriangle> &triangles) {
   if (edge.second == no_id)
     return false;
@@ -86,7 +90,7 @@ std::vector<std::uint32_t> order_by_place(const std::vector<glm::dvec3> &places_
 std::uint32_t packed_rest(const glm::dvec3 &place_m, double step) {
   std::uint32_t packed = 0;
   for (glm::length_t k = 0; k < 3; ++k) {
-    const double rest = place_m[k] - static_cast<double>(static_cast<float>(place_m[k]));
+    const double rest = static_cast<double>(float_pair(place_m[k]).y);
     const long steps = std::clamp(std::lround(rest / step), -511l, 511l);
     packed |= (static_cast<std::uint32_t>(steps) & 1023u) << 10 * k;
   }
@@ -107,19 +111,21 @@ struct ItemMaker {
     const glm::dvec3 second_normal = is_alone ? glm::dvec3(0.0) : turn * triangles[edge.second].normal;
     const double second_offset_m = is_alone ? 0.0 : turn * triangles[edge.second].offset_m;
     const int second_side = is_alone ? 0 : static_cast<int>(turn) * triangles[edge.second].side;
-    to.edges.items.push_back({glm::vec3(edge.a_m), occluders.shapes[edge.first].id, glm::vec3(edge.b_m),
-                        is_alone ? shader::item_boundary : occluders.shapes[edge.second].id,
-                        glm::vec3(first.normal), packed_rest(edge.a_m, rest_step) | packed_side(first.side),
-                        glm::vec3(second_normal), packed_rest(edge.b_m, rest_step) | packed_side(second_side)});
+    to.edges.items.push_back(
+        {glm::vec3(edge.a_m), occluders.shapes[edge.first].id, glm::vec3(edge.b_m),
+         is_alone ? shader::item_boundary : occluders.shapes[edge.second].id, glm::vec3(first.normal),
+         packed_rest(edge.a_m, rest_step) | packed_side(first.side), glm::vec3(second_normal),
+         packed_rest(edge.b_m, rest_step) | packed_side(second_side)});
     const DoublePair4 first_plane(first.normal, first.offset_m), second_plane(second_normal, second_offset_m);
     to.planes.push_back({first_plane.hi, first_plane.lo, second_plane.hi, second_plane.lo});
   }
 
   void add_hidden(std::uint32_t triangle, SweepItems &to) const {
     const auto &[a_m, b_m, c_m] = triangles[triangle].corners_m;
-    to.hidden.items.push_back({glm::vec3(a_m), occluders.shapes[triangle].id, glm::vec3(b_m), shader::item_hidden, glm::vec3(c_m),
-                               packed_rest(a_m, rest_step),
-                               glm::vec3(std::bit_cast<float>(packed_rest(c_m, rest_step)), 0.0f, 0.0f), packed_rest(b_m, rest_step)});
+    to.hidden.items.push_back({glm::vec3(a_m), occluders.shapes[triangle].id, glm::vec3(b_m),
+                               shader::item_hidden, glm::vec3(c_m), packed_rest(a_m, rest_step),
+                               glm::vec3(std::bit_cast<float>(packed_rest(c_m, rest_step)), 0.0f, 0.0f),
+                               packed_rest(b_m, rest_step)});
   }
 };
 
@@ -136,14 +142,16 @@ void fill_up(std::vector<ItemBox> &boxes, std::size_t first) {
 ItemBox box_of(const SweepItem &item) {
   ItemBox box{glm::vec4(glm::min(item.a, item.b), 0.0f), glm::vec4(glm::max(item.a, item.b), 0.0f)};
   if (item.second == shader::item_hidden)
-    box = {glm::min(box[0], glm::vec4(item.first_normal, 0.0f)), glm::max(box[1], glm::vec4(item.first_normal, 0.0f))};
+    box = {glm::min(box[0], glm::vec4(item.first_normal, 0.0f)),
+           glm::max(box[1], glm::vec4(item.first_normal, 0.0f))};
   return box;
 }
 
 // Fills up the last cluster with items that nothing meets, and builds the tree over them.
 void build_boxes(SweepTree &to) {
   while (to.items.size() % width != 0 || to.items.empty())
-    to.items.push_back({glm::vec3(1e30f), no_id, glm::vec3(1e30f), shader::item_boundary, glm::vec3(0.0f), 0, glm::vec3(0.0f), 0});
+    to.items.push_back({glm::vec3(1e30f), no_id, glm::vec3(1e30f), shader::item_boundary, glm::vec3(0.0f), 0,
+                        glm::vec3(0.0f), 0});
 
   const auto around = [](ItemBox &box, const ItemBox &other) {
     box[0] = glm::min(box[0], other[0]);
@@ -169,7 +177,8 @@ void build_boxes(SweepTree &to) {
 }
 
 // The edges of all shapes but those that may have holes.
-std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders, const Scene &scene) {
+std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders,
+                           const Scene &scene) {
   std::vector<std::uint32_t> ids, index(scene.triangles.size(), no_id);
   for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i)
     if (const std::uint32_t id = occluders.shapes[i].id; occluders.shapes[i].may_be_absent == 0) {
@@ -178,7 +187,9 @@ std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Oc
     }
   const auto first_at = first_at_same_place(scene.positions_m);
   const std::vector<WeldedEdge> sides = welded_edges(scene, ids, first_at);
-  const auto start_of = [&](const WeldedEdge &side) { return first_at[scene.triangles[side.triangle].vertices[side.side]]; };
+  const auto start_of = [&](const WeldedEdge &side) {
+    return first_at[scene.triangles[side.triangle].vertices[side.side]];
+  };
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const WeldedEdge &side = sides[i];
@@ -197,7 +208,8 @@ std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Oc
 }
 
 // Those that the lens does not see.
-std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const CameraScene &camera, const Scene &scene) {
+std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const CameraScene &camera,
+                                         const Scene &scene) {
   std::vector<bool> is_hidden(scene.shape_count());
   for (const CameraTriangle &triangle : camera.hidden)
     is_hidden[triangle.id] = true;
@@ -208,7 +220,8 @@ std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const Camer
   return hidden;
 }
 
-// Whether a triangle meets the flat hull of board, origin and lens, or comes near it; by boxes and the eight supports.
+// Whether a triangle meets the flat hull of board, origin and lens, or comes near it; by boxes and the eight
+// supports.
 bool stands_in_the_way(const Board &board, const BoardTriangle &triangle) {
   constexpr double margin_m = 2e-5, diagonal = 0.70710678118654752;
   const auto &[a, b, c] = triangle.corners_m;
@@ -218,8 +231,14 @@ bool stands_in_the_way(const Board &board, const BoardTriangle &triangle) {
   const auto along = [&](const glm::dvec2 &u) {
     return std::min({glm::dot(glm::dvec2(a), u), glm::dot(glm::dvec2(b), u), glm::dot(glm::dvec2(c), u)});
   };
-  constexpr std::array<glm::dvec2, 8> directions{glm::dvec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {diagonal, diagonal},
-                                                 {-diagonal, -diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}};
+  constexpr std::array<glm::dvec2, 8> directions{glm::dvec2{1, 0},
+                                                 {-1, 0},
+                                                 {0, 1},
+                                                 {0, -1},
+                                                 {diagonal, diagonal},
+                                                 {-diagonal, -diagonal},
+                                                 {diagonal, -diagonal},
+                                                 {-diagonal, diagonal}};
   for (std::size_t i = 0; i < directions.size(); ++i)
     if (along(directions[i]) > board.supports_m[i] + margin_m)
       return false;
@@ -258,7 +277,8 @@ std::vector<shader::Piercer> find_piercers(const Board &board, const std::vector
   return piercers;
 }
 
-SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene) {
+SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera,
+                       const Scene &scene) {
   SweepItems made;
   std::vector<BoardTriangle> triangles;
   triangles.reserve(occluders.shapes.size());
@@ -289,7 +309,8 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
   middles_m.clear();
   for (const std::uint32_t i : hidden_shapes(occluders, camera, scene)) {
     hidden.push_back(i);
-    middles_m.push_back((triangles[i].corners_m[0] + triangles[i].corners_m[1] + triangles[i].corners_m[2]) / 3.0);
+    middles_m.push_back((triangles[i].corners_m[0] + triangles[i].corners_m[1] + triangles[i].corners_m[2]) /
+                        3.0);
   }
   made.any_hidden = !hidden.empty();
   for (const std::uint32_t i : order_by_place(middles_m))

@@ -17,9 +17,9 @@ struct SweepItem {
   glm::vec3 b;
   std::uint32_t second; // the other one, or item_boundary
   glm::vec3 first_normal;
-  std::uint32_t first_packed; // rests of a, ten bits each; bits 30, 31: 1 if all of the board is in front of the
-                              // triangle, 2 if behind
-  glm::vec3 second_normal; // turned over where it runs from a to b as well
+  std::uint32_t first_packed;  // rests of a, ten bits each; bits 30, 31: 1 if all of the board is in front of
+                               // the triangle, 2 if behind
+  glm::vec3 second_normal;     // turned over where it runs from a to b as well
   std::uint32_t second_packed; // likewise of b
 };
 static_assert(sizeof(SweepItem) == 64);
@@ -33,7 +33,7 @@ struct BoardTriangle {
 };
 
 struct SweepTree {
-  std::vector<SweepItem> items; // whole clusters of shader::tree_width
+  std::vector<SweepItem> items;                // whole clusters of shader::tree_width
   std::vector<std::array<glm::vec4, 2>> boxes; // low and high, level by level, each in whole clusters
   std::array<std::uint32_t, shader::tree_levels> level_first{}, level_count{};
 };
@@ -48,7 +48,8 @@ struct SweepItems {
   std::vector<BoardTriangle> in_the_way;
 };
 
-SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera, const Scene &scene);
+SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera,
+                       const Scene &scene);
 
 // Of the triangles those that the straight way from the lens to a diode goes through, each with these diodes.
 // `places_m` as places_of() gives them.

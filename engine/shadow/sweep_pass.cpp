@@ -18,7 +18,9 @@ namespace {
 
 using vulkan::Buffer;
 
-std::uint32_t tiles_across(std::uint32_t pixels) { return (pixels + shader::tile_side - 1) / shader::tile_side; }
+std::uint32_t tiles_across(std::uint32_t pixels) {
+  return (pixels + shader::tile_side - 1) / shader::tile_side;
+}
 
 std::uint32_t tile_count(const shader::Strip &strip) {
   return tiles_across(strip.columns) * tiles_across(strip.rows) * strip.samples * strip.samples;
@@ -40,10 +42,12 @@ Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::Buf
 
 template <class T>
 Buffer upload_texels(const vulkan::Device &device, const std::vector<T> &texels) {
-  return vulkan::upload(device, std::as_bytes(std::span(texels)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+  return vulkan::upload(device, std::as_bytes(std::span(texels)),
+                        vk::BufferUsageFlagBits::eUniformTexelBuffer);
 }
 
-shader::SweepBoard board_record(const Board &board, const SweepItems &items, const SweepTree &tree, double world_rounding_m) {
+shader::SweepBoard board_record(const Board &board, const SweepItems &items, const SweepTree &tree,
+                                double world_rounding_m) {
   shader::SweepBoard record{};
   for (glm::length_t row = 0; row < 3; ++row) {
     const DoublePair4 pair(glm::row(board.rotation, row), board.translation_m[row]);
@@ -62,7 +66,8 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
   record.diodes_high = static_cast<float>(board.highest_m);
   std::ranges::copy(tree.level_first, record.level_first);
   std::ranges::copy(tree.level_count, record.level_count);
-  record.nearest = static_cast<float>(std::min(board.lowest_m, board.lens_z_m) - 0.01 * board.radius_m - 1e-4);
+  record.nearest =
+      static_cast<float>(std::min(board.lowest_m, board.lens_z_m) - 0.01 * board.radius_m - 1e-4);
   record.line_margin = static_cast<float>(0.5 * line_margin_m(board));
   record.world_rounding = static_cast<float>(world_rounding_m);
   return record;
@@ -98,7 +103,8 @@ struct SweepPass::State {
   std::uint32_t spare_entry = 0;
   vulkan::Buffer const *planes = nullptr;
 
-  shader::SweepConstants constants(const shader::Strip &strip, const StripBuffers &buffers, std::size_t window) const {
+  shader::SweepConstants constants(const shader::Strip &strip, const StripBuffers &buffers,
+                                   std::size_t window) const {
     const WindowBuffers &of = of_window[window];
     const BoardBuffers &board = boards[of.board];
     return {strip,
@@ -123,13 +129,16 @@ struct SweepPass::State {
 SweepPass::~SweepPass() {
   if (getenv("SWEEP_DEBUG") && state_->work.is_mapped()) {
     const auto *w = reinterpret_cast<const shader::SweepWork *>(state_->work.mapped().data());
-    fprintf(stderr, "sweep: active tiles %u samples %u entries %u full %u; items %zu hidden %zu\n", w->tiles, w->samples, w->entries, w->is_full, state_->boards[0].items.bytes() / 64, state_->boards[0].hidden_items.bytes() / 64);
+    fprintf(stderr, "sweep: active tiles %u samples %u entries %u full %u; items %zu hidden %zu\n", w->tiles,
+            w->samples, w->entries, w->is_full, state_->boards[0].items.bytes() / 64,
+            state_->boards[0].hidden_items.bytes() / 64);
   }
 }
 
-SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
-                     const SourceGroups &groups, const std::vector<SourceWindow> &windows, const SceneBuffers &buffers,
-                     std::span<const PlannedStrip> strips, bool tiled, bool all_facing, SamplePrecision precision)
+SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera,
+                     const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                     const SceneBuffers &buffers, std::span<const PlannedStrip> strips, bool tiled,
+                     bool all_facing, SamplePrecision precision)
     : state_(std::make_unique<State>()) {
   State &state = *state_;
   state.windows = windows;
@@ -150,14 +159,16 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
     const Board &board = boards[b];
     const SweepItems items = sweep_items(board, occluders, camera, scene);
     most_items = std::max({most_items, items.edges.items.size(), items.hidden.items.size()});
-    state.boards.push_back({upload_texels(device, items.edges.items), upload_texels(device, items.edges.boxes),
-                            vulkan::upload(device, items.planes), upload_texels(device, items.hidden.items),
+    state.boards.push_back({upload_texels(device, items.edges.items),
+                            upload_texels(device, items.edges.boxes), vulkan::upload(device, items.planes),
+                            upload_texels(device, items.hidden.items),
                             upload_texels(device, items.hidden.boxes), items.any_hidden});
     constants.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
     for (const std::size_t window : board.windows) {
       const SweepTables tables = sweep_tables(board, places_of(windows[window], groups));
       auto &of = state.of_window[window];
-      const std::vector<shader::Piercer> piercers = find_piercers(board, items.in_the_way, places_of(windows[window], groups));
+      const std::vector<shader::Piercer> piercers =
+          find_piercers(board, items.in_the_way, places_of(windows[window], groups));
       of.piercers = vulkan::upload(device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
       const auto record_of = [&](const SweepTree &tree) {
         shader::SweepBoard record = board_record(board, items, tree, buffers.world_rounding_m);
@@ -188,7 +199,8 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
       };
       of.texels = bind(state.boards[b].items, state.boards[b].boxes);
       of.hidden_texels = bind(state.boards[b].hidden_items, state.boards[b].hidden_boxes);
-      constants.set(shader::constant_bundles, windows[window].bundles).set(shader::constant_is_first, window == 0);
+      constants.set(shader::constant_bundles, windows[window].bundles)
+          .set(shader::constant_is_first, window == 0);
       of.sweep = pipeline("sweep", sizeof(shader::SweepConstants), texel_buffers);
       of.exact = pipeline("sweep_exact", sizeof(shader::SweepConstants), texel_buffers);
       of.count = pipeline("lit_count", sizeof(shader::LitCountConstants), 0);
@@ -205,8 +217,9 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
   state.write_hidden = lists(false, true);
   const vk::DeviceSize tiles = largest_tile_count(strips);
   state.shafts = sweep_storage(device, tiles * sizeof(shader::TileShaft));
-  state.work = sweep_storage(device, sizeof(shader::SweepWork) + (5 + shader::tile_samples) * tiles * sizeof(std::uint32_t),
-                       vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst);
+  state.work = sweep_storage(
+      device, sizeof(shader::SweepWork) + (5 + shader::tile_samples) * tiles * sizeof(std::uint32_t),
+      vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst);
   state.spare_entry = static_cast<std::uint32_t>(list_capacity + most_items);
   state.entries = sweep_storage(device, (vk::DeviceSize{state.spare_entry} + 1) * sizeof(std::uint32_t));
 }
@@ -229,9 +242,12 @@ void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::St
         Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
   };
   const int stop = getenv("STOP") ? atoi(getenv("STOP")) : 9;
-  if (stop < 1) return;
+  if (stop < 1)
+    return;
   before_transfer();
-  commands.fillBuffer(buffers.visibility.get(), 0, vk::DeviceSize{state.windows[window].bundles} * constants.plane * sizeof(std::uint32_t), ~0u);
+  commands.fillBuffer(buffers.visibility.get(), 0,
+                      vk::DeviceSize{state.windows[window].bundles} * constants.plane * sizeof(std::uint32_t),
+                      ~0u);
   if (of.first_of_board) {
     shader::SweepWork nothing{};
     nothing.tile_groups_x = shader::tile_samples / state.lanes;
@@ -239,26 +255,34 @@ void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::St
     nothing.tile_groups_z = nothing.sample_groups_z = 1;
     commands.updateBuffer<shader::SweepWork>(state.work.get(), 0, nothing);
     if (!board.any_hidden)
-      commands.fillBuffer(state.work.get(), sizeof(nothing) + 2 * vk::DeviceSize{constants.tiles} * sizeof(std::uint32_t),
+      commands.fillBuffer(state.work.get(),
+                          sizeof(nothing) + 2 * vk::DeviceSize{constants.tiles} * sizeof(std::uint32_t),
                           vk::DeviceSize{constants.tiles} * sizeof(std::uint32_t), 0);
   } else {
     const std::array<std::uint32_t, 4> no_samples{1, 0, 1, 0};
-    commands.updateBuffer<std::uint32_t>(state.work.get(), offsetof(shader::SweepWork, sample_groups_x), no_samples);
+    commands.updateBuffer<std::uint32_t>(state.work.get(), offsetof(shader::SweepWork, sample_groups_x),
+                                         no_samples);
   }
   after_transfer();
-  if (stop < 2) return;
+  if (stop < 2)
+    return;
   if (of.first_of_board) {
-    state.find_shafts.dispatch(commands, constants, padded(constants.tiles), shader::workgroup_size, &of.texels);
+    state.find_shafts.dispatch(commands, constants, padded(constants.tiles), shader::workgroup_size,
+                               &of.texels);
     vulkan::compute_barrier(commands);
-    if (stop < 3) return;
+    if (stop < 3)
+      return;
     // Tiles four beside each other; some groups at the strip's rims are not full.
     const std::uint32_t high = state.lanes / 4;
-    const std::uint32_t groups = ((tiles_across(strip.columns) + 3) / 4) * ((tiles_across(strip.rows) + high - 1) / high) * strip.samples * strip.samples;
+    const std::uint32_t groups = ((tiles_across(strip.columns) + 3) / 4) *
+                                 ((tiles_across(strip.rows) + high - 1) / high) * strip.samples *
+                                 strip.samples;
     const auto list = [&](const vulkan::ComputePipeline &how, bool hidden) {
       shader::SweepConstants of_kind = constants;
       if (hidden)
         of_kind.board = of.hidden_record.words();
-      how.dispatch(commands, of_kind, groups * state.lanes, state.lanes, hidden ? &of.hidden_texels : &of.texels);
+      how.dispatch(commands, of_kind, groups * state.lanes, state.lanes,
+                   hidden ? &of.hidden_texels : &of.texels);
       vulkan::compute_barrier(commands);
     };
     if (board.any_hidden) {
@@ -268,14 +292,20 @@ void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::St
     list(state.count_lists, false);
     list(state.write_lists, false);
   }
-  if (stop < 4) return;
-  of.sweep.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, tile_groups_x), &of.texels);
+  if (stop < 4)
+    return;
+  of.sweep.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, tile_groups_x),
+                             &of.texels);
   vulkan::compute_barrier(commands);
-  if (stop < 5) return;
-  of.exact.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, sample_groups_x), &of.texels);
+  if (stop < 5)
+    return;
+  of.exact.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, sample_groups_x),
+                             &of.texels);
   vulkan::compute_barrier(commands);
-  if (stop < 6) return;
-  const shader::LitCountConstants count{buffers.visibility.words(), of.bits.words(), buffers.lit.words(), constants.plane};
+  if (stop < 6)
+    return;
+  const shader::LitCountConstants count{buffers.visibility.words(), of.bits.words(), buffers.lit.words(),
+                                        constants.plane};
   of.count.dispatch(commands, count, constants.plane, shader::workgroup_size);
 }
 

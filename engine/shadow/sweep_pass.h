@@ -1,6 +1,6 @@
 #pragma once
-// The shadow pass: which diodes reach which sample, by the silhouettes that the light's place crosses on its way from
-// the lens to a diode (docs/theory.md).
+// The shadow pass: which diodes reach which sample, by the silhouettes that the light's place crosses on its
+// way from the lens to a diode (docs/theory.md).
 
 #include "engine/light/source_windows.h"
 #include "engine/sampling/strip_memory.h"
@@ -19,14 +19,14 @@ class SweepPass {
 public:
   // `tiled`: the IDs lie in tiles (shaders/shared/interface.h). Throws Error (out_of_memory).
   SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera,
-            const Scene &scene, const SourceGroups &groups,
-            const std::vector<SourceWindow> &windows, const SceneBuffers &buffers, std::span<const PlannedStrip> strips,
-            bool tiled, bool all_facing, SamplePrecision precision);
+            const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+            const SceneBuffers &buffers, std::span<const PlannedStrip> strips, bool tiled, bool all_facing,
+            SamplePrecision precision);
   ~SweepPass();
 
   // Leaves the window's bits in buffers.visibility and adds its diodes to buffers.lit.
-  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, const StripBuffers &buffers,
-              std::size_t window) const;
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+              const StripBuffers &buffers, std::size_t window) const;
 
 private:
   struct State;

@@ -66,7 +66,8 @@ std::size_t bins_for(const std::vector<AngleClass> &classes) {
 
 std::vector<uvec4> rank_table(const std::vector<AngleClass> &classes) {
   const std::size_t bins = bins_for(classes);
-  std::vector<uvec4> table(bins, uvec4(0, std::bit_cast<std::uint32_t>(8.0f), std::bit_cast<std::uint32_t>(8.0f), 0));
+  std::vector<uvec4> table(
+      bins, uvec4(0, std::bit_cast<std::uint32_t>(8.0f), std::bit_cast<std::uint32_t>(8.0f), 0));
   std::size_t next = 0;
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const std::uint32_t base = next > 0 ? classes[next - 1].after : 0;
@@ -135,10 +136,14 @@ void add_direction(const DirectionBin &bin, const Board &board, const std::vecto
   for (std::size_t d = 0; d < diodes_m.size(); ++d) {
     const glm::dvec2 place = diodes_m[d] / board.radius_m;
     // How far along a normal of this bin it lies.
-    const double along = glm::dot(place, bin.middle), across = std::abs(place.x * bin.middle.y - place.y * bin.middle.x);
-    const double spread = across * std::sin(bin.half_angle_rad) + (1.0 - std::cos(bin.half_angle_rad)) * std::abs(along) + slack;
+    const double along = glm::dot(place, bin.middle),
+                 across = std::abs(place.x * bin.middle.y - place.y * bin.middle.x);
+    const double spread = across * std::sin(bin.half_angle_rad) +
+                          (1.0 - std::cos(bin.half_angle_rad)) * std::abs(along) + slack;
     const double first = cell_of(along - spread), last = cell_of(along + spread);
-    const auto cell = [](double at) { return static_cast<std::size_t>(std::clamp(at, 0.0, shader::line_offsets - 1.0)); };
+    const auto cell = [](double at) {
+      return static_cast<std::size_t>(std::clamp(at, 0.0, shader::line_offsets - 1.0));
+    };
     // The cell `first` lies in holds offsets above `along`, too; the one after `last` holds none below.
     for (std::size_t i = cell(std::floor(first)); i <= cell(std::floor(last)); ++i)
       set(perhaps[i], d);

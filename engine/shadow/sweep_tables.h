@@ -1,6 +1,6 @@
 #pragma once
-// What the sweep looks up about a window's diodes on a flat board: which of them lie within an angle, and beyond a
-// line.
+// What the sweep looks up about a window's diodes on a flat board: which of them lie within an angle, and
+// beyond a line.
 
 #include "engine/shadow/boards.h"
 #include "shaders/shadow/sweep_interface.h"
@@ -10,10 +10,10 @@
 namespace pmdsim {
 
 struct SweepTables {
-  std::vector<shader::uvec4> ranks;    // of each bin of angles: three ranks of 10 bits, the angles between them
+  std::vector<shader::uvec4> ranks; // of each bin of angles: three ranks of 10 bits, the angles between them
   std::vector<shader::uvec4> prefixes; // of each rank, two: the diodes of smaller angles, a bit each
-  std::vector<shader::uvec4> lines;    // of each direction and offset, four: pairs of surely beyond and perhaps
-  std::vector<shader::vec4> diodes;    // two of each: x, y, their rests; z, its rest. Board frame, m
+  std::vector<shader::uvec4> lines; // of each direction and offset, four: pairs of surely beyond and perhaps
+  std::vector<shader::vec4> diodes; // two of each: x, y, their rests; z, its rest. Board frame, m
 };
 
 // By which a line on the board may be off for `lines` to be right, m.

@@ -1,6 +1,6 @@
 #pragma once
-// Shaders, specialised: as a stage of any pipeline, and compute shaders, whose interface is their push constants
-// (buffers go by address) and, where they have any, texel buffers.
+// Shaders, specialised: as a stage of any pipeline, and compute shaders, whose interface is their push
+// constants (buffers go by address) and, where they have any, texel buffers.
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
@@ -50,7 +50,8 @@ public:
   // Dispatches `invocations` / `workgroup` workgroups; the former is a multiple of the latter.
   template <typename Constants>
   void dispatch(const vk::raii::CommandBuffer &commands, const Constants &constants,
-                std::uint32_t invocations, std::uint32_t workgroup, const TexelBuffers *texels = nullptr) const {
+                std::uint32_t invocations, std::uint32_t workgroup,
+                const TexelBuffers *texels = nullptr) const {
     if (invocations % workgroup != 0)
       throw std::logic_error("a dispatch does not consist of whole workgroups");
     bind(commands, constants, texels);
@@ -69,12 +70,14 @@ public:
 
 private:
   template <typename Constants>
-  void bind(const vk::raii::CommandBuffer &commands, const Constants &constants, const TexelBuffers *texels) const {
+  void bind(const vk::raii::CommandBuffer &commands, const Constants &constants,
+            const TexelBuffers *texels) const {
     if (sizeof(Constants) != push_constant_bytes_)
       throw std::logic_error("push constants do not fit their pipeline");
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *compiled_->pipeline);
     if (texels != nullptr)
-      commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *compiled_->layout, 0, texels->get(), nullptr);
+      commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *compiled_->layout, 0, texels->get(),
+                                  nullptr);
     commands.pushConstants<Constants>(*compiled_->layout, vk::ShaderStageFlagBits::eCompute, 0, constants);
   }
 

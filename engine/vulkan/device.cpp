@@ -29,15 +29,18 @@ struct Subgroups {
 };
 
 Subgroups subgroups_of(const vk::raii::PhysicalDevice &device) {
-  const auto properties = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
-                                                vk::PhysicalDeviceVulkan13Properties>();
-  const auto features = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+  const auto properties =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
+                            vk::PhysicalDeviceVulkan13Properties>();
+  const auto features =
+      device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
   const auto &of_13 = properties.get<vk::PhysicalDeviceVulkan13Properties>();
   const bool sized = features.get<vk::PhysicalDeviceVulkan13Features>().subgroupSizeControl &&
                      features.get<vk::PhysicalDeviceVulkan13Features>().computeFullSubgroups &&
                      (of_13.requiredSubgroupSizeStages & vk::ShaderStageFlagBits::eCompute);
   const std::uint32_t usual = properties.get<vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
-  return {sized ? std::clamp(std::min(usual, 32u), of_13.minSubgroupSize, of_13.maxSubgroupSize) : usual, sized};
+  return {sized ? std::clamp(std::min(usual, 32u), of_13.minSubgroupSize, of_13.maxSubgroupSize) : usual,
+          sized};
 }
 
 Limits read_limits(const vk::raii::PhysicalDevice &device) {

@@ -21,7 +21,8 @@ vk::raii::DescriptorSetLayout texel_layout(const Device &device, std::uint32_t c
 class TexelBuffers {
 public:
   TexelBuffers() = default;
-  // The buffers outlive it. Throws Error (out_of_memory) where one has more texels than the device can address.
+  // The buffers outlive it. Throws Error (out_of_memory) where one has more texels than the device can
+  // address.
   TexelBuffers(const Device &device, std::initializer_list<TexelView> buffers);
 
   vk::DescriptorSet get() const { return *set_; }

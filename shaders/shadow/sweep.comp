@@ -43,7 +43,7 @@ void count_diodes(uint mask[bundles], bool doubled, uint negative) {
 
 // An angle's measure that grows with it, 0 to 4.
 float turn_of(vec2 q) {
-  float t = q.y / (abs(q.x) + abs(q.y));
+  float t = q.y / max(abs(q.x) + abs(q.y), 1e-30);
   return q.x < 0.0 ? 2.0 - t : q.y < 0.0 ? 4.0 + t : t;
 }
 

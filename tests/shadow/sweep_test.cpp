@@ -1,0 +1,172 @@
+// The sweep of the light's place from the lens to the diodes, over boards of every kind, against the
+// reference.
+
+#include "engine/shadow/boards.h"
+#include "tests/comparison/visibility_comparison.h"
+#include "tests/support/random_cameras.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/simulator.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// Places in the camera's frame.
+using Places = std::vector<glm::dvec3>;
+
+// Three rings across the view around (0, 0, z).
+Places rings(double z_m, std::size_t count) {
+  Places places_m;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle =
+        2.0 * std::numbers::pi * (static_cast<double>(i / 3) + 0.5) / static_cast<double>(count / 3);
+    const double radius_m = 0.06 + 0.04 * static_cast<double>(i % 3);
+    places_m.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), z_m);
+  }
+  return places_m;
+}
+
+Places moved(Places places_m, const glm::dmat3 &rotation, const glm::dvec3 &by_m) {
+  for (glm::dvec3 &place_m : places_m)
+    place_m = rotation * place_m + by_m;
+  return places_m;
+}
+
+glm::dmat3 tilt(double rad) {
+  return glm::dmat3(glm::rotate(glm::dmat4(1.0), rad, glm::dvec3(0.3, 1.0, 0.1)));
+}
+
+Places bar(std::size_t count) {
+  Places places_m;
+  for (std::size_t i = 0; i < count; ++i)
+    places_m.emplace_back(-0.15 + 0.3 * static_cast<double>(i) / static_cast<double>(count - 1), 0.0, 0.0);
+  return places_m;
+}
+
+// On a part of a sphere about a place in front of the lens.
+Places dome(std::size_t count) {
+  Places places_m = rings(0.0, count);
+  for (glm::dvec3 &place_m : places_m)
+    place_m.z = 1.0 - std::sqrt(1.0 - place_m.x * place_m.x - place_m.y * place_m.y);
+  return places_m;
+}
+
+struct BoardCase {
+  std::string name;
+  std::vector<Places> boards;
+};
+
+std::vector<BoardCase> board_cases() {
+  return {{"around the lens", {rings(0.0, 48)}},
+          {"5 mm behind the lens", {rings(-0.005, 48)}},
+          {"20 mm before the lens", {rings(0.02, 48)}},
+          {"tilted", {moved(rings(0.0, 48), tilt(0.4), {})}},
+          {"tilted and beside the lens", {moved(rings(0.0, 48), tilt(-0.5), {0.4, 0.1, -0.02})}},
+          {"far beside the lens", {moved(rings(0.0, 48), glm::dmat3(1.0), {1.5, 0.0, 0.0})}},
+          {"two boards",
+           {moved(rings(0.0, 24), glm::dmat3(1.0), {-0.3, 0.0, 0.0}),
+            moved(rings(0.0, 24), tilt(0.3), {0.3, 0.0, 0.0})}},
+          {"a bar through the lens", {bar(40)}},
+          {"one diode in the lens", {{glm::dvec3(0.0)}}},
+          {"one diode beside it", {{glm::dvec3(0.05, 0.02, 0.0)}}},
+          {"a dome", {dome(48)}},
+          {"more diodes than a window has", {rings(0.0, 600)}}};
+}
+
+std::vector<Illuminator> illuminators_of(const BoardCase &board_case, const Sensor &sensor) {
+  std::vector<Illuminator> illuminators;
+  for (const Places &places_m : board_case.boards) {
+    illuminators.push_back({board_case.name, sensor.world_from_camera, {}});
+    for (const glm::dvec3 &place_m : places_m) {
+      Diode diode;
+      diode.position_m = place_m;
+      illuminators.back().diodes.push_back(diode);
+    }
+  }
+  return illuminators;
+}
+
+Sensor camera(std::uint32_t seed, std::uint32_t pixels) {
+  Random random(seed);
+  Sensor sensor;
+  sensor.resolution = {pixels, pixels};
+  sensor.pixel_pitch_m = glm::dvec2(0.02 / pixels);
+  sensor.focal_length_m = 0.02;
+  sensor.world_from_camera = random.pose(3.0);
+  return sensor;
+}
+
+void check_boards(std::uint32_t seed, std::uint32_t pixels) {
+  fmt::print("{}", reached_heading());
+  for (const BoardCase &board_case : board_cases()) {
+    INFO(board_case.name);
+    const Sensor sensor = camera(seed, pixels);
+    Random random(seed + 1);
+    const Scene scene = random_triangles(random, 300, sensor.world_from_camera);
+    const auto illuminators = illuminators_of(board_case, sensor);
+    Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
+    simulator.prepare(scene, sensor, illuminators, Backscatter::lambert, Shadows::automatic);
+    const ReachedComparison reached = compare_reached(
+        simulator.measure(),
+        reference::simulate(scene, sensor, illuminators, Backscatter::lambert, {Shadows::automatic, true}),
+        scene, sensor, illuminators);
+    fmt::print("{}", reached_row(board_case.name, reached));
+    CHECK(reached.clear_of_all == 0);
+    CHECK(reached.differing_fraction() <= 1e-4);
+    CHECK(reached.lit_error <= 1e-6);
+    CHECK(reached.pairs > 0);
+    CHECK(reached.reached < reached.pairs);
+  }
+}
+
+Board board_of(const Places &places_m) {
+  CameraIlluminator light;
+  for (const glm::dvec3 &place_m : places_m) {
+    Diode diode;
+    diode.position_m = place_m;
+    light.diodes.push_back(diode);
+  }
+  VisibleBox box;
+  box.add({-1.0, -1.0, 1.0});
+  box.add({1.0, 1.0, 3.0});
+  const SourceGroups groups = group_diodes({light}, {box}, 0.4);
+  const std::vector<SourceWindow> windows = plan_windows(groups);
+  const std::vector<Board> boards = find_boards(groups, windows);
+  REQUIRE(boards.size() == 1);
+  return boards.front();
+}
+
+} // namespace
+
+TEST_CASE("every kind of board agrees with the reference", "[smoke]") { check_boards(41, 24); }
+
+TEST_CASE("every kind of board agrees with the reference, more samples", "[long]") {
+  for (std::uint32_t seed = 42; seed < 46; ++seed)
+    check_boards(seed, 96);
+}
+
+TEST_CASE("a board's frame has its diodes in one plane and the lens over its origin") {
+  for (const Places &places_m :
+       {rings(0.0, 48), rings(0.02, 48), moved(rings(0.0, 48), tilt(0.4), {0.3, -0.2, 0.01}), bar(5)}) {
+    const Board board = board_of(places_m);
+    CHECK(board.is_flat);
+    for (const glm::dvec3 &place_m : places_m) {
+      CHECK(std::abs(board.in_frame(place_m).z) < 1e-12);
+      CHECK(std::hypot(board.in_frame(place_m).x, board.in_frame(place_m).y) <=
+            board.radius_m * (1.0 + 1e-12));
+    }
+    const glm::dvec3 lens_m = board.in_frame(glm::dvec3(0.0));
+    CHECK(glm::distance(lens_m, glm::dvec3(0.0, 0.0, board.lens_z_m)) < 1e-12);
+    CHECK(board.in_frame({0.0, 0.0, 5.0}).z < 0.0);
+  }
+  CHECK_FALSE(board_of(dome(48)).is_flat);
+}
