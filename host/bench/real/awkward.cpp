@@ -75,14 +75,14 @@ Scene piercing(std::uint32_t triangles) {
   Mesh mesh;
   mesh.wall(-2.5);
   mesh.begin("rods", 0.5);
-  constexpr std::uint32_t rods = 24;
-  const std::uint32_t facets = std::max(3u, triangles / (4 * rods));
+  constexpr std::uint32_t rods = 24, facets = 10;
+  const std::uint32_t rows = std::max(1u, triangles / (2 * facets * rods) - 1);
   for (std::uint32_t i = 0; i < rods; ++i) {
     const double angle_rad = 2 * std::numbers::pi * (i + random.uniform(0, 0.5)) / rods;
     const double radius_m = random.uniform(0.05, 0.3), reach = random.uniform(1.2, 3.0);
     const glm::dvec3 out(std::cos(angle_rad), std::sin(angle_rad), 0);
     mesh.rod(radius_m * out + glm::dvec3(0, 0, 0.2),
-             reach * radius_m * out - glm::dvec3(0, 0, random.uniform(0.2, 1.5)), 0.004, 0.003, facets);
+             reach * radius_m * out - glm::dvec3(0, 0, random.uniform(0.2, 1.5)), 0.004, 0.003, facets, rows);
   }
   return std::move(mesh).scene();
 }

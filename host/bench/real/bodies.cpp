@@ -27,7 +27,7 @@ Scene body_before_wall(std::uint32_t triangles, const glm::dvec3 &centre_m, doub
 
 // Rough, with a scanner's noise of less than `noise_m`.
 double rough_radius_m(const glm::dvec3 &direction, double radius_m, double noise_m) {
-  const double shape = 1 + 0.3 * noise(1.7 * direction + 7.0, 7);
+  const double shape = 1 + 0.2 * noise(1.2 * direction + 7.0, 8);
   return radius_m * shape + noise_m * noise(3000.0 * direction, 1);
 }
 
@@ -39,8 +39,9 @@ struct Bump {
 } // namespace
 
 Scene blob(std::uint32_t triangles) {
-  return body_before_wall(triangles, {0, 0, -2}, -3.2,
-                          [](const glm::dvec3 &direction) { return 0.6 + 0.2 * noise(1.5 * direction, 1); });
+  return body_before_wall(triangles, {0, 0, -2}, -3.2, [](const glm::dvec3 &direction) {
+    return 0.62 + 0.14 * noise(1.1 * direction, 1);
+  });
 }
 
 Scene scan(std::uint32_t triangles) {
@@ -111,7 +112,7 @@ Scene terrain(std::uint32_t triangles) {
   mesh.sheet(cells, cells, [](double u, double v) {
     const double x_m = 3.0 * u, z_m = -3.0 - 2.5 * v;
     const double rise_m = -0.55 + 0.12 * (-0.5 - z_m);
-    return glm::dvec3(x_m, rise_m + 0.28 * noise({x_m, z_m, 3.0}, 8), z_m);
+    return glm::dvec3(x_m, rise_m + 0.35 * noise({0.8 * x_m, 0.8 * z_m, 3.0}, 9), z_m);
   });
   return std::move(mesh).scene();
 }

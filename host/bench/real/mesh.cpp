@@ -30,9 +30,9 @@ glm::dvec3 Random::unit_vector() {
 }
 
 double noise(const glm::dvec3 &point, int octaves) {
-  double sum = 0.0, scale = 1.0;
-  for (int i = 0; i < octaves; ++i, scale *= 2.0)
-    sum += glm::simplex(scale * point) / scale;
+  double sum = 0.0, scale = 1.0, height = 1.0;
+  for (int i = 0; i < octaves; ++i, scale *= 2.0, height *= 0.4)
+    sum += height * glm::simplex(scale * point);
   return sum;
 }
 
@@ -63,14 +63,15 @@ void Mesh::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 void Mesh::rod(const glm::dvec3 &from_m, const glm::dvec3 &to_m, double from_radius_m, double to_radius_m,
-               std::uint32_t facets) {
+               std::uint32_t facets, std::uint32_t rows) {
   const glm::dmat3 frame = frame_along(to_m - from_m);
   const auto rim = [&](double u, double v) {
-    const double angle_rad = std::numbers::pi * u, radius_m = v < 0 ? from_radius_m : to_radius_m;
-    return (v < 0 ? from_m : to_m) +
-           radius_m * (std::cos(angle_rad) * frame[0] + std::sin(angle_rad) * frame[1]);
+    const double angle_rad = std::numbers::pi * u, along = 0.5 + 0.5 * v;
+    return glm::mix(from_m, to_m, along) +
+           glm::mix(from_radius_m, to_radius_m, along) *
+               (std::cos(angle_rad) * frame[0] + std::sin(angle_rad) * frame[1]);
   };
-  sheet(facets, 1, rim);
+  sheet(facets, rows, rim);
   for (const double end : {-1.0, 1.0}) {
     const std::uint32_t centre = vertex(end < 0 ? from_m : to_m);
     for (std::uint32_t i = 0; i <= facets; ++i)

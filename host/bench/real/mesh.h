@@ -26,7 +26,7 @@ private:
   std::mt19937_64 engine_;
 };
 
-// Noise of about 1 at 1/m and of half as much each time that it is twice as fine, smooth in between.
+// Smooth noise of up to 1 at about 1/m, and 0.4 times as much for each further octave.
 double noise(const glm::dvec3 &point, int octaves);
 
 // A right-handed frame whose last axis is along `direction`.
@@ -59,9 +59,9 @@ public:
   void sphere(const glm::dvec3 &centre_m, double radius_m, std::uint32_t cells) {
     ball(cells, [&](const glm::dvec3 &direction) { return centre_m + radius_m * direction; });
   }
-  // A closed cylinder or cone of 4 facets triangles, of 2 where it has a point.
+  // A closed cylinder or cone of 2 facets (rows + 1) triangles, of 2 facets less where it has a point.
   void rod(const glm::dvec3 &from_m, const glm::dvec3 &to_m, double from_radius_m, double to_radius_m,
-           std::uint32_t facets);
+           std::uint32_t facets, std::uint32_t rows = 1);
   // A rod with half a sphere at each end, of 2 facets (rows - 1) triangles.
   void capsule(const glm::dvec3 &from_m, const glm::dvec3 &to_m, double radius_m, std::uint32_t facets,
                std::uint32_t rows);
