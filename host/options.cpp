@@ -82,7 +82,8 @@ void add_suite(CLI::App &bench, Written &written) {
   CLI::Option *named =
       bench.add_option("--suite", written.suite_name, "instead of a setup: `real`, procedural scenes")
           ->check(CLI::IsMember({"real"}))
-          ->excludes("SETUP");
+          ->excludes(bench.get_option("SETUP"))
+          ->excludes(bench.get_option("--samples"));
   bench.add_option("--kinds", suite.kinds, "of scenes, separated by commas [all but the awkward ones]")
       ->delimiter(',')
       ->needs(named);
@@ -91,6 +92,10 @@ void add_suite(CLI::App &bench, Written &written) {
       ->needs(named);
   bench.add_option("--columns", suite.columns, "and rows of a frame of the suite, 8 to 8192 [640]")
       ->check(CLI::Range(8, 8192))
+      ->needs(named);
+  bench
+      .add_option("--against", suite.peer,
+                  "program that makes the same frames, to be raced (docs/commands.md)")
       ->needs(named);
   bench.add_option("--write-scenes", suite.directory, "write the suite's scenes there, time nothing")
       ->needs(named);

@@ -7,8 +7,10 @@
 #include "host/report/report.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,25 +42,31 @@ std::vector<SceneKind> kinds_of(const SuiteOptions &suite) {
   return kinds;
 }
 
-void run_suite(const SuiteOptions &suite) {
-  for (const SceneKind &kind : kinds_of(suite)) {
-    const Setup setup = setup_of_kind(kind, suite.triangles, suite.columns);
-    print(fmt::format(
-        "{}: {} triangles\n",
-        write_scene_files(suite.directory, fmt::format("{}_{}", kind.name, suite.triangles), setup)
-            .setup.string(),
-        setup.start.scene.triangles.size()));
+void write_scenes(const SuiteScenes &scenes, const std::filesystem::path &directory) {
+  for (const SceneKind &kind : scenes.kinds) {
+    const Setup setup = setup_of_kind(kind, scenes.triangles, scenes.columns);
+    const SceneFiles files =
+        write_scene_files(directory, fmt::format("{}_{}", kind.name, scenes.triangles), setup);
+    print(fmt::format("{}: {} triangles\n", files.setup.string(), setup.start.scene.triangles.size()));
   }
 }
 
-} // namespace
+BenchReport bench_suite(const Options &options, const BenchRequest &request) {
+  const SuiteOptions &suite = *options.suite;
+  BenchReport report{.command = "pmdsim bench --suite real",
+                     .request = request,
+                     .machine = this_machine(Camera(request.device)),
+                     .samples = {"1 x 1"}};
+  std::optional<Peer> peer;
+  if (!suite.peer.empty())
+    peer = {suite.peer, report.machine.threads};
+  report.suite = run_suite({kinds_of(suite), suite.triangles, suite.columns}, request, peer);
+  return report;
+}
 
-void run_bench(const Options &options) {
-  if (options.suite)
-    return run_suite(*options.suite);
+BenchReport bench_of_setup(const Options &options, const BenchRequest &request) {
   const bool swept = options.capture.setup.empty();
   const Setup setup = swept ? paper_ring() : requested_setup(options.capture);
-  const BenchRequest request{options.capture.device, options.capture.accuracy, options.mode_written};
   BenchReport report{.command = swept ? "pmdsim bench" : "pmdsim bench " + options.capture.setup.string(),
                      .request = request,
                      .machine = this_machine(Camera(request.device)),
@@ -68,6 +76,17 @@ void run_bench(const Options &options) {
     report.sequence = measure_sequence_rate(setup, request, sequence_frames);
     report.sweep = run_sweep(all_sweeps(), request);
   }
+  return report;
+}
+
+} // namespace
+
+void run_bench(const Options &options) {
+  if (options.suite && !options.suite->directory.empty())
+    return write_scenes({kinds_of(*options.suite), options.suite->triangles, options.suite->columns},
+                        options.suite->directory);
+  const BenchRequest request{options.capture.device, options.capture.accuracy, options.mode_written};
+  const BenchReport report = options.suite ? bench_suite(options, request) : bench_of_setup(options, request);
   print(options.json ? json_text(bench_json(report)) : bench_markdown(report));
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+// A device against the reference on some pixels of a frame.
+
+#include "host/bench/accuracy_check.h"
+#include "host/bench/timing.h"
+
+namespace pmdsim {
+
+inline constexpr double checked_share = 0.01; // of a frame's pixels
+// Engines that decide by their own rounding may decide otherwise which diodes reach a point where these, seen
+// from there, are as close to a shadow's edge.
+inline constexpr double rounding_of_diode_m = 10e-6, rounding_of_point_m = 1e-6;
+
+struct PixelCheck {
+  AccuracyCheck compared; // of these pixels, as a frame of one column
+  // Of the pairs that are apart: the reference decides them alike with the diodes and the points moved a
+  // little to each side.
+  std::size_t pairs_beyond_rounding = 0;
+};
+
+// At random pixels, the same ones every time, of the setup's first sensor at its first frequency, with one
+// sample a pixel. Throws Error.
+PixelCheck check_some_pixels(const Setup &setup, const BenchRequest &request);
+
+} // namespace pmdsim
