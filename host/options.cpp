@@ -79,26 +79,30 @@ void add_importing(CLI::App &command, Written &written) {
 
 void add_suite(CLI::App &bench, Written &written) {
   SuiteOptions &suite = written.suite;
-  CLI::Option *named =
-      bench.add_option("--suite", written.suite_name, "instead of a setup: `real`, procedural scenes")
-          ->check(CLI::IsMember({"real"}))
-          ->excludes(bench.get_option("SETUP"))
-          ->excludes(bench.get_option("--samples"));
+  CLI::Option *named = bench.add_option("--suite", written.suite_name,
+                                        "instead of a setup: `real`, procedural scenes, checked and timed");
+  named->check(CLI::IsMember({"real"}))
+      ->excludes(bench.get_option("SETUP"))
+      ->excludes(bench.get_option("--samples"));
   bench.add_option("--kinds", suite.kinds, "of scenes, separated by commas [all but the awkward ones]")
       ->delimiter(',')
       ->needs(named);
-  bench.add_option("--triangles", suite.triangles, "of each scene, about, 1000 to 10000000 [100000]")
+  bench
+      .add_option("--triangles", suite.triangles,
+                  fmt::format("of each scene, about, 1000 to 10000000 [{}]", suite.triangles))
       ->check(CLI::Range(1000, 10'000'000))
       ->needs(named);
-  bench.add_option("--columns", suite.columns, "and rows of a frame of the suite, 8 to 8192 [640]")
+  bench
+      .add_option("--columns", suite.columns,
+                  fmt::format("and rows of the suite's frames, 8 to 8192 [{}]", suite.columns))
       ->check(CLI::Range(8, 8192))
       ->needs(named);
-  bench
-      .add_option("--against", suite.peer,
-                  "program that makes the same frames, to be raced (docs/commands.md)")
-      ->needs(named);
-  bench.add_option("--write-scenes", suite.directory, "write the suite's scenes there, time nothing")
-      ->needs(named);
+  CLI::Option *against = bench.add_option("--against", suite.peer,
+                                          "a program that makes the same frames, to be raced with the suite");
+  against->needs(named);
+  bench.add_option("--write-scenes", suite.directory, "write the suite's scenes there and time nothing")
+      ->needs(named)
+      ->excludes(against);
 }
 
 // What `render` writes.

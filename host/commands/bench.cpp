@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,21 @@ std::vector<std::string> samples_of(const Setup &setup) {
   return samples;
 }
 
+std::vector<std::string> names_of(std::span<const SceneKind> kinds) {
+  std::vector<std::string> names;
+  for (const SceneKind &kind : kinds)
+    names.emplace_back(kind.name);
+  return names;
+}
+
 // Those asked for; all but the awkward ones where none are.
 std::vector<SceneKind> kinds_of(const SuiteOptions &suite) {
   std::vector<SceneKind> kinds;
   for (const std::string &name : suite.kinds) {
     const SceneKind *kind = find_kind(name);
     if (!kind)
-      throw Error(ExitCode::usage, fmt::format("--kinds: there is no kind of scene {}", name));
+      throw Error(ExitCode::usage, fmt::format("--kinds: expected some of {}; found {}",
+                                               fmt::join(names_of(scene_kinds()), ", "), name));
     kinds.push_back(*kind);
   }
   if (kinds.empty())

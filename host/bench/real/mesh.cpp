@@ -8,7 +8,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr double grid_per_m = 1 << 24;
+constexpr double grid_per_m = 1 << 21;
 
 } // namespace
 
@@ -49,9 +49,7 @@ void Mesh::begin(const std::string &object, double reflectivity, bool double_sid
 }
 
 std::uint32_t Mesh::vertex(const glm::dvec3 &position_m) {
-  // The sum makes -0 to 0.
-  const glm::vec3 rounded = glm::vec3(glm::round(position_m * grid_per_m) / grid_per_m + 0.0);
-  scene_.positions_m.emplace_back(rounded);
+  scene_.positions_m.push_back(glm::round(position_m * grid_per_m) / grid_per_m + 0.0); // -0 becomes 0
   return static_cast<std::uint32_t>(scene_.positions_m.size() - 1);
 }
 

@@ -42,8 +42,8 @@ public:
   // What is added from here on is of this object and surface.
   void begin(const std::string &object, double reflectivity, bool double_sided = false);
 
-  // On a grid of 2^-24 m and rounded to float32, so that files hold the same place, and so that parts that
-  // meet do so to the last bit.
+  // On a grid of 2^-21 m, which float32 holds to 8 m: files have the same places, and parts that meet do so
+  // to the last bit.
   std::uint32_t vertex(const glm::dvec3 &position_m);
   // Counter-clockwise where its front is seen; nothing where it has no area.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
@@ -76,8 +76,6 @@ public:
 
   std::size_t triangles() const { return scene_.triangles.size(); }
   Scene scene() && { return std::move(scene_); }
-
-  Scene &parts() { return scene_; }
 
 private:
   Scene scene_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -82,26 +83,31 @@ void leave_out_rounding(PairsApart &pairs, const Setup &setup, Sensor sensor, co
 
 } // namespace
 
-PixelCheck check_some_pixels(const Setup &setup, const BenchRequest &request) {
-  Sensor sensor = setup.start.sensors.front();
-  const auto count = std::max<std::uint64_t>(
-      1, static_cast<std::uint64_t>(checked_share * static_cast<double>(sensor.pixel_count())));
-  const Pixels pixels = random_pixels(sensor.pixel_count(), count);
-  Camera camera(request.device, {.sample_triangles = true, .reached = setup.shadows == Shadows::automatic});
-  camera.prepare(setup, sensor, request.accuracy);
-  const Measurement found = at_pixels(camera.measure([](double) { throw_if_interrupted(); }), pixels);
-  const reference::Frame truth = true_pixels(setup, sensor, setup.start.illuminators, pixels);
-
-  PixelCheck check;
+PixelCheck check_pixels(const Setup &setup, const Measurement &frame, const Pixels &pixels) {
+  const Sensor &sensor = setup.start.sensors.front();
+  const std::vector<Illuminator> &illuminators = setup.start.illuminators;
+  const Measurement found = at_pixels(frame, pixels);
+  const reference::Frame truth = true_pixels(setup, sensor, illuminators, pixels);
   PairsApart pairs = pairs_apart(found, truth, pixels);
   for (const glm::dvec3 &side : std::array<glm::dvec3, 4>{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}})
     if (!pairs.pixels.empty())
       leave_out_rounding(pairs, setup, sensor, side);
+  Sensor column = sensor;
+  column.resolution = truth.resolution;
+  PixelCheck check{compare(found, truth, column, 0, diode_count(illuminators))};
   for (const std::uint32_t bits : pairs.apart)
     check.pairs_beyond_rounding += static_cast<std::size_t>(std::popcount(bits));
-  sensor.resolution = truth.resolution;
-  check.compared = compare(found, truth, sensor, 0, diode_count(setup.start.illuminators));
   return check;
+}
+
+PixelCheck check_some_pixels(const Setup &setup, const BenchRequest &request) {
+  const Sensor &sensor = setup.start.sensors.front();
+  Camera camera(request.device, {.sample_triangles = true, .reached = setup.shadows == Shadows::automatic});
+  camera.prepare(setup, sensor, request.accuracy);
+  const auto pixels = static_cast<double>(sensor.pixel_count());
+  return check_pixels(
+      setup, camera.measure([](double) { throw_if_interrupted(); }),
+      random_pixels(sensor.pixel_count(), static_cast<std::size_t>(std::ceil(checked_share * pixels))));
 }
 
 } // namespace pmdsim

@@ -4,6 +4,9 @@
 #include "host/bench/accuracy_check.h"
 #include "host/bench/timing.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace pmdsim {
 
 inline constexpr double checked_share = 0.01; // of a frame's pixels
@@ -18,8 +21,12 @@ struct PixelCheck {
   std::size_t pairs_beyond_rounding = 0;
 };
 
-// At random pixels, the same ones every time, of the setup's first sensor at its first frequency, with one
-// sample a pixel. Throws Error.
+// A frame of the setup's first sensor, one sample a pixel, with its sample triangles and, where shadows are
+// automatic, with what reaches each sample, at these pixels and its first frequency. Throws Error.
+PixelCheck check_pixels(const Setup &setup, const Measurement &frame,
+                        const std::vector<std::uint32_t> &pixels);
+
+// Measures such a frame and checks random pixels of it, the same ones every time. Throws Error.
 PixelCheck check_some_pixels(const Setup &setup, const BenchRequest &request);
 
 } // namespace pmdsim
