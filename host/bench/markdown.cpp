@@ -2,11 +2,9 @@
 #include "host/bench/table.h"
 #include "host/output/files/manifest.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <functional>
-#include <limits>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 namespace {

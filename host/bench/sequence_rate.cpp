@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <optional>
+#include <string>
 
 namespace pmdsim {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -56,9 +57,10 @@ void add_shelf(Mesh &mesh, Random &random, std::uint32_t books) {
     mesh.box({-0.6, -0.8 + 0.36 * i, -3.75}, glm::dvec3(1.05, 0.012, 0.16));
   const std::uint32_t on_each = (books + boards - 1) / boards;
   for (std::uint32_t i = 0; i < books; ++i) {
+    const std::uint32_t board = i / on_each;
     const double pitch_m = 2.0 / on_each, x_m = -1.6 + pitch_m * (i % on_each + 0.5);
     const glm::dvec3 half_m(0.42 * pitch_m, random.uniform(0.08, 0.15), random.uniform(0.07, 0.13));
-    mesh.box({x_m, -0.8 + 0.36 * (i / on_each) + 0.013 + half_m.y, -3.8}, half_m);
+    mesh.box({x_m, -0.8 + 0.36 * board + 0.013 + half_m.y, -3.8}, half_m);
   }
 }
 
@@ -73,7 +75,8 @@ Scene colonnade(std::uint32_t triangles) {
   const std::uint32_t rows = std::max(1u, triangles / (2 * columns * facets));
   mesh.begin("columns", 0.7);
   for (std::uint32_t i = 0; i < columns; ++i) {
-    const glm::dvec3 foot_m(i % 2 == 0 ? -0.55 : 0.6, -0.8, -1.3 - 0.65 * (i / 2));
+    const std::uint32_t pair = i / 2;
+    const glm::dvec3 foot_m(i % 2 == 0 ? -0.55 : 0.6, -0.8, -1.3 - 0.65 * pair);
     mesh.box(foot_m + glm::dvec3(0, 0.03, 0), glm::dvec3(0.16, 0.03, 0.16));
     mesh.box(foot_m + glm::dvec3(0, 1.67, 0), glm::dvec3(0.17, 0.03, 0.17));
     mesh.sheet(facets, rows, [&](double u, double v) {

@@ -3,12 +3,12 @@
 
 #include "engine/model/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <random>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace pmdsim {
 

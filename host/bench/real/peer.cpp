@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdio>
 #include <fmt/format.h>
 #include <string>

@@ -4,6 +4,7 @@
 #include "host/bench/accuracy_check.h"
 #include "host/bench/timing.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -4,8 +4,9 @@
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
 
-#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
 #include <limits>
 #include <string_view>

@@ -4,6 +4,7 @@
 #include "host/bench/real/kinds.h"
 #include "host/input/setup/setup.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

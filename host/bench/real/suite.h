@@ -4,9 +4,9 @@
 #include "host/bench/real/peer.h"
 #include "host/bench/real/pixel_check.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -5,8 +5,9 @@
 #include "host/capture/camera.h"
 
 #include <catch2/catch.hpp>
-#include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 using namespace pmdsim;
 

@@ -7,8 +7,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <string>
 #include <tuple>
+#include <utility>
 
 using namespace pmdsim;
 
