@@ -24,7 +24,8 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
-  std::optional<std::string> samples, frames;
+  std::optional<std::string> samples, frames, suite_name;
+  SuiteOptions suite;
   std::vector<std::string> formats;
 };
 
@@ -76,6 +77,34 @@ void add_importing(CLI::App &command, Written &written) {
   command.add_option("--name", written.options.sensor_name, "the sensor's name, instead of the file's");
 }
 
+void add_suite(CLI::App &bench, Written &written) {
+  SuiteOptions &suite = written.suite;
+  CLI::Option *named = bench.add_option("--suite", written.suite_name,
+                                        "instead of a setup: `real`, procedural scenes, checked and timed");
+  named->check(CLI::IsMember({"real"}))
+      ->excludes(bench.get_option("SETUP"))
+      ->excludes(bench.get_option("--samples"));
+  bench.add_option("--kinds", suite.kinds, "of scenes, separated by commas [all but the awkward ones]")
+      ->delimiter(',')
+      ->needs(named);
+  bench
+      .add_option("--triangles", suite.triangles,
+                  fmt::format("of each scene, about, 1000 to 10000000 [{}]", suite.triangles))
+      ->check(CLI::Range(1000, 10'000'000))
+      ->needs(named);
+  bench
+      .add_option("--columns", suite.columns,
+                  fmt::format("and rows of the suite's frames, 8 to 8192 [{}]", suite.columns))
+      ->check(CLI::Range(8, 8192))
+      ->needs(named);
+  CLI::Option *against = bench.add_option("--against", suite.peer,
+                                          "a program that makes the same frames, to be raced with the suite");
+  against->needs(named);
+  bench.add_option("--write-scenes", suite.directory, "write the suite's scenes there and time nothing")
+      ->needs(named)
+      ->excludes(against);
+}
+
 // What `render` writes.
 std::string channel_list() {
   std::string text = "Channels:\n";
@@ -111,6 +140,7 @@ void add_commands(CLI::App &app, Written &written) {
       "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
       "and frequencies: some minutes]");
   add_measuring(*bench, written);
+  add_suite(*bench, written);
 
   CLI::App *tradeoff = app.add_subcommand(
       "tradeoff",
@@ -194,6 +224,8 @@ Options checked(Written written, const std::string &command) {
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
   options.mode_written = written.accuracy.mode.has_value();
+  if (written.suite_name)
+    options.suite = written.suite;
   if (written.samples)
     capture.samples = sample_choice_of(*written.samples);
   if (written.frames)

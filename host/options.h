@@ -3,16 +3,28 @@
 
 #include "host/capture/capture.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pmdsim {
+
+// bench --suite: procedural scenes.
+struct SuiteOptions {
+  std::vector<std::string> kinds;    // all but the awkward ones where there are none
+  std::uint32_t triangles = 100'000; // of each scene, about
+  std::uint32_t columns = 640;       // and rows
+  std::filesystem::path directory;   // where the scenes are written instead of timed; empty: nowhere
+  std::filesystem::path peer;        // the program to race; empty: none
+};
 
 struct Options {
   std::string command;                 // its name: "render"
   CaptureRequest capture;              // all but import-calibration and devices; directories are filled in
   bool mode_written = false;           // bench: one mode instead of all
+  std::optional<SuiteOptions> suite;   // bench --suite
   std::filesystem::path calibration;   // import-calibration, and the two below
   std::optional<double> pixel_pitch_m; // along the columns, instead of the default
   std::string sensor_name;             // instead of the file's; empty where it is not given

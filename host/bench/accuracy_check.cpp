@@ -90,12 +90,11 @@ std::size_t most_plausible_pairs_apart(const AccuracyCheck &check) {
 }
 
 void add_difference(AccuracyCheck &check, double difference_m) {
+  const double off_m = std::abs(std::remainder(difference_m, check.ambiguity_m));
   ++check.pixels;
-  if (std::isfinite(difference_m))
-    check.distance_max_m =
-        std::fmax(check.distance_max_m, std::abs(std::remainder(difference_m, check.ambiguity_m)));
-  else
-    ++check.not_finite;
+  check.not_finite += !std::isfinite(difference_m);
+  check.too_far += !(off_m <= largest_plausible_error_m(check.ambiguity_m, check.claimed_m));
+  check.distance_max_m = std::fmax(check.distance_max_m, off_m); // whichever is a number
 }
 
 } // namespace

@@ -24,6 +24,7 @@ struct AccuracyCheck {
   std::size_t same_triangles = 0; // of those: all their samples hit the same triangles on both
   std::size_t pixels = 0;         // of those compared: the same diodes reach them on both
   std::size_t not_finite = 0;     // of those compared: the device gives no finite distance
+  std::size_t too_far = 0;        // of those compared: no plausible one, if any
   // Largest difference of the others' distances, wrapped; NaN where none is left.
   double distance_max_m = std::numeric_limits<double>::quiet_NaN();
 };

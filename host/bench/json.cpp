@@ -54,8 +54,8 @@ ordered_json mode_json(const SetupBench &bench, const ModeBench &mode) {
 }
 
 ordered_json swept_json(const SweepRow &row, Mode mode) {
-  ordered_json json =
-      row_json(row.point.name(), mode, row.frames, interactions_per_s(row, mode), row.error_m);
+  ordered_json json = row_json(row.point.name(), mode, row.frames,
+                               interactions_per_s(row.frames, row.interactions, mode), row.error_m);
   json["sweep"] = row_of(row.point.quantity).name;
   json["value"] = row.point.value;
   json["checked_pixels"] = row.checked_pixels;
@@ -65,12 +65,34 @@ ordered_json swept_json(const SweepRow &row, Mode mode) {
   return json;
 }
 
+ordered_json suite_json(const SuiteRow &row, Mode mode) {
+  const AccuracyCheck &compared = row.check.compared;
+  ordered_json json =
+      row_json(row.name, mode, row.frames, interactions_per_s(row.frames, row.interactions, mode),
+               compared.distance_max_m);
+  json["triangles"] = row.triangles;
+  json["first_frame_ms"] = row.first_frame_ms;
+  json["prepare_ms"] = row.prepare_ms;
+  for (const auto &[name, value] : row.path)
+    json["path"][name] = value;
+  json["check"] = {
+      {"pixels", compared.resolution.y},           {"comparable", compared.comparable},
+      {"same_triangles", compared.same_triangles}, {"pairs", compared.pairs},
+      {"pairs_apart", compared.pairs_apart},       {"pairs_beyond_rounding", row.check.pairs_beyond_rounding},
+      {"distances_compared", compared.pixels},     {"distances_off", compared.too_far}};
+  if (const std::optional<double> speed = speed_over_peer(row))
+    json["peer"] = {{"frame_ms", spread_json(spread_of(row.peer_frames_ms))}, {"speed_over_peer", *speed}};
+  return json;
+}
+
 ordered_json results_json(const BenchReport &report) {
   ordered_json results = ordered_json::array();
   for (const ModeBench &mode : report.setup.modes)
     results.push_back(mode_json(report.setup, mode));
   for (const SweepRow &row : report.sweep)
     results.push_back(swept_json(row, report.request.accuracy.mode));
+  for (const SuiteRow &row : report.suite)
+    results.push_back(suite_json(row, report.request.accuracy.mode));
   return results;
 }
 

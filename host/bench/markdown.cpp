@@ -1,33 +1,15 @@
 #include "host/bench/results.h"
+#include "host/bench/table.h"
 #include "host/output/files/manifest.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <functional>
-#include <limits>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string plain(const ordered_json &text) { return text.get<std::string>(); }
-
-double number_or_nan(const ordered_json &value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-template <int digits>
-std::string number(const ordered_json &value) {
-  const double known = number_or_nan(value);
-  return std::isnan(known) ? "-" : fmt::format("{:.{}g}", known, digits);
-}
-
-std::string ms_text(const ordered_json &value) {
-  const double ms = number_or_nan(value);
-  return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 100 ? 2 : 0);
-}
 
 std::string part_text(const ordered_json &part) { return fmt::format("{:.3f}", number_or_nan(part)); }
 
@@ -35,46 +17,7 @@ std::string mebibytes(const ordered_json &bytes) {
   return bytes.is_null() ? "-" : fmt::format("{:.0f}", bytes.get<double>() / (1 << 20));
 }
 
-// A column of a table whose rows are what bench_json() has.
-struct Column {
-  std::string heading;
-  std::function<std::string(const ordered_json &row)> cell;
-};
-
-// What stands there in the row; null where nothing does.
-ordered_json value_at(const ordered_json &row, const std::string &pointer) {
-  const ordered_json::json_pointer there(pointer);
-  return row.contains(there) ? row.at(there) : ordered_json();
-}
-
-Column column(const std::string &heading, const std::string &pointer, const auto &text) {
-  return {heading, [=](const ordered_json &row) { return text(value_at(row, pointer)); }};
-}
-
-Column from_to(const std::string &heading, const std::string &least, const std::string &most,
-               const auto &text) {
-  return {heading, [=](const ordered_json &row) {
-            return fmt::format("{} to {}", text(value_at(row, least)), text(value_at(row, most)));
-          }};
-}
-
-std::string row_text(const std::vector<std::string> &cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
-}
-
-std::string table_text(const std::vector<Column> &columns, const ordered_json &rows) {
-  std::vector<std::string> headings;
-  for (const Column &column : columns)
-    headings.push_back(column.heading);
-  std::string text = row_text(headings) + row_text(std::vector<std::string>(columns.size(), "---"));
-  for (const ordered_json &row : rows) {
-    std::vector<std::string> cells;
-    for (const Column &column : columns)
-      cells.push_back(column.cell(row));
-    text += row_text(cells);
-  }
-  return text;
-}
+std::string micrometres(const ordered_json &length_m) { return number<3>(1e6 * number_or_nan(length_m)); }
 
 // Of modes, or of a sweep's points.
 ordered_json results_of(const ordered_json &json, bool swept) {
@@ -205,15 +148,38 @@ std::string sweep_text(const ordered_json &rows, Mode mode) {
                               column("interactions/s", "/interactions_per_s", number<3>)};
   for (const std::string pass : {"visibility", "points", "accumulate", "resolve", "read_back"})
     columns.push_back(column(pass, "/passes_ms/" + pass, ms_text));
-  const auto micrometres = [](const ordered_json &error_m) {
-    return number<3>(1e6 * number_or_nan(error_m));
-  };
   columns.insert(columns.end(), {column("passes / frame", "/passes_explain", part_text),
                                  column("error, µm", "/error_found_m", micrometres),
                                  column("first frame, ms", "/first_frame_ms", ms_text),
                                  column("prepare, ms", "/prepare_ms", ms_text),
                                  column("peak, MiB", "/peak_memory_bytes", mebibytes)});
   return fmt::format("\nOne quantity at a time, mode {}; passes in ms.\n\n", mode_name(mode)) +
+         table_text(columns, rows);
+}
+
+std::string suite_text(const ordered_json &rows, Mode mode) {
+  const bool raced = rows.front().contains("peer");
+  std::vector<Column> columns{column("scene", "/name", plain), column("triangles", "/triangles", number<7>),
+                              column("frame, ms", "/frame_ms", ms_text),
+                              from_to("least to most", "/frame_ms_min", "/frame_ms_max", ms_text)};
+  if (raced)
+    columns.insert(columns.end(),
+                   {column("peer, ms", "/peer/frame_ms/median", ms_text),
+                    from_to("least to most", "/peer/frame_ms/min", "/peer/frame_ms/max", ms_text),
+                    column("times as fast as the peer", "/peer/speed_over_peer", number<3>)});
+  for (const std::string pass : {"visibility", "points", "lit", "accumulate", "resolve", "read_back"})
+    columns.push_back(column(pass, "/passes_ms/" + pass, ms_text));
+  columns.insert(columns.end(), {column("first frame, ms", "/first_frame_ms", ms_text),
+                                 column("prepare, ms", "/prepare_ms", ms_text),
+                                 column("error, µm", "/error_found_m", micrometres),
+                                 column("distances off", "/check/distances_off", number<7>),
+                                 column("pairs", "/check/pairs", number<9>),
+                                 column("apart", "/check/pairs_apart", number<9>),
+                                 column("beyond rounding", "/check/pairs_beyond_rounding", number<9>)});
+  return fmt::format(
+             "\nProcedural scenes, mode {}; passes in ms. Checked: {} random pixels of each, and each of "
+             "their pairs with a diode.\n\n",
+             mode_name(mode), rows.front()["check"]["pixels"].dump()) +
          table_text(columns, rows);
 }
 
@@ -241,6 +207,8 @@ std::string growth_text(const ordered_json &growth) {
 std::string bench_markdown(const BenchReport &report) {
   const ordered_json json = bench_json(report);
   const Mode mode = report.request.accuracy.mode;
+  if (!report.suite.empty())
+    return machine_text(report) + suite_text(json["results"], mode);
   std::string text = machine_text(report) + setup_text(report.setup, json);
   if (report.sequence)
     text += sequence_text(json["sequence"], mode);

@@ -4,6 +4,7 @@
 
 #include "host/bench/machine.h"
 #include "host/bench/modes.h"
+#include "host/bench/real/suite.h"
 #include "host/bench/sweep.h"
 
 #include <optional>
@@ -17,10 +18,12 @@ struct BenchReport {
   BenchRequest request;
   Machine machine;
   std::vector<std::string> samples; // of each sensor: S, or "auto"
-  SetupBench setup;
+  SetupBench setup = {};
   // Nothing of a setup of one's own.
   std::optional<SequenceRate> sequence = std::nullopt;
   std::vector<SweepRow> sweep = {};
+  // With nothing of a setup and its sweep.
+  std::vector<SuiteRow> suite = {};
 };
 
 nlohmann::ordered_json bench_json(const BenchReport &report);

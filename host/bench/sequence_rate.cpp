@@ -1,47 +1,14 @@
 #include "host/bench/timing.h"
 
-#include "engine/model/error.h"
+#include "host/bench/temporary_directory.h"
 #include "host/capture/capture.h"
 
-#include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <system_error>
+#include <optional>
+#include <string>
 
 namespace pmdsim {
-namespace {
-
-namespace fs = std::filesystem;
-
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    if (error)
-      throw Error(ExitCode::output,
-                  fmt::format("TMPDIR: expected a directory for temporary files: {}", error.message()));
-    std::string name = (parent / "pmdsim-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ExitCode::output, fmt::format("{}: temporary directory cannot be made: {}", name,
-                                                std::generic_category().message(errno)));
-    path_ = name;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory &) = delete;
-  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
-
-  const fs::path &path() const { return path_; }
-
-private:
-  fs::path path_;
-};
-
-} // namespace
 
 SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &request, std::uint32_t frames) {
   require_names_for_files(setup.start.sensors);

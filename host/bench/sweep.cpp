@@ -176,14 +176,6 @@ std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &swee
   return rows;
 }
 
-double interactions_per_s(const SweepRow &row, Mode mode) {
-  const Timing timing = timing_of(row.frames);
-  const auto accumulate = std::ranges::find(timing.passes, "accumulate", &PassTime::name);
-  return mode != Mode::exact || accumulate == timing.passes.end()
-             ? std::numeric_limits<double>::quiet_NaN()
-             : row.interactions / (1e-3 * accumulate->ms);
-}
-
 std::vector<Growth> growths_of(const std::vector<SweepRow> &rows) {
   std::vector<Growth> growths;
   for (const SweepRow &row : rows) {

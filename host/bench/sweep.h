@@ -79,9 +79,6 @@ RandomCheck check_at_random(const Setup &setup, const Measurement &found, const 
 std::vector<SweepRow> run_sweep(const std::vector<std::vector<SweepPoint>> &sweeps,
                                 const BenchRequest &request);
 
-// Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
-double interactions_per_s(const SweepRow &row, Mode mode);
-
 // How one quantity's frame times grow: the median of each point. (Where a clock has a slow and a fast mode,
 // short frames have their least in the fast one, long ones in both.)
 struct Growth {

@@ -68,4 +68,11 @@ Timing timing_of(std::span<const TimedFrame> frames) {
   return timing;
 }
 
+double interactions_per_s(std::span<const TimedFrame> frames, double interactions, Mode mode) {
+  const Timing timing = timing_of(frames);
+  const auto accumulate = std::ranges::find(timing.passes, "accumulate", &PassTime::name);
+  return mode != Mode::exact || accumulate == timing.passes.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                                  : interactions / (1e-3 * accumulate->ms);
+}
+
 } // namespace pmdsim

@@ -47,6 +47,9 @@ struct Timing {
 // Of at least one frame.
 Timing timing_of(std::span<const TimedFrame> frames);
 
+// Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.
+double interactions_per_s(std::span<const TimedFrame> frames, double interactions, Mode mode);
+
 // Whole frames, all sensors of each, by the clock: from the first's measurement to the last's publication.
 struct SequenceRate {
   double measured_per_s; // nothing written

@@ -112,8 +112,8 @@ TEST_CASE("a swept point has checked and timed frames") {
     CHECK(row.error_m < 1e-6);
     CHECK(row.interactions == 240.0 * row.point.units());
     CHECK(row.frames.size() >= 5);
-    CHECK(interactions_per_s(row, Mode::exact) > 0.0);
-    CHECK(std::isnan(interactions_per_s(row, Mode::automatic)));
+    CHECK(interactions_per_s(row.frames, row.interactions, Mode::exact) > 0.0);
+    CHECK(std::isnan(interactions_per_s(row.frames, row.interactions, Mode::automatic)));
     CHECK(row.peak_memory_bytes.value() > 1'000'000);
   }
   const auto growths = growths_of(rows);

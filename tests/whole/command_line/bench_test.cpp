@@ -1,8 +1,12 @@
 // What `bench SETUP --json` tells. No test looks at how long anything took.
 
 #include "tests/program/program.h"
+#include "tests/program/refusal.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 using namespace pmdsim::test;
@@ -99,4 +103,52 @@ TEST_CASE("bench has no native rate beside what has no rate itself", "[long]") {
   const json reference = bench(small_setup(), {"--device", "reference"});
   CHECK(reference["native"].is_null());
   CHECK(reference["results"][0]["prepare_ms"].is_null());
+}
+
+TEST_CASE("bench --suite checks and times scenes beside another program") {
+  const Workspace work;
+  const std::string peer = work.write("peer's.sh", "#!/bin/sh\necho $* > \"$0.said\"\n"
+                                                   "echo first frame_ms 9\necho then frame_ms 2.5 ms\n");
+  std::filesystem::permissions(peer, std::filesystem::perms::owner_all);
+  const Run run = run_pmdsim({"bench", "--suite", "real", "--kinds", "knot", "--triangles", "1000",
+                              "--columns", "10", "--against", peer, "--json"});
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.output), &row = report["results"].at(0);
+  CHECK(row["name"] == "knot");
+  CHECK(row["triangles"].get<int>() == Approx(1000).epsilon(0.15));
+  CHECK(row["frames_timed"].get<int>() >= 1);
+  CHECK(row["passes_ms"].contains("lit"));
+  CHECK(row["first_frame_ms"].get<double>() > row["prepare_ms"].get<double>());
+  CHECK(row["path"].is_object());
+  const json &check = row["check"];
+  CHECK(check["pixels"] == 1);
+  CHECK(check["pairs"] == 240);
+  CHECK(check["pairs_beyond_rounding"] == 0);
+  CHECK(check["distances_off"] == 0);
+  CHECK(row["peer"]["frame_ms"]["median"] == 2.5);
+  CHECK(row["peer"]["speed_over_peer"].get<double>() == Approx(2.5 / row["frame_ms"].get<double>()));
+  std::ifstream said(peer + ".said");
+  const std::string words((std::istreambuf_iterator<char>(said)), {});
+  CHECK(words.find("knot.gltf ") != std::string::npos);
+  CHECK(words.find("--res 10 10 --fov-x-tan 0.5 --freq 20000000 --shadows --threads") != std::string::npos);
+}
+
+TEST_CASE("bench --suite writes its scenes, and says what is wrong") {
+  const Workspace work;
+  const std::vector<std::string> suite{"bench", "--suite", "real", "--triangles", "1000", "--columns", "8"};
+  const auto with_words = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), suite.begin(), suite.end());
+    return run_pmdsim(words);
+  };
+  REQUIRE(with_words({"--kinds", "blob,soup", "--write-scenes", work / "scenes"}).exit_code == 0);
+  CHECK(work.files("scenes") == std::vector<std::string>{"blob_1000.bin", "blob_1000.gltf", "blob_1000.json",
+                                                         "diodes.csv", "soup_1000.bin", "soup_1000.gltf",
+                                                         "soup_1000.json"});
+  CHECK(run_pmdsim({"check", work / "scenes/soup_1000.json"}).exit_code == 0);
+
+  check_refusal(with_words({"--kinds", "blob,fog"}), 2, {"--kinds", "blob, knot", "found fog"});
+  check_refusal(with_words({"--kinds", "blob", "--against", work / "nothing"}), 3, {"nothing", "not found"});
+  check_refusal(with_words({"--kinds", "blob", "--against", "echo"}), 3, {"echo", "frame_ms"});
+  check_refusal(run_pmdsim({"bench", "--kinds", "blob"}), 2, {"--kinds", "--suite"});
 }
