@@ -9,8 +9,6 @@
 #include <memory>
 #include <openexr.h>
 #include <string_view>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 #include <type_traits>
 #include <utility>
 
@@ -18,11 +16,12 @@ namespace pmdsim {
 namespace {
 
 constexpr int only_part = 0;
+constexpr std::size_t value_bytes = 4;
 
 exr_pixel_type_t pixel_type(std::span<const float>) { return EXR_PIXEL_FLOAT; }
 exr_pixel_type_t pixel_type(std::span<const std::uint32_t>) { return EXR_PIXEL_UINT; }
 
-// Small pieces one behind the other become writes of many whole pages, which go past the page cache.
+// Pieces one behind the other become writes of many whole pages, which go past the page cache.
 class GatheredWrites {
 public:
   explicit GatheredWrites(OutputFile &file) : file_(file) { gathered_.reserve(2 * many_bytes); }
@@ -65,6 +64,8 @@ public:
     context_.reset(context);
     write_header(channels);
   }
+  ExrFile(const ExrFile &) = delete; // OpenEXR knows where it is
+  ExrFile &operator=(const ExrFile &) = delete;
 
   void write_block(std::size_t first_row, std::span<const unsigned char> packed) {
     check(exr_write_scanline_chunk(context_.get(), only_part, static_cast<int>(first_row), packed.data(),
@@ -122,12 +123,12 @@ ScanLines scan_lines(const ChannelSet &channels) {
   for (const Channel &channel : channels.channels)
     std::visit(
         [&](auto values) {
-          static_assert(sizeof(values[0]) == 4);
+          static_assert(sizeof(values[0]) == value_bytes);
           by_name.emplace_back(channel.name(), reinterpret_cast<const unsigned char *>(values.data()));
         },
         channel.values);
   std::ranges::sort(by_name);
-  ScanLines lines{{}, std::size_t{4} * channels.resolution.x, channels.resolution.y};
+  ScanLines lines{{}, value_bytes * channels.resolution.x, channels.resolution.y};
   for (const auto &[name, first_row] : by_name)
     lines.channels.push_back(first_row);
   return lines;
@@ -135,37 +136,12 @@ ScanLines scan_lines(const ChannelSet &channels) {
 
 } // namespace
 
-// Blocks are packed by all threads that have nothing else to do, and written in order.
 void write_exr(OutputFile &file, const ChannelSet &channels) {
   ExrFile exr(file, channels);
   const ScanLines lines = scan_lines(channels);
-  const std::size_t count = (lines.rows + ZipBlock::most_rows - 1) / ZipBlock::most_rows;
-  const std::size_t at_once =
-      std::min(count, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-  std::vector<ZipBlock> blocks;
-  for (std::size_t i = 0; i < at_once; ++i)
-    blocks.emplace_back(lines);
-
-  struct Packed {
-    std::size_t first_row;
-    std::span<const unsigned char> bytes;
-  };
-  std::size_t next = 0;
-  const auto number = [&](tbb::flow_control &control) {
-    if (next == count)
-      control.stop();
-    return next++;
-  };
-  // As blocks leave in order, block i - at_once has left when block i comes.
-  const auto pack = [&](std::size_t i) {
-    const std::size_t first_row = i * ZipBlock::most_rows;
-    return Packed{first_row, blocks[i % at_once].pack(first_row)};
-  };
-  const auto write = [&](const Packed &packed) { exr.write_block(packed.first_row, packed.bytes); };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(at_once, tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
-                                      tbb::make_filter<std::size_t, Packed>(filter_mode::parallel, pack) &
-                                      tbb::make_filter<Packed, void>(filter_mode::serial_in_order, write));
+  ZipBlock block(lines);
+  for (std::size_t row = 0; row < lines.rows; row += ZipBlock::most_rows)
+    exr.write_block(row, block.pack(row));
   exr.finish();
 }
 

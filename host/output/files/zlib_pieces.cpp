@@ -15,7 +15,6 @@ constexpr unsigned char low_byte(std::size_t value, unsigned shift = 0) {
 } // namespace
 
 ZlibPieces::ZlibPieces() : stream_(std::make_unique<isal_zstream>()) {}
-ZlibPieces::ZlibPieces(ZlibPieces &&) noexcept = default;
 ZlibPieces::~ZlibPieces() = default;
 
 void ZlibPieces::begin(std::span<unsigned char> room) {
@@ -26,10 +25,11 @@ void ZlibPieces::begin(std::span<unsigned char> room) {
 }
 
 // Without history, since the pieces before may be stored: ISA-L has not seen them. Its full flush ends at a
-// whole byte. Level 0 takes as long as level 1 for each byte, and much less for each piece.
+// whole byte. Pieces are short and repeat: fixed codes, which need no table in front, make them shortest.
 void ZlibPieces::add_deflated(std::span<const unsigned char> bytes) {
   const std::span<unsigned char> rest = room_.subspan(used_);
   isal_deflate_stateless_init(stream_.get());
+  isal_deflate_set_hufftables(stream_.get(), nullptr, IGZIP_HUFFTABLE_STATIC);
   stream_->flush = FULL_FLUSH;
   stream_->end_of_stream = 0;
   stream_->next_in = const_cast<unsigned char *>(bytes.data()); // which it only reads

@@ -14,8 +14,6 @@ namespace pmdsim {
 class ZlibPieces {
 public:
   ZlibPieces();
-  ZlibPieces(ZlibPieces &&) noexcept;
-  ZlibPieces &operator=(ZlibPieces &&) = delete;
   ~ZlibPieces();
 
   // A new stream in `room`, which must live until finish().
