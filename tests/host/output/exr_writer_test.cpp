@@ -98,7 +98,8 @@ public:
     CHECK(exr.isComplete());
     for (const auto &[name, bits] : bits_) {
       INFO(name << ", " << resolution_.x << " x " << resolution_.y);
-      CHECK(bits_of(exr, name) == bits);
+      const bool same = bits_of(exr, name) == bits; // Catch would print all of them
+      CHECK(same);
     }
   }
 
@@ -183,7 +184,7 @@ TEST_CASE("every bit of any values comes back, whatever the size") {
   std::mt19937 random(1);
   // One block and less, a last block of one row, and blocks beyond what one write and one stored piece hold.
   for (const glm::uvec2 resolution :
-       {glm::uvec2{1, 1}, {1, 40}, {2, 16}, {3, 17}, {640, 15}, {301, 50}, {2500, 70}}) {
+       {glm::uvec2{1, 1}, {1, 40}, {2, 16}, {3, 17}, {640, 15}, {301, 50}, {2500, 70}, {20000, 3}}) {
     const FrameOfBits frame = frame_of_everything(resolution, random);
     frame.write(temporary.path() / "frame.exr");
     frame.check(temporary.path() / "frame.exr");
