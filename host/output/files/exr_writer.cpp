@@ -79,7 +79,7 @@ private:
                                   decltype([](exr_context_t context) { exr_finish(&context); })>;
 
   void write_header(const ChannelSet &channels) {
-    const exr_context_t context = context_.get();
+    auto *const context = context_.get();
     int part = only_part;
     check(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part));
     check(exr_initialize_required_attr_simple(context, part, static_cast<int>(channels.resolution.x),

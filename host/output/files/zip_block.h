@@ -1,5 +1,5 @@
 #pragma once
-// A block of rows as OpenEXR's ZIP compression has it. Source: OpenEXR 3.1's file layout and ImfZip.cpp.
+// A block of rows as OpenEXR's ZIP compression has it. Source: OpenEXR 3.1's file layout and its Zip class.
 
 #include "host/output/files/zlib_pieces.h"
 
@@ -19,7 +19,8 @@ struct ScanLines {
 
 // Room for one block at a time, twice the block's bytes, to be used again for the next. Rows of which most
 // values repeat, as those of ids and shares do, are compressed; other rows are stored as they are. Mantissas
-// of measured floats hardly shrink, and to try it takes most of the time: docs/decisions.md, "EXR".
+// of measured floats hardly shrink, and to try it takes most of the time: docs/decisions.md, "What an EXR
+// file compresses".
 class ZipBlock {
 public:
   static constexpr std::size_t most_rows = 16; // as many as each has, but for a file's last
