@@ -41,8 +41,8 @@ std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count);
 ChannelSet channels_of(const Measurement &measurement);
 
 // One OpenEXR file a frame: scan lines, ZIP, floats as FLOAT and ids as UINT, channels under their own names.
-// Reads the channels where they lie; memory beyond them is a few scan lines. May be called from several
-// threads at once. Throws Error (output).
+// Reads the channels where they lie; memory beyond them is that of a few dozen scan lines. May be called from
+// several threads at once. Throws Error (output).
 void write_exr(OutputFile &file, const ChannelSet &channels);
 
 // NumPy's array file, version 1.0: shape (rows, columns), little-endian, C order, '<f4' or '<u4'; the data

@@ -1,78 +1,148 @@
 #include "host/output/files/channel.h"
 
 #include "engine/model/error.h"
+#include "host/output/files/zip_block.h"
 
-#include <Iex.h>
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#include <ImfThreading.h>
+#include <algorithm>
+#include <exception>
 #include <fmt/format.h>
-#include <mutex>
-#include <thread>
+#include <memory>
+#include <openexr.h>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 
 namespace pmdsim {
 namespace {
 
-class StreamOntoOutputFile : public Imf::OStream {
+constexpr int only_part = 0;
+constexpr std::size_t value_bytes = 4;
+
+exr_pixel_type_t pixel_type(std::span<const float>) { return EXR_PIXEL_FLOAT; }
+exr_pixel_type_t pixel_type(std::span<const std::uint32_t>) { return EXR_PIXEL_UINT; }
+
+// Pieces one behind the other become writes of many whole pages, which go past the page cache.
+class GatheredWrites {
 public:
-  explicit StreamOntoOutputFile(OutputFile &file) : Imf::OStream(file.path().c_str()), file_(file) {}
-  void write(const char bytes[], int count) override {
-    file_.write({bytes, static_cast<std::size_t>(count)});
+  explicit GatheredWrites(OutputFile &file) : file_(file) { gathered_.reserve(2 * many_bytes); }
+
+  void write(std::uint64_t offset, std::string_view bytes) {
+    if (offset != start_ + gathered_.size()) {
+      write_first(gathered_.size());
+      file_.seek(start_ = offset);
+    }
+    gathered_ += bytes;
+    if (gathered_.size() >= many_bytes)
+      write_first(gathered_.size() - (start_ + gathered_.size()) % page_bytes);
   }
-  std::uint64_t tellp() override { return file_.tell(); }
-  void seekp(std::uint64_t offset) override { file_.seek(offset); }
+  void finish() { write_first(gathered_.size()); }
 
 private:
+  static constexpr std::size_t page_bytes = 4096, many_bytes = std::size_t{1} << 20;
+
+  void write_first(std::size_t bytes) {
+    file_.write(std::string_view(gathered_).substr(0, bytes));
+    gathered_.erase(0, bytes);
+    start_ += bytes;
+  }
+
   OutputFile &file_;
+  std::string gathered_;
+  std::uint64_t start_ = 0; // where in the file they begin
 };
 
-Imf::PixelType pixel_type(std::span<const float>) { return Imf::FLOAT; }
-Imf::PixelType pixel_type(std::span<const std::uint32_t>) { return Imf::UINT; }
+// A file of blocks of rows that are packed already.
+class ExrFile {
+public:
+  ExrFile(OutputFile &file, const ChannelSet &channels) : path_(file.path().string()), writes_(file) {
+    exr_context_initializer_t with = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    with.user_data = this;
+    with.write_fn = write;
+    with.error_handler_fn = [](exr_const_context_t, exr_result_t, const char *) {}; // check() tells
+    exr_context_t context = nullptr;
+    check(exr_start_write(&context, path_.c_str(), EXR_WRITE_FILE_DIRECTLY, &with));
+    context_.reset(context);
+    write_header(channels);
+  }
+  ExrFile(const ExrFile &) = delete; // OpenEXR knows where it is
+  ExrFile &operator=(const ExrFile &) = delete;
 
-// Compression takes longest, and OpenEXR's own threads share out the lines of one file: all of them work on
-// the file that is begun first, so that no more frames than two need be held at once. Its lines come in
-// order, whatever the threads.
-void start_compressing_threads() {
-  static std::once_flag started;
-  std::call_once(started, Imf::setGlobalThreadCount, static_cast<int>(std::thread::hardware_concurrency()));
-}
+  void write_block(std::size_t first_row, std::span<const unsigned char> packed) {
+    check(exr_write_scanline_chunk(context_.get(), only_part, static_cast<int>(first_row), packed.data(),
+                                   packed.size()));
+  }
+  // After the last block.
+  void finish() { writes_.finish(); }
 
-// OpenEXR's slices are writable for its reader's sake; its writer only reads them.
-template <typename T>
-char *base_address(std::span<const T> values) {
-  return const_cast<char *>(reinterpret_cast<const char *>(values.data()));
+private:
+  using Context = std::unique_ptr<std::remove_pointer_t<exr_context_t>,
+                                  decltype([](exr_context_t context) { exr_finish(&context); })>;
+
+  void write_header(const ChannelSet &channels) {
+    auto *const context = context_.get();
+    int part = only_part;
+    check(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part));
+    check(exr_initialize_required_attr_simple(context, part, static_cast<int>(channels.resolution.x),
+                                              static_cast<int>(channels.resolution.y), EXR_COMPRESSION_ZIP));
+    for (const Channel &channel : channels.channels) {
+      const auto type = std::visit([](auto values) { return pixel_type(values); }, channel.values);
+      check(exr_add_channel(context, part, channel.name().c_str(), type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+    }
+    check(exr_write_header(context));
+  }
+
+  // No exception may pass through OpenEXR's C.
+  static std::int64_t write(exr_const_context_t, void *user_data, const void *bytes, std::uint64_t count,
+                            std::uint64_t offset, exr_stream_error_func_ptr_t) {
+    auto &file = *static_cast<ExrFile *>(user_data);
+    try {
+      file.writes_.write(offset, {static_cast<const char *>(bytes), count});
+      return static_cast<std::int64_t>(count);
+    } catch (...) {
+      file.failure_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  void check(exr_result_t result) const {
+    if (failure_)
+      std::rethrow_exception(failure_);
+    if (result != EXR_ERR_SUCCESS)
+      throw Error(ExitCode::output,
+                  fmt::format("{}: cannot be written: {}", path_, exr_get_default_error_message(result)));
+  }
+
+  std::string path_;
+  GatheredWrites writes_;
+  std::exception_ptr failure_;
+  Context context_;
+};
+
+ScanLines scan_lines(const ChannelSet &channels) {
+  std::vector<std::pair<std::string, const unsigned char *>> by_name;
+  for (const Channel &channel : channels.channels)
+    std::visit(
+        [&](auto values) {
+          static_assert(sizeof(values[0]) == value_bytes);
+          by_name.emplace_back(channel.name(), reinterpret_cast<const unsigned char *>(values.data()));
+        },
+        channel.values);
+  std::ranges::sort(by_name);
+  ScanLines lines{{}, value_bytes * channels.resolution.x, channels.resolution.y};
+  for (const auto &[name, first_row] : by_name)
+    lines.channels.push_back(first_row);
+  return lines;
 }
 
 } // namespace
 
 void write_exr(OutputFile &file, const ChannelSet &channels) {
-  const auto [columns, rows] =
-      std::pair(static_cast<int>(channels.resolution.x), static_cast<int>(channels.resolution.y));
-  Imf::Header header(columns, rows, 1.0f, Imath::V2f(0.0f, 0.0f), 1.0f, Imf::INCREASING_Y,
-                     Imf::ZIP_COMPRESSION);
-  Imf::FrameBuffer frame;
-  for (const Channel &channel : channels.channels)
-    std::visit(
-        [&](auto values) {
-          constexpr std::size_t value_bytes = sizeof(values[0]);
-          header.channels().insert(channel.name(), Imf::Channel(pixel_type(values)));
-          frame.insert(channel.name(), Imf::Slice(pixel_type(values), base_address(values), value_bytes,
-                                                  value_bytes * channels.resolution.x));
-        },
-        channel.values);
-  start_compressing_threads();
-  try {
-    StreamOntoOutputFile stream(file);
-    Imf::OutputFile exr(stream, header);
-    exr.setFrameBuffer(frame);
-    exr.writePixels(rows);
-  } catch (const Iex::BaseExc &error) {
-    throw Error(ExitCode::output,
-                fmt::format("{}: cannot be written: {}", file.path().string(), error.what()));
-  }
+  ExrFile exr(file, channels);
+  const ScanLines lines = scan_lines(channels);
+  ZipBlock block(lines);
+  for (std::size_t row = 0; row < lines.rows; row += ZipBlock::most_rows)
+    exr.write_block(row, block.pack(row));
+  exr.finish();
 }
 
 } // namespace pmdsim

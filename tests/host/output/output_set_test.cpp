@@ -1,12 +1,11 @@
 #include "engine/model/error.h"
 #include "host/output/files/output_set.h"
 #include "tests/host/output/directory_content.h"
+#include "tests/host/output/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <stdexcept>
-#include <sys/resource.h>
 
 using namespace pmdsim;
 
@@ -26,27 +25,6 @@ std::string output_error(Action action) {
   FAIL("no error was thrown");
   return {};
 }
-
-// Files cannot grow beyond `bytes` while it lives: what a full disk does, on every machine.
-class FileSizeLimit {
-public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit lower{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &lower);
-    handler_before_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_before_);
-  }
-  FileSizeLimit(const FileSizeLimit &) = delete;
-  FileSizeLimit &operator=(const FileSizeLimit &) = delete;
-
-private:
-  rlimit before_{};
-  void (*handler_before_)(int) = SIG_DFL;
-};
 
 } // namespace
 
