@@ -102,22 +102,26 @@ Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) 
   return {.name = "lit",
           .reads = ids | points,
           .writes = visibility_bits | visibility_counts,
-          .record = [=, &buffers = on.buffers](const Recording &at) {
-            if (shadow.sweep) {
-              shadow.sweep->record(at.commands, at.of_strip(), buffers, at.window);
-              return;
-            }
-            if (at.window == 0 && makes_tiles)
-              shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
-            shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
-          }};
+          .record =
+              [=, &buffers = on.buffers](const Recording &at) {
+                if (shadow.sweep) {
+                  shadow.sweep->record(at.commands, at.of_strip(), buffers, at.window);
+                  return;
+                }
+                if (at.window == 0 && makes_tiles)
+                  shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
+                shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
+              },
+          .store = shadow.sweep && shadow.sweep->may_overflow()
+                       ? [=](const Recording &, Measurement &) { shadow.sweep->check(); }
+                       : std::function<void(const Recording &, Measurement &)>{}};
 }
 
-// Whether all that stands in the light has edges.
-bool can_sweep(const FrameFacts &facts) {
-  return !getenv("PMDSIM_TILES") &&
-         std::ranges::none_of(facts.occluders.shapes,
-                              [](const shader::Occluder &shape) { return shape.may_be_absent != 0; });
+// Whether all that stands in the light has edges, and no holes.
+bool can_sweep(const FrameFacts &facts, const PathForms &allowed) {
+  return allowed.sweep && std::ranges::none_of(facts.occluders.shapes, [](const shader::Occluder &shape) {
+           return shape.may_be_absent != 0;
+         });
 }
 
 // The bits for the host.
@@ -221,7 +225,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   ShadowPasses shadow;
-  if (on.path.windows > 0 && can_sweep(on.facts))
+  if (on.path.windows > 0 && can_sweep(on.facts, on.options.allowed))
     shadow.sweep = std::make_shared<const SweepPass>(
         on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene,
         strips, is_tiled(on.sensor), on.model.backscatter == shader::backscatter_flat, on.options.precision);

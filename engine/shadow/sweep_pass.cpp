@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/matrix_access.hpp>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -32,9 +34,6 @@ std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
     most = std::max(most, tile_count(planned.strip));
   return most;
 }
-
-// Where a list may begin, below it: beyond it lists of all items have room.
-constexpr std::uint32_t list_capacity = 1u << 23;
 
 Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
   return {device, bytes, vk::BufferUsageFlagBits::eStorageBuffer | more, vulkan::Memory::device};
@@ -99,41 +98,115 @@ struct SweepPass::State {
   std::vector<BoardBuffers> boards;
   std::vector<WindowBuffers> of_window;
   Buffer shafts, work, entries;
-  vulkan::ComputePipeline find_shafts, count_lists, write_lists, count_hidden, write_hidden;
+  Buffer header_read; // of the work, where lists may be too long
+  vulkan::ComputePipeline find_shafts, count_edges, write_edges, count_hidden, write_hidden;
   std::uint32_t spare_entry = 0;
   vulkan::Buffer const *planes = nullptr;
 
   shader::SweepConstants constants(const shader::Strip &strip, const StripBuffers &buffers,
-                                   std::size_t window) const {
-    const WindowBuffers &of = of_window[window];
-    const BoardBuffers &board = boards[of.board];
-    return {strip,
-            buffers.position.words(),
-            buffers.ids.words(),
-            planes->words(),
-            of.record.words(),
-            shafts.words(),
-            work.words(),
-            entries.words(),
-            buffers.visibility.words(),
-            board.planes.words(),
-            list_capacity,
-            spare_entry,
-            tile_count(strip),
-            sample_count(strip),
-            windows[window].bundles * shader::diodes_per_bundle,
-            of.rank_bins};
-  }
+                                   std::size_t window, std::uint32_t round = 0) const;
+  // Nothing is decided yet; of a board's first window nothing is listed, either.
+  void record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, std::size_t window) const;
+  // Finds how long the tiles' lists are.
+  void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, std::size_t window) const;
+  void record_read_back(const vk::raii::CommandBuffer &commands) const;
+  // Writes a round's lists and decides for its tiles.
+  void record_round(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                    const StripBuffers &buffers, std::size_t window, std::uint32_t round) const;
 };
 
-SweepPass::~SweepPass() {
-  if (getenv("SWEEP_DEBUG") && state_->work.is_mapped()) {
-    const auto *w = reinterpret_cast<const shader::SweepWork *>(state_->work.mapped().data());
-    fprintf(stderr, "sweep: active tiles %u samples %u entries %u full %u; items %zu hidden %zu\n", w->tiles,
-            w->samples, w->entries, w->is_full, state_->boards[0].items.bytes() / 64,
-            state_->boards[0].hidden_items.bytes() / 64);
-  }
+shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, const StripBuffers &buffers,
+                                                   std::size_t window, std::uint32_t round) const {
+  const WindowBuffers &of = of_window[window];
+  return {strip,
+          buffers.position.words(),
+          buffers.ids.words(),
+          planes->words(),
+          of.record.words(),
+          shafts.words(),
+          work.words(),
+          entries.words(),
+          buffers.visibility.words(),
+          boards[of.board].planes.words(),
+          round,
+          spare_entry,
+          tile_count(strip),
+          sample_count(strip),
+          windows[window].bundles * shader::diodes_per_bundle,
+          of.rank_bins};
 }
+
+void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                                    const StripBuffers &buffers, std::size_t window) const {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
+                         Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
+  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(strip);
+  commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * sample_count(strip) * word, ~0u);
+  if (of_window[window].first_of_board) {
+    shader::SweepWork nothing{};
+    std::ranges::fill(nothing.rounds,
+                      shader::SweepRound{0, 1, 1, 0, shader::tile_samples / lanes, 0, 1, 0, 1, 0, 1, 0});
+    commands.updateBuffer<shader::SweepWork>(work.get(), 0, nothing);
+    if (!boards[of_window[window].board].any_hidden)
+      commands.fillBuffer(work.get(), sizeof(nothing) + 2 * tiles * word, tiles * word, 0);
+  } else {
+    for (std::size_t round = 0; round < shader::sweep_rounds; ++round)
+      commands.updateBuffer<std::uint32_t>(
+          work.get(), round * sizeof(shader::SweepRound) + offsetof(shader::SweepRound, sample_groups_x),
+          std::array<std::uint32_t, 4>{1, 0, 1, 0});
+  }
+  vulkan::memory_barrier(
+      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
+      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+}
+
+void SweepPass::State::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                                    const StripBuffers &buffers, std::size_t window) const {
+  const WindowBuffers &of = of_window[window];
+  const shader::SweepConstants plain = constants(strip, buffers, window);
+  find_shafts.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &of.texels);
+  vulkan::compute_barrier(commands);
+  // Tiles four beside each other; some groups at the strip's rims are not full.
+  const std::uint32_t high = lanes / 4;
+  const std::uint32_t groups = ((tiles_across(strip.columns) + 3) / 4) *
+                               ((tiles_across(strip.rows) + high - 1) / high) * strip.samples * strip.samples;
+  if (boards[of.board].any_hidden) {
+    shader::SweepConstants hidden = plain;
+    hidden.board = of.hidden_record.words();
+    count_hidden.dispatch(commands, hidden, groups * lanes, lanes, &of.hidden_texels);
+    vulkan::compute_barrier(commands);
+  }
+  count_edges.dispatch(commands, plain, groups * lanes, lanes, &of.texels);
+  vulkan::compute_barrier(commands);
+}
+
+void SweepPass::State::record_round(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                                    const StripBuffers &buffers, std::size_t window,
+                                    std::uint32_t round) const {
+  const WindowBuffers &of = of_window[window];
+  const shader::SweepConstants plain = constants(strip, buffers, window, round);
+  const vk::DeviceSize begin = round * sizeof(shader::SweepRound);
+  const vk::DeviceSize list_groups = begin + offsetof(shader::SweepRound, list_groups_x);
+  if (boards[of.board].any_hidden) {
+    shader::SweepConstants hidden = plain;
+    hidden.board = of.hidden_record.words();
+    write_hidden.dispatch_indirect(commands, hidden, work, list_groups, &of.hidden_texels);
+  }
+  write_edges.dispatch_indirect(commands, plain, work, list_groups, &of.texels);
+  vulkan::compute_barrier(commands);
+  of.sweep.dispatch_indirect(commands, plain, work, begin + offsetof(shader::SweepRound, tile_groups_x),
+                             &of.texels);
+  vulkan::compute_barrier(commands);
+  of.exact.dispatch_indirect(commands, plain, work, begin + offsetof(shader::SweepRound, sample_groups_x),
+                             &of.texels);
+  vulkan::compute_barrier(commands);
+}
+
+SweepPass::~SweepPass() = default;
 
 SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
@@ -158,7 +231,7 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
   for (std::size_t b = 0; b < boards.size(); ++b) {
     const Board &board = boards[b];
     const SweepItems items = sweep_items(board, occluders, camera, scene);
-    most_items = std::max({most_items, items.edges.items.size(), items.hidden.items.size()});
+    most_items = std::max(most_items, items.edges.items.size() + items.hidden.items.size());
     state.boards.push_back({upload_texels(device, items.edges.items),
                             upload_texels(device, items.edges.boxes), vulkan::upload(device, items.planes),
                             upload_texels(device, items.hidden.items),
@@ -178,7 +251,8 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
       };
       of.record = record_of(items.edges);
       of.hidden_record = record_of(items.hidden);
-      constants.set(shader::constant_exact_only, !board.is_flat || !items.in_the_way.empty());
+      constants.set(shader::constant_exact_only,
+                    !board.is_flat || !items.in_the_way.empty() || !tables.tells_angles);
       of.ranks = upload_texels(device, tables.ranks);
       of.prefixes = upload_texels(device, tables.prefixes);
       of.lines = upload_texels(device, tables.lines);
@@ -211,102 +285,61 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
     constants.set(shader::constant_is_first, is_first).set(shader::constant_lists_hidden, hidden);
     return pipeline("sweep_lists", sizeof(shader::SweepConstants), texel_buffers);
   };
-  state.count_lists = lists(true, false);
-  state.write_lists = lists(false, false);
+  state.count_edges = lists(true, false);
+  state.write_edges = lists(false, false);
   state.count_hidden = lists(true, true);
   state.write_hidden = lists(false, true);
   const vk::DeviceSize tiles = largest_tile_count(strips);
   state.shafts = sweep_storage(device, tiles * sizeof(shader::TileShaft));
-  state.work = sweep_storage(
-      device, sizeof(shader::SweepWork) + (5 + shader::tile_samples) * tiles * sizeof(std::uint32_t),
-      vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst);
-  state.spare_entry = static_cast<std::uint32_t>(list_capacity + most_items);
+  state.work =
+      sweep_storage(device,
+                    sizeof(shader::SweepWork) +
+                        (4 + shader::sweep_rounds + shader::tile_samples) * tiles * sizeof(std::uint32_t),
+                    vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst |
+                        vk::BufferUsageFlagBits::eTransferSrc);
+  state.spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
   state.entries = sweep_storage(device, (vk::DeviceSize{state.spare_entry} + 1) * sizeof(std::uint32_t));
+  if (most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round)
+    state.header_read = Buffer(device, sizeof(shader::SweepWork), vk::BufferUsageFlagBits::eTransferDst,
+                               vulkan::Memory::read);
 }
 
 void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                        const StripBuffers &buffers, std::size_t window) const {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
   const State &state = *state_;
   const State::WindowBuffers &of = state.of_window[window];
-  const State::BoardBuffers &board = state.boards[of.board];
-  const shader::SweepConstants constants = state.constants(strip, buffers, window);
-  const auto before_transfer = [&] {
-    vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
-                           Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
-  };
-  const auto after_transfer = [&] {
-    vulkan::memory_barrier(
-        commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
-        Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
-  };
-  const int stop = getenv("STOP") ? atoi(getenv("STOP")) : 9;
-  if (stop < 1)
-    return;
-  before_transfer();
-  commands.fillBuffer(buffers.visibility.get(), 0,
-                      vk::DeviceSize{state.windows[window].bundles} * constants.plane * sizeof(std::uint32_t),
-                      ~0u);
-  if (of.first_of_board) {
-    shader::SweepWork nothing{};
-    nothing.tile_groups_x = shader::tile_samples / state.lanes;
-    nothing.sample_groups_x = 1;
-    nothing.tile_groups_z = nothing.sample_groups_z = 1;
-    commands.updateBuffer<shader::SweepWork>(state.work.get(), 0, nothing);
-    if (!board.any_hidden)
-      commands.fillBuffer(state.work.get(),
-                          sizeof(nothing) + 2 * vk::DeviceSize{constants.tiles} * sizeof(std::uint32_t),
-                          vk::DeviceSize{constants.tiles} * sizeof(std::uint32_t), 0);
-  } else {
-    const std::array<std::uint32_t, 4> no_samples{1, 0, 1, 0};
-    commands.updateBuffer<std::uint32_t>(state.work.get(), offsetof(shader::SweepWork, sample_groups_x),
-                                         no_samples);
-  }
-  after_transfer();
-  if (stop < 2)
-    return;
-  if (of.first_of_board) {
-    state.find_shafts.dispatch(commands, constants, padded(constants.tiles), shader::workgroup_size,
-                               &of.texels);
-    vulkan::compute_barrier(commands);
-    if (stop < 3)
-      return;
-    // Tiles four beside each other; some groups at the strip's rims are not full.
-    const std::uint32_t high = state.lanes / 4;
-    const std::uint32_t groups = ((tiles_across(strip.columns) + 3) / 4) *
-                                 ((tiles_across(strip.rows) + high - 1) / high) * strip.samples *
-                                 strip.samples;
-    const auto list = [&](const vulkan::ComputePipeline &how, bool hidden) {
-      shader::SweepConstants of_kind = constants;
-      if (hidden)
-        of_kind.board = of.hidden_record.words();
-      how.dispatch(commands, of_kind, groups * state.lanes, state.lanes,
-                   hidden ? &of.hidden_texels : &of.texels);
-      vulkan::compute_barrier(commands);
-    };
-    if (board.any_hidden) {
-      list(state.count_hidden, true);
-      list(state.write_hidden, true);
-    }
-    list(state.count_lists, false);
-    list(state.write_lists, false);
-  }
-  if (stop < 4)
-    return;
-  of.sweep.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, tile_groups_x),
-                             &of.texels);
-  vulkan::compute_barrier(commands);
-  if (stop < 5)
-    return;
-  of.exact.dispatch_indirect(commands, constants, state.work, offsetof(shader::SweepWork, sample_groups_x),
-                             &of.texels);
-  vulkan::compute_barrier(commands);
-  if (stop < 6)
-    return;
+  state.record_reset(commands, strip, buffers, window);
+  if (of.first_of_board)
+    state.record_count(commands, strip, buffers, window);
+  for (std::uint32_t round = 0; round < shader::sweep_rounds; ++round)
+    state.record_round(commands, strip, buffers, window, round);
+  const std::uint32_t plane = sample_count(strip);
   const shader::LitCountConstants count{buffers.visibility.words(), of.bits.words(), buffers.lit.words(),
-                                        constants.plane};
-  of.count.dispatch(commands, count, constants.plane, shader::workgroup_size);
+                                        plane};
+  of.count.dispatch(commands, count, plane, shader::workgroup_size);
+  if (may_overflow())
+    state.record_read_back(commands);
+}
+
+void SweepPass::State::record_read_back(const vk::raii::CommandBuffer &commands) const {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
+                         Access::eTransferRead);
+  commands.copyBuffer(work.get(), header_read.get(), vk::BufferCopy(0, 0, sizeof(shader::SweepWork)));
+  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+bool SweepPass::may_overflow() const { return state_->header_read.bytes() > 0; }
+
+void SweepPass::check() const {
+  shader::SweepWork work;
+  std::memcpy(&work, state_->header_read.mapped().data(), sizeof(work));
+  if (work.lost_tiles > 0)
+    throw Error(ExitCode::out_of_memory,
+                "the scene has too many edges for its shadows: expected at most " +
+                    std::to_string(std::uint64_t{shader::sweep_rounds} * shader::entries_per_round) +
+                    " pairs of an edge and a tile of 8 x 8 samples that it may shade");
 }
 
 } // namespace pmdsim

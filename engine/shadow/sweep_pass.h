@@ -28,6 +28,11 @@ public:
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
               const StripBuffers &buffers, std::size_t window) const;
 
+  // Whether a strip's lists may be too long for the rounds that they are made in.
+  bool may_overflow() const;
+  // Once the device is done with a strip. Throws Error (out_of_memory) where they were.
+  void check() const;
+
 private:
   struct State;
   std::unique_ptr<State> state_;

@@ -50,31 +50,30 @@ std::size_t bin_of(float turn, std::size_t bins) {
   return std::min(bins - 1, static_cast<std::size_t>(turn * (static_cast<float>(bins) / 4.0f)));
 }
 
-// No bin holds more than two classes, but where diodes stand closer than a table can tell.
+// Whether some bin holds more than two classes.
+bool is_too_coarse(const std::vector<AngleClass> &classes, std::size_t bins) {
+  for (std::size_t i = 2; i < classes.size(); ++i)
+    if (bin_of(classes[i - 2].turn, bins) == bin_of(classes[i].turn, bins))
+      return true;
+  return false;
+}
+
 std::size_t bins_for(const std::vector<AngleClass> &classes) {
-  const auto is_too_coarse = [&](std::size_t bins) {
-    for (std::size_t i = 2; i < classes.size(); ++i)
-      if (bin_of(classes[i - 2].turn, bins) == bin_of(classes[i].turn, bins))
-        return true;
-    return false;
-  };
   std::size_t bins = least_bins;
-  while (bins < most_bins && is_too_coarse(bins))
+  while (bins < most_bins && is_too_coarse(classes, bins))
     bins *= 2;
   return bins;
 }
 
-std::vector<uvec4> rank_table(const std::vector<AngleClass> &classes) {
-  const std::size_t bins = bins_for(classes);
-  std::vector<uvec4> table(
-      bins, uvec4(0, std::bit_cast<std::uint32_t>(8.0f), std::bit_cast<std::uint32_t>(8.0f), 0));
+std::vector<uvec4> rank_table(const std::vector<AngleClass> &classes, std::size_t bins) {
+  const auto above_all = std::bit_cast<std::uint32_t>(8.0f);
+  std::vector<uvec4> table(bins, uvec4(0, above_all, above_all, 0));
   std::size_t next = 0;
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const std::uint32_t base = next > 0 ? classes[next - 1].after : 0;
     std::array<std::uint32_t, 3> ranks{base, base, base};
-    std::size_t own = 0;
-    for (; next < classes.size() && bin_of(classes[next].turn, bins) == bin; ++next) {
-      const std::size_t slot = std::min<std::size_t>(own++, 1); // further ones join the second
+    for (std::size_t slot = 0; next < classes.size() && bin_of(classes[next].turn, bins) == bin;
+         ++next, ++slot) {
       table[bin][1 + static_cast<glm::length_t>(slot)] = std::bit_cast<std::uint32_t>(classes[next].turn);
       for (std::size_t after = slot + 1; after < 3; ++after)
         ranks[after] = classes[next].after;
@@ -184,7 +183,10 @@ SweepTables sweep_tables(const Board &board, const std::vector<glm::dvec3> &plac
     flat_m.emplace_back(place_m);
   }
   std::ranges::sort(ordered);
-  tables.ranks = rank_table(angle_classes(ordered));
+  const std::vector<AngleClass> classes = angle_classes(ordered);
+  const std::size_t bins = bins_for(classes);
+  tables.tells_angles = !is_too_coarse(classes, bins);
+  tables.ranks = tables.tells_angles ? rank_table(classes, bins) : std::vector<uvec4>(1);
   tables.prefixes = prefix_table(ordered);
   tables.lines = line_table(board, flat_m);
   return tables;

@@ -10,6 +10,7 @@
 namespace pmdsim {
 
 struct SweepTables {
+  bool tells_angles = true; // else diodes stand so close that `ranks` cannot tell some of their angles apart
   std::vector<shader::uvec4> ranks; // of each bin of angles: three ranks of 10 bits, the angles between them
   std::vector<shader::uvec4> prefixes; // of each rank, two: the diodes of smaller angles, a bit each
   std::vector<shader::uvec4> lines; // of each direction and offset, four: pairs of surely beyond and perhaps

@@ -119,7 +119,7 @@ void find_facing(uint own, bool sees, SweepBoard board, Real3 p, out uint facing
 
 // Whether a triangle that the lens does not see may lie between it and the sample, which it sees.
 bool is_perhaps_hidden(SweepLists lists, uint tile, vec3 to_lens) {
-  uint length = lists.list[length_at(list_hidden, tile)], first = lists.list[place_at(list_hidden, tile)];
+  uint length = lists.list[length_at(list_hidden, tile)], first = list_begin(lists, list_hidden, tile);
   bool perhaps = length > most_hidden;
   for (uint i = 0; i < min(length, most_hidden); ++i) {
     Item item = load_hidden(Words(constants.entries).at[first + i]);
@@ -131,10 +131,10 @@ bool is_perhaps_hidden(SweepLists lists, uint tile, vec3 to_lens) {
 void main() {
   SweepBoard board = Boards(constants.board).at;
   SweepLists lists = SweepLists(constants.work);
-  uint entry = interleaved(gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y, lists.at.tiles);
-  if (gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y >= lists.at.tiles)
+  uint tiles = lists.at.rounds[constants.round].tiles;
+  if (entry_of_workgroup() >= tiles)
     return;
-  uint tile = lists.list[active_at(entry)];
+  uint tile = lists.list[active_at(constants.round, interleaved(entry_of_workgroup(), tiles))];
   const uint wide = gl_WorkGroupSize.x == 8u ? 4u : 8u, high_ = gl_WorkGroupSize.x / wide;
   uint across = tile_side / wide;
   uvec2 block = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across) * uvec2(wide, high_);
@@ -148,6 +148,10 @@ void main() {
   point_rest = sees ? rest3(exact_point) : vec3(0.0);
   depth = -point.z;
   float to_board = depth; // as a height over the sample
+  // Where edges matter about the centre: as far as diodes stand, and the lens, projected on the board.
+  float reach = 1.0005 * board.radius;
+  if (lens_apart != 0)
+    reach = max(reach, 1.0005 * length(point.xy * board.lens_z / (board.lens_z + depth)));
   float beside = 2e-5 * (abs(point.x) + abs(point.y) + board.radius) + 1e-6;
   tolerance = 5e-7 * (abs(point.x) + abs(point.y) + depth + board.radius);
 
@@ -163,7 +167,7 @@ void main() {
   vec3 to_lens = vec3(-point.xy, board.lens_z + depth), to_centre = vec3(-point.xy, depth);
   vec3 lens_plane = cross(to_lens, to_centre); // only where they are apart
   uint base = 0u; // of all diodes, two's complement
-  uint length = exact_only != 0 ? 0u : lists.list[length_at(list_edges, tile)], first = lists.list[place_at(list_edges, tile)];
+  uint length = exact_only != 0 ? 0u : lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
   uint steps = 0u; // of all loops
   if (exact_only == 0 && sees && is_perhaps_hidden(lists, tile, to_lens))
     unclear = true;
@@ -211,7 +215,7 @@ void main() {
         vec3 clipped_b = b.z < 0.0 ? low_end : b.z > to_board ? high_end : b;
         counted = counted && min(a.z, b.z) < to_board;
         if (lens_apart != 0)
-          unclear = unclear || (counted && max(a.z, b.z) > board.highest + depth - shaft_slack_m);
+          unclear = unclear || (counted && max(a.z, b.z) > board.nearest + depth);
         vec2 qa = point.xy * clipped_a.z + clipped_a.xy * to_board, qb = point.xy * clipped_b.z + clipped_b.xy * to_board;
         float size_qa = abs(qa.x) + abs(qa.y), size_qb = abs(qb.x) + abs(qb.y);
         // The edge's line on the board: normal . L + offset, negative beyond it as seen from a counter-clockwise edge.
@@ -219,7 +223,6 @@ void main() {
         float offset = line.z * to_board - dot(line.xy, point.xy);
         float near_line = tolerance * size_a * (abs(way.x) + abs(way.y) + abs(way.z));
         // Its least distance from the centre is at most that of the diodes: of the ends where one is nearest, else of the line.
-        float reach = 1.0005 * board.radius;
         vec2 along = qb * clipped_a.z - qa * clipped_b.z; // positive multiple of the projected way
         bool past_a = dot(qa, along) > 0.0 && clipped_a.z > 0.0, past_b = dot(qb, along) < 0.0 && clipped_b.z > 0.0;
         bool near_a = size_qa <= 1.5 * reach * clipped_a.z, near_b = size_qb <= 1.5 * reach * clipped_b.z;
@@ -375,9 +378,9 @@ void main() {
   [[unroll]] for (uint w = 0; w < bundles; ++w)
     Words(constants.visibility).at[w * constants.plane + to] = to_store[w];
   if (sees && unclear) {
-    uint place = atomicAdd(lists.at.samples, 1u);
+    uint place = atomicAdd(lists.at.rounds[constants.round].samples, 1u);
     lists.list[sample_at(place)] = tile * tile_samples + within;
-    atomicMax(lists.at.sample_groups_y, min(place + 1u, workgroups_per_row));
-    atomicMax(lists.at.sample_groups_z, place / workgroups_per_row + 1u);
+    atomicMax(lists.at.rounds[constants.round].sample_groups_y, min(place + 1u, workgroups_per_row));
+    atomicMax(lists.at.rounds[constants.round].sample_groups_z, place / workgroups_per_row + 1u);
   }
 }

@@ -196,7 +196,17 @@ uint interleaved(uint i, uint count) {
 const uint list_edges = 0u, list_hidden = 1u;
 uint length_at(uint kind, uint tile) { return 2u * kind * constants.tiles + tile; }
 uint place_at(uint kind, uint tile) { return (2u * kind + 1u) * constants.tiles + tile; }
-uint active_at(uint entry) { return 4u * constants.tiles + entry; }
-uint sample_at(uint entry) { return 5u * constants.tiles + entry; }
+uint active_at(uint round_, uint entry) { return (4u + round_) * constants.tiles + entry; }
+uint sample_at(uint entry) { return (4u + sweep_rounds) * constants.tiles + entry; }
+
+uint round_of(uint place) { return min(place / entries_per_round, sweep_rounds); }
+
+// Where a tile's list begins in the entries of this round.
+uint list_begin(SweepLists lists, uint kind, uint tile) {
+  return lists.list[place_at(kind, tile)] - constants.round * entries_per_round;
+}
+
+// The entry of this workgroup in a list over whose entries workgroups go along y and then z.
+uint entry_of_workgroup() { return gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y; }
 
 #endif

@@ -52,7 +52,7 @@ Crossing cross_in_real(Real3 a, Real3 b, Real3 lens, Real3 diode) {
 
 // Triangles between the sample and the lens that the lens does not see, an invocation a triangle.
 int count_hidden(SweepLists lists, uint tile, Real3 point, Real3 lens, SweepBoard board) {
-  uint length = lists.list[length_at(list_hidden, tile)], first = lists.list[place_at(list_hidden, tile)];
+  uint length = lists.list[length_at(list_hidden, tile)], first = list_begin(lists, list_hidden, tile);
   int count = 0;
   for (uint i = 0; i < length; i += gl_WorkGroupSize.x) {
     Item item = load_hidden(Words(constants.entries).at[first + min(i + lane(), length - 1u)]);
@@ -102,10 +102,9 @@ uint keep_items(uint first, uint length, uint own, Ways ways, Real3 point, Sweep
 void main() {
   SweepBoard board = Boards(constants.board).at;
   SweepLists lists = SweepLists(constants.work);
-  uint entry = gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y;
-  if (entry >= lists.at.samples)
+  if (entry_of_workgroup() >= lists.at.rounds[constants.round].samples)
     return;
-  uint sample_ = lists.list[sample_at(entry)], tile = sample_ / tile_samples;
+  uint sample_ = lists.list[sample_at(entry_of_workgroup())], tile = sample_ / tile_samples;
   TileSample at = tile_sample(constants.strip, tile, sample_ % tile_samples);
   uint own = shape_of(at, constants.strip, constants.ids, tiled != 0);
   Real3 point = in_board_frame(load_position(constants.position, at.i), board);
@@ -125,7 +124,7 @@ void main() {
     for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x)
       surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
   }
-  uint length = lists.list[length_at(list_edges, tile)], first = lists.list[place_at(list_edges, tile)];
+  uint length = lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
     for (uint i = 0; i < count; ++i) {

@@ -54,16 +54,29 @@ struct TileShaft {
   vec4 low, high;
 };
 
-// Lists of the sweep. What follows: for each tile the length of its list of edges and the place where it begins,
-// the same of its list of hidden triangles, then the tiles one of whose lists is not empty, then the samples that
-// have to be decided exactly.
-struct SweepWork {
-  uint tile_groups_x, tile_groups_y, tile_groups_z;          // of the sweep over active tiles
-  uint tiles;                                                // active ones
-  uint sample_groups_x, sample_groups_y, sample_groups_z;    // of the exact sweep
+// The lists of tiles are made in rounds, so that they fit into memory: a round's lists begin in its own stretch of
+// all their entries, and only the last of them goes beyond it. A frame with more entries is refused.
+PMDSIM_CONSTANT sweep_rounds = 16;
+PMDSIM_CONSTANT entries_per_round = 1u << 23;
+
+// Of a round: workgroups that write its lists, the sweep over its tiles, and the exact one over those of their
+// samples that it leaves.
+struct SweepRound {
+  uint list_groups_x, list_groups_y, list_groups_z;
+  uint tiles;
+  uint tile_groups_x, tile_groups_y, tile_groups_z;
+  uint padding;
+  uint sample_groups_x, sample_groups_y, sample_groups_z;
   uint samples;
-  uint entries;  // of all tiles' lists
-  uint is_full;  // 1: the lists did not fit
+};
+
+// Lists of the sweep. What follows: for each tile the length of its list of edges and the entry where it begins,
+// the same of its list of hidden triangles, then of each round the tiles one of whose lists is not empty, then
+// the samples that have to be decided exactly.
+struct SweepWork {
+  SweepRound rounds[sweep_rounds];
+  uint entries;    // of all tiles' lists
+  uint lost_tiles; // for which there is no round
   uint padding_1, padding_2;
 };
 
@@ -78,7 +91,7 @@ struct SweepConstants {
   uvec2 entries;    // uint[], the tiles' lists of items
   uvec2 visibility; // out
   uvec2 exact;      // in: SweepPlanes[], of each item
-  uint capacity;    // where a tile's list may begin, below it
+  uint round;
   uint spare_entry; // of entries, for whatever is of no use
   uint tiles;
   uint plane;  // samples
@@ -99,7 +112,8 @@ struct Piercer {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SweepBoard) == 16 * 13 && sizeof(TileShaft) == 96 && sizeof(SweepWork) == 48);
+static_assert(sizeof(SweepBoard) == 16 * 13 && sizeof(TileShaft) == 96 &&
+              sizeof(SweepWork) == 48 * sweep_rounds + 16);
 static_assert(sizeof(SweepConstants) <= 128);
 } // namespace pmdsim::shader
 #endif

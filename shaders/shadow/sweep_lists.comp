@@ -50,7 +50,7 @@ bool meets_box(Outlook of, uint level_first, uint box) {
 
 bool is_concerned(Outlook of, Item item) { return lists_hidden != 0 ? may_hide(of.sights, item) : may_matter(of.ways, item); }
 
-uint listed;          // items of this invocation's tile so far
+uint listed; // items of this invocation's tile so far
 uint first_entry;
 bool writes;
 
@@ -72,6 +72,25 @@ void list_items(uint count, Outlook own) {
   }
 }
 
+// Room for both lists of a tile, and a place among the tiles of a round.
+void make_room(SweepLists lists, uint tile, bool turns_away) {
+  uint hidden = lists.list[length_at(list_hidden, tile)];
+  uint place = listed + hidden > 0u ? atomicAdd(lists.at.entries, listed + hidden) : 0u, round_ = round_of(place);
+  lists.list[place_at(list_edges, tile)] = place;
+  lists.list[place_at(list_hidden, tile)] = place + listed;
+  if (listed + hidden == 0u && !turns_away)
+    return;
+  if (round_ == sweep_rounds) {
+    atomicAdd(lists.at.lost_tiles, 1u);
+    return;
+  }
+  uint entry = atomicAdd(lists.at.rounds[round_].tiles, 1u);
+  lists.list[active_at(round_, entry)] = tile;
+  atomicMax(lists.at.rounds[round_].list_groups_x, gl_NumWorkGroups.x);
+  atomicMax(lists.at.rounds[round_].tile_groups_y, min(entry + 1u, workgroups_per_row));
+  atomicMax(lists.at.rounds[round_].tile_groups_z, entry / workgroups_per_row + 1u);
+}
+
 void main() {
   SweepBoard board = Boards(constants.board).at;
   uint tile = tile_of_invocation();
@@ -88,8 +107,13 @@ void main() {
   }
   listed = 0u;
   SweepLists lists = SweepLists(constants.work);
-  first_entry = is_first == 0 && is_there ? lists.list[place_at(lists_hidden, tile)] : 0u;
-  writes = is_there && first_entry < constants.capacity;
+  uint place = is_first == 0 && is_there ? lists.list[place_at(lists_hidden, tile)] : 0u;
+  // Both lists of a tile belong to the round of its edges.
+  uint round_ = is_first == 0 && is_there ? round_of(lists.list[place_at(list_edges, tile)]) : sweep_rounds;
+  first_entry = place - constants.round * entries_per_round;
+  writes = is_there && round_ == constants.round;
+  if (is_first == 0 && !subgroupAny(writes))
+    return;
 
   for (uint root = 0; root < board.level_count[2]; root += boxes_of_root) {
     uint hits = subgroupBallot(lane() < boxes_of_root && root + lane() < board.level_count[2] && meets_box(all, board.level_first[2], root + lane())).x;
@@ -120,18 +144,9 @@ void main() {
       }
     }
   }
-  if (is_first != 0 && is_there) {
-    uint place = listed > 0u ? atomicAdd(lists.at.entries, listed) : 0u;
-    lists.list[length_at(lists_hidden, tile)] = listed;
-    lists.list[place_at(lists_hidden, tile)] = place;
-    // Hidden triangles are counted before edges.
-    if (lists_hidden == 0 && (listed > 0u || shaft.low.w != 0.0 || lists.list[length_at(list_hidden, tile)] > 0u)) {
-      uint entry = atomicAdd(lists.at.tiles, 1u);
-      lists.list[active_at(entry)] = tile;
-      atomicMax(lists.at.tile_groups_y, min(entry + 1u, workgroups_per_row));
-      atomicMax(lists.at.tile_groups_z, entry / workgroups_per_row + 1u);
-    }
-    if (place >= constants.capacity)
-      atomicMax(lists.at.is_full, 1u);
-  }
+  if (is_first == 0 || !is_there)
+    return;
+  lists.list[length_at(lists_hidden, tile)] = listed;
+  if (lists_hidden == 0) // hidden triangles are counted before edges
+    make_room(lists, tile, shaft.low.w != 0.0);
 }
