@@ -100,12 +100,12 @@ struct ShadowPasses {
 
 Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) {
   return {.name = "lit",
-          .reads = ids | points,
+          .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
           .writes = visibility_bits | visibility_counts,
           .record =
               [=, &buffers = on.buffers](const Recording &at) {
                 if (shadow.sweep) {
-                  shadow.sweep->record(at.commands, at.of_strip(), buffers, at.window);
+                  shadow.sweep->record(at.commands, at.of_strip(), at.window);
                   return;
                 }
                 if (at.window == 0 && makes_tiles)
@@ -117,16 +117,10 @@ Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) 
                        : std::function<void(const Recording &, Measurement &)>{}};
 }
 
-// Whether all that stands in the light has edges, and no holes.
-bool can_sweep(const FrameFacts &facts, const PathForms &allowed) {
-  return allowed.sweep && std::ranges::none_of(facts.occluders.shapes, [](const shader::Occluder &shape) {
-           return shape.may_be_absent != 0;
-         });
-}
-
 // The bits for the host.
 Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> &windows,
                                const std::shared_ptr<const SourceGroups> &sources) {
+  const bool row_by_row = on.path.record == SampleRecord::depth;
   return {.name = "read_back",
           .reads = visibility_bits,
           .writes = no_resource,
@@ -136,7 +130,8 @@ Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> 
               },
           .store =
               [=, &buffers = on.buffers](const Recording &at, Measurement &to) {
-                store_visibility(at.of_strip(), buffers, windows[at.window], *sources, to.sample_visibility);
+                store_visibility(at.of_strip(), buffers, windows[at.window], *sources, row_by_row,
+                                 to.sample_visibility);
               }};
 }
 
@@ -158,7 +153,8 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
 
 // A class of pixels, sample by sample: all of them, or those of `list`.
 void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
-                const vulkan::Buffer *list, FrameGraph &graph) {
+                const vulkan::Buffer *list, FrameGraph &graph,
+                const std::optional<SampleTiles> &shadowed_tiles = {}) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
@@ -168,7 +164,14 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && !on.path.points_first)
     graph.add_after(points_of(on, pixels->precision, list));
-  Pass sum = accumulate_pass(on, groups, pixels->reduced ? std::vector{all_runs(groups)} : windows, scope);
+  const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : windows;
+  if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
+    SumScope unshadowed = scope;
+    unshadowed.shadowed = false;
+    graph.add_to_window(accumulate_pass(on, groups, of_windows, unshadowed));
+    scope.tiles.emplace(*shadowed_tiles);
+  }
+  Pass sum = accumulate_pass(on, groups, of_windows, scope);
   list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
@@ -225,10 +228,9 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   ShadowPasses shadow;
-  if (on.path.windows > 0 && can_sweep(on.facts, on.options.allowed))
-    shadow.sweep = std::make_shared<const SweepPass>(
-        on.device, on.facts.occluders, on.facts.camera, on.request.scene, on.plan.all, windows, on.scene,
-        strips, is_tiled(on.sensor), on.model.backscatter == shader::backscatter_flat, on.options.precision);
+  if (on.path.sweeps)
+    shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
+                                                     on.request.scene, on.plan.all, windows, strips, grid);
   else if (on.path.windows > 0)
     shadow.tiles =
         std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,
@@ -245,7 +247,10 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
     graph.add_to_window(shadow_pass(on, shadow, true));
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
-  list_class(on, PixelsOf::all, windows, nullptr, graph);
+  std::optional<SampleTiles> shadowed_tiles;
+  if (shadow.sweep && grid)
+    shadowed_tiles.emplace(shadow.sweep->shadowed_tiles());
+  list_class(on, PixelsOf::all, windows, nullptr, graph, shadowed_tiles);
   if (on.path.is_sorted()) {
     const auto lists = std::make_shared<const PixelLists>(on.device, strips);
     list_sorting(on, lists, graph);

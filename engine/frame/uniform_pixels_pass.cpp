@@ -60,8 +60,9 @@ vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, con
   light.diagrams = diagrams.words();
   if (sums) {
     std::ranges::copy(on.modulation.all_tones(), light.tones);
-    std::ranges::copy(frequency_records(on.modulation, groups.largest_intensity_w_sr, bound),
-                      light.frequencies);
+    std::ranges::copy(
+        frequency_records(on.modulation, groups.largest_intensity_w_sr, bound, groups.diode_count),
+        light.frequencies);
   }
   const std::vector<shader::LightRun> runs = light_runs(groups, bound);
   std::vector<std::byte> bytes(sizeof(light) + runs.size() * sizeof(shader::LightRun));

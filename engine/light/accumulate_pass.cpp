@@ -138,6 +138,7 @@ private:
   std::vector<SourceWindow> windows_;
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
+  std::optional<SampleTiles> tiles_;
   std::vector<SourceRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_, bundles_per_run_;
@@ -152,7 +153,7 @@ private:
 Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
-      depth_records_(scope.depth_records), runs_(groups.runs),
+      depth_records_(scope.depth_records), tiles_(scope.tiles), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
@@ -224,8 +225,13 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             blocks_per_run_,
                                             plane,
                                             strip.columns * strip.rows * strip.samples * strip.samples,
-                                            run == 0 ? 1u : 0u};
-  first_.dispatch(at.commands, constants, plane, shader::workgroup_size);
+                                            run == 0 ? 1u : 0u,
+                                            buffers_.visibility.words(),
+                                            tiles_ ? tiles_->buffer.words(tiles_->offset) : shader::uvec2(0)};
+  if (tiles_)
+    first_.dispatch_indirect(at.commands, constants, tiles_->buffer, tiles_->offset);
+  else
+    first_.dispatch(at.commands, constants, plane, shader::workgroup_size);
 }
 
 } // namespace

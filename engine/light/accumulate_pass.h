@@ -38,6 +38,7 @@ struct SumScope {
   const vulkan::Buffer *list = nullptr;    // of pixels; else all
   std::optional<ErrorBound> bound{};       // what the sum's error is to be held against
   std::optional<ChipGrid> depth_records{}; // where these are all that is known of the samples
+  std::optional<SampleTiles> tiles{};      // of depth records, which are summed anew, now shadowed
 };
 
 // `windows` hold the runs of `groups`, and where `shadowed` their visibility bits.

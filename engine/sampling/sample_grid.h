@@ -21,6 +21,12 @@ shader::vec4 half_sample_slope(const Sensor &sensor);
 
 vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor);
 
+// A shader::TileList of samples that are an even grid, on the device.
+struct SampleTiles {
+  const vulkan::Buffer &buffer;
+  vk::DeviceSize offset; // where it begins
+};
+
 class ChipGrid {
 public:
   // Of a sensor without distortion whose pixels are filled or have one sample.
@@ -28,7 +34,8 @@ public:
 
   bool is_nominal() const { return nominal_; }
   shader::SampleGrid of(const shader::Strip &strip) const;
-  shader::uvec2 chip() const; // address of its ChipPlace
+  const shader::vec4 &slope() const { return slope_; } // as in SampleGrid
+  shader::uvec2 chip() const;                          // address of its ChipPlace
 
 private:
   bool nominal_;

@@ -3,12 +3,14 @@
 #include "engine/shadow/sweep_items.h"
 #include "engine/shadow/sweep_tables.h"
 #include "engine/vulkan/commands.h"
+#include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/float_pair.h"
 #include "engine/vulkan/texel_buffers.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_access.hpp>
@@ -75,6 +77,8 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
 } // namespace
 
 struct SweepPass::State {
+  explicit State(const StripBuffers &buffers_) : buffers(buffers_) {}
+
   // A board on the device.
   struct BoardBuffers {
     Buffer items, boxes, planes;
@@ -85,14 +89,17 @@ struct SweepPass::State {
   // A window on the device.
   struct WindowBuffers {
     Buffer record, hidden_record, piercers; // the board's, with the window's piercers
-    Buffer ranks, prefixes, lines, diodes, bits;
+    Buffer ranks, prefixes, lines, diodes;
     vulkan::TexelBuffers texels, hidden_texels;
     std::size_t board;
     bool first_of_board;
     std::uint32_t rank_bins;
-    vulkan::ComputePipeline sweep, exact, count;
+    vulkan::ComputePipeline sweep, exact;
   };
 
+  const StripBuffers &buffers;
+  bool depth_records = false;
+  std::uint32_t shining = 0; // diodes of all windows
   std::vector<SourceWindow> windows;
   std::uint32_t lanes;
   std::vector<BoardBuffers> boards;
@@ -103,24 +110,41 @@ struct SweepPass::State {
   std::uint32_t spare_entry = 0;
   vulkan::Buffer const *planes = nullptr;
 
-  shader::SweepConstants constants(const shader::Strip &strip, const StripBuffers &buffers,
-                                   std::size_t window, std::uint32_t round = 0) const;
+  shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
+                                   std::uint32_t round = 0) const;
+  // The strip as tiles are cut: depth records lie row by row.
+  shader::Strip sample_strip(const shader::Strip &strip) const;
   // Nothing is decided yet; of a board's first window nothing is listed, either.
   void record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, std::size_t window) const;
+                    std::size_t window) const;
   // Finds how long the tiles' lists are.
   void record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, std::size_t window) const;
+                    std::size_t window) const;
   void record_read_back(const vk::raii::CommandBuffer &commands) const;
   // Writes a round's lists and decides for its tiles.
-  void record_round(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                    const StripBuffers &buffers, std::size_t window, std::uint32_t round) const;
+  void record_round(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window,
+                    std::uint32_t round) const;
 };
 
-shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, const StripBuffers &buffers,
-                                                   std::size_t window, std::uint32_t round) const {
+shader::Strip SweepPass::State::sample_strip(const shader::Strip &strip) const {
+  if (!depth_records)
+    return strip;
+  const std::uint32_t s = strip.samples;
+  return {s * strip.column,
+          s * strip.row,
+          s * strip.columns,
+          s * strip.rows,
+          s * strip.resolution_x,
+          s * strip.resolution_y,
+          1,
+          sample_count(strip)};
+}
+
+shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, std::size_t window,
+                                                   std::uint32_t round) const {
   const WindowBuffers &of = of_window[window];
-  return {strip,
+  const shader::Strip of_samples = sample_strip(strip);
+  return {of_samples,
           buffers.position.words(),
           buffers.ids.words(),
           planes->words(),
@@ -132,27 +156,30 @@ shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, c
           boards[of.board].planes.words(),
           round,
           spare_entry,
-          tile_count(strip),
+          tile_count(of_samples),
           sample_count(strip),
           windows[window].bundles * shader::diodes_per_bundle,
           of.rank_bins};
 }
 
 void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                                    const StripBuffers &buffers, std::size_t window) const {
+                                    std::size_t window) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
-  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(strip);
+  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip));
   commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * sample_count(strip) * word, ~0u);
+  if (window == 0)
+    commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);
   if (of_window[window].first_of_board) {
     shader::SweepWork nothing{};
     std::ranges::fill(nothing.rounds,
                       shader::SweepRound{0, 1, 1, 0, shader::tile_samples / lanes, 0, 1, 0, 1, 0, 1, 0});
+    nothing.shaded = {1, 0, 1, 0};
     commands.updateBuffer<shader::SweepWork>(work.get(), 0, nothing);
     if (!boards[of_window[window].board].any_hidden)
-      commands.fillBuffer(work.get(), sizeof(nothing) + 2 * tiles * word, tiles * word, 0);
+      commands.fillBuffer(work.get(), sizeof(nothing) + 3 * tiles * word, tiles * word, 0);
   } else {
     for (std::size_t round = 0; round < shader::sweep_rounds; ++round)
       commands.updateBuffer<std::uint32_t>(
@@ -165,15 +192,16 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
 }
 
 void SweepPass::State::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                                    const StripBuffers &buffers, std::size_t window) const {
+                                    std::size_t window) const {
   const WindowBuffers &of = of_window[window];
-  const shader::SweepConstants plain = constants(strip, buffers, window);
+  const shader::SweepConstants plain = constants(strip, window);
   find_shafts.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &of.texels);
   vulkan::compute_barrier(commands);
   // Tiles four beside each other; some groups at the strip's rims are not full.
   const std::uint32_t high = lanes / 4;
-  const std::uint32_t groups = ((tiles_across(strip.columns) + 3) / 4) *
-                               ((tiles_across(strip.rows) + high - 1) / high) * strip.samples * strip.samples;
+  const shader::Strip &cut = plain.strip;
+  const std::uint32_t groups = ((tiles_across(cut.columns) + 3) / 4) *
+                               ((tiles_across(cut.rows) + high - 1) / high) * cut.samples * cut.samples;
   if (boards[of.board].any_hidden) {
     shader::SweepConstants hidden = plain;
     hidden.board = of.hidden_record.words();
@@ -185,10 +213,9 @@ void SweepPass::State::record_count(const vk::raii::CommandBuffer &commands, con
 }
 
 void SweepPass::State::record_round(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                                    const StripBuffers &buffers, std::size_t window,
-                                    std::uint32_t round) const {
+                                    std::size_t window, std::uint32_t round) const {
   const WindowBuffers &of = of_window[window];
-  const shader::SweepConstants plain = constants(strip, buffers, window, round);
+  const shader::SweepConstants plain = constants(strip, window, round);
   const vk::DeviceSize begin = round * sizeof(shader::SweepRound);
   const vk::DeviceSize list_groups = begin + offsetof(shader::SweepRound, list_groups_x);
   if (boards[of.board].any_hidden) {
@@ -208,24 +235,28 @@ void SweepPass::State::record_round(const vk::raii::CommandBuffer &commands, con
 
 SweepPass::~SweepPass() = default;
 
-SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera,
+SweepPass::SweepPass(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                     const SceneBuffers &buffers, std::span<const PlannedStrip> strips, bool tiled,
-                     bool all_facing, SamplePrecision precision)
-    : state_(std::make_unique<State>()) {
+                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records)
+    : state_(std::make_unique<State>(on.buffers)) {
+  const vulkan::Device &device = on.device;
   State &state = *state_;
   state.windows = windows;
   state.lanes = device.limits().subgroup;
-  state.planes = &buffers.planes;
+  state.planes = &on.scene.planes;
+  state.depth_records = records.has_value();
   const std::vector<Board> boards = find_boards(groups, windows);
   std::size_t most_items = 0;
   state.of_window.resize(windows.size());
-  vulkan::Specialization constants{{shader::constant_tiled, tiled},
-                                   {shader::constant_lanes, state.lanes},
-                                   {shader::constant_all_facing, all_facing}};
+  vulkan::Specialization constants{
+      {shader::constant_tiled, is_tiled(on.sensor)},
+      {shader::constant_lanes, state.lanes},
+      {shader::constant_all_facing, on.model.backscatter == shader::backscatter_flat},
+      {shader::constant_depth_records, records.has_value()},
+      {shader::constant_general_chip, records && !records->is_nominal()}};
   const auto pipeline = [&](std::string_view name, std::size_t bytes, std::uint32_t texel_buffers) {
-    return vulkan::ComputePipeline(device, vulkan::shader_module(device, precision, name), bytes, constants,
-                                   {texel_buffers, texel_buffers > 0 ? state.lanes : 0});
+    return vulkan::ComputePipeline(device, vulkan::shader_module(device, on.options.precision, name), bytes,
+                                   constants, {texel_buffers, texel_buffers > 0 ? state.lanes : 0});
   };
   constexpr std::uint32_t texel_buffers = 7;
   for (std::size_t b = 0; b < boards.size(); ++b) {
@@ -243,8 +274,18 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
       const std::vector<shader::Piercer> piercers =
           find_piercers(board, items.in_the_way, places_of(windows[window], groups));
       of.piercers = vulkan::upload(device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
+      const std::vector<std::uint32_t> bits = diodes_of(windows[window], groups).bits;
+      for (const std::uint32_t of_bundle : bits)
+        state.shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
       const auto record_of = [&](const SweepTree &tree) {
-        shader::SweepBoard record = board_record(board, items, tree, buffers.world_rounding_m);
+        shader::SweepBoard record = board_record(board, items, tree, on.scene.world_rounding_m);
+        if (records) {
+          record.slope = records->slope();
+          record.chip = records->chip();
+        }
+        for (std::size_t bundle = 0; bundle < bits.size(); ++bundle)
+          record.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = bits[bundle];
+        record.lit = on.buffers.lit.words();
         record.piercers = of.piercers.words();
         record.piercer_count = static_cast<std::uint32_t>(piercers.size());
         return vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
@@ -257,7 +298,6 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
       of.prefixes = upload_texels(device, tables.prefixes);
       of.lines = upload_texels(device, tables.lines);
       of.diodes = upload_texels(device, tables.diodes);
-      of.bits = vulkan::upload(device, diodes_of(windows[window], groups).bits);
       of.board = b;
       of.first_of_board = window == board.windows.front();
       of.rank_bins = static_cast<std::uint32_t>(tables.ranks.size());
@@ -277,7 +317,6 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
           .set(shader::constant_is_first, window == 0);
       of.sweep = pipeline("sweep", sizeof(shader::SweepConstants), texel_buffers);
       of.exact = pipeline("sweep_exact", sizeof(shader::SweepConstants), texel_buffers);
-      of.count = pipeline("lit_count", sizeof(shader::LitCountConstants), 0);
     }
   }
   state.find_shafts = pipeline("sweep_shafts", sizeof(shader::SweepConstants), texel_buffers);
@@ -294,7 +333,7 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
   state.work =
       sweep_storage(device,
                     sizeof(shader::SweepWork) +
-                        (4 + shader::sweep_rounds + shader::tile_samples) * tiles * sizeof(std::uint32_t),
+                        (5 + shader::sweep_rounds + shader::tile_samples) * tiles * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst |
                         vk::BufferUsageFlagBits::eTransferSrc);
   state.spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
@@ -305,18 +344,14 @@ SweepPass::SweepPass(const vulkan::Device &device, const Occluders &occluders, c
 }
 
 void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-                       const StripBuffers &buffers, std::size_t window) const {
+                       std::size_t window) const {
   const State &state = *state_;
   const State::WindowBuffers &of = state.of_window[window];
-  state.record_reset(commands, strip, buffers, window);
+  state.record_reset(commands, strip, window);
   if (of.first_of_board)
-    state.record_count(commands, strip, buffers, window);
+    state.record_count(commands, strip, window);
   for (std::uint32_t round = 0; round < shader::sweep_rounds; ++round)
-    state.record_round(commands, strip, buffers, window, round);
-  const std::uint32_t plane = sample_count(strip);
-  const shader::LitCountConstants count{buffers.visibility.words(), of.bits.words(), buffers.lit.words(),
-                                        plane};
-  of.count.dispatch(commands, count, plane, shader::workgroup_size);
+    state.record_round(commands, strip, window, round);
   if (may_overflow())
     state.record_read_back(commands);
 }
@@ -329,6 +364,8 @@ void SweepPass::State::record_read_back(const vk::raii::CommandBuffer &commands)
   commands.copyBuffer(work.get(), header_read.get(), vk::BufferCopy(0, 0, sizeof(shader::SweepWork)));
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
+
+SampleTiles SweepPass::shadowed_tiles() const { return {state_->work, offsetof(shader::SweepWork, shaded)}; }
 
 bool SweepPass::may_overflow() const { return state_->header_read.bytes() > 0; }
 

@@ -2,14 +2,14 @@
 // The shadow pass: which diodes reach which sample, by the silhouettes that the light's place crosses on its
 // way from the lens to a diode (docs/theory.md).
 
+#include "engine/light/accumulate_pass.h"
 #include "engine/light/source_windows.h"
-#include "engine/sampling/strip_memory.h"
+#include "engine/sampling/sample_grid.h"
 #include "engine/shadow/boards.h"
 #include "engine/shadow/occluders.h"
-#include "engine/view/surface_appearance.h"
-#include "engine/vulkan/compute_pipeline.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,16 +17,18 @@ namespace pmdsim {
 
 class SweepPass {
 public:
-  // `tiled`: the IDs lie in tiles (shaders/shared/interface.h). Throws Error (out_of_memory).
-  SweepPass(const vulkan::Device &device, const Occluders &occluders, const CameraScene &camera,
-            const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-            const SceneBuffers &buffers, std::span<const PlannedStrip> strips, bool tiled, bool all_facing,
-            SamplePrecision precision);
+  // `records`: where samples are these. Throws Error (out_of_memory).
+  SweepPass(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
+            const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+            std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records);
   ~SweepPass();
 
-  // Leaves the window's bits in buffers.visibility and adds its diodes to buffers.lit.
-  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
-              const StripBuffers &buffers, std::size_t window) const;
+  // Leaves the window's bits in the strip's visibility, and in `lit` how many diodes of this window and all
+  // that follow reach a sample.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window) const;
+
+  // Those of the depth records that not every diode may reach.
+  SampleTiles shadowed_tiles() const;
 
   // Whether a strip's lists may be too long for the rounds that they are made in.
   bool may_overflow() const;

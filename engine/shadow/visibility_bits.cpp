@@ -24,6 +24,13 @@ std::size_t place_in_frame(const shader::Strip &strip, std::uint32_t subsample, 
   return row * strip.resolution_x * strip.samples + column;
 }
 
+// In the strip's own rows of samples.
+std::size_t place_in_rows(const shader::Strip &strip, std::uint32_t subsample, std::uint32_t pixel) {
+  const std::size_t column = std::size_t{pixel % strip.columns} * strip.samples + subsample % strip.samples;
+  const std::size_t row = std::size_t{pixel / strip.columns} * strip.samples + subsample / strip.samples;
+  return row * strip.columns * strip.samples + column;
+}
+
 void set_bits(std::uint32_t bundle, std::span<const SourcePosition> places, std::uint32_t *sample) {
   for (std::size_t d = 0; d < places.size(); ++d)
     if (const std::uint32_t number = places[d].number; number != no_id)
@@ -56,13 +63,14 @@ void record_visibility(const vk::raii::CommandBuffer &commands, const shader::St
 }
 
 void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
-                      const SourceGroups &groups, std::vector<std::uint32_t> &to) {
+                      const SourceGroups &groups, bool row_by_row, std::vector<std::uint32_t> &to) {
   std::vector<std::uint32_t> bits(bytes_of(window, strip) / sizeof(std::uint32_t));
   std::memcpy(bits.data(), buffers.visibility_read.mapped().data(), bytes_of(window, strip));
   const std::size_t words = words_a_sample(groups), plane = sample_count(strip);
   for (std::uint32_t subsample = 0; subsample < strip.samples * strip.samples; ++subsample)
     for (std::uint32_t pixel = 0; pixel < strip.columns * strip.rows; ++pixel) {
-      const std::size_t i = std::size_t{subsample} * strip.padded_pixels + pixel;
+      const std::size_t i = row_by_row ? place_in_rows(strip, subsample, pixel)
+                                       : std::size_t{subsample} * strip.padded_pixels + pixel;
       std::uint32_t *const sample = to.data() + place_in_frame(strip, subsample, pixel) * words;
       for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
         set_bits(bits[bundle * plane + i], positions_of(window, bundle, groups), sample);

@@ -80,12 +80,15 @@ std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
 }
 
 std::vector<shader::Frequency> frequency_records(const Modulation &modulation, double largest_intensity_w_sr,
-                                                 const std::optional<ErrorBound> &bound) {
+                                                 const std::optional<ErrorBound> &bound,
+                                                 std::uint32_t diodes) {
   const ChannelLayout layout(modulation);
   std::vector<shader::Frequency> records;
   for (std::uint32_t f = 0; f < modulation.frequencies(); ++f) {
     records.push_back(
         record_of(modulation.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
+    records.back().diodes = diodes;
+    records.back().lit_channel = layout.lit_channel();
     if (!bound)
       continue;
     shader::Frequency &record = records.back();

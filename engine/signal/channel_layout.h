@@ -30,6 +30,7 @@ struct ChannelLayout {
 
 // Amplitudes are per unit of the mean return, in which diodes count relative to the strongest.
 std::vector<shader::Frequency> frequency_records(const Modulation &modulation, double largest_intensity_w_sr,
-                                                 const std::optional<ErrorBound> &bound);
+                                                 const std::optional<ErrorBound> &bound,
+                                                 std::uint32_t diodes);
 
 } // namespace pmdsim

@@ -68,8 +68,8 @@ Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, cons
       at_once_(frequencies_at_once(on.modulation, scope)),
       lit_channel_(ChannelLayout(on.modulation).lit_channel()), diodes_(groups.diode_count),
       side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
-      records_(vulkan::upload(on.device,
-                              frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound))),
+      records_(vulkan::upload(on.device, frequency_records(on.modulation, groups.largest_intensity_w_sr,
+                                                           scope.bound, groups.diode_count))),
       harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
       first_(make_pipeline(on, true, leaves_truth)) {
   const bool is_short = scope.depth_records && single_run_;
@@ -84,6 +84,7 @@ vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool fi
   const auto module = [&](std::string_view name) -> const vulkan::ShaderModule & {
     return vulkan::shader_module(on.device, on.options.precision, name);
   };
+  constants.set(shader::constant_lit_is_kept, first && on.modulation.lit);
   if (!scope_.depth_records)
     return {on.device, module("demodulate"), sizeof(shader::DemodulationConstants), constants};
   constants.merge({{shader::constant_surface_vectors, 0},
@@ -144,6 +145,7 @@ void Demodulation::record_depths(const Recording &at, std::uint32_t first_freque
       records_.words(first_frequency * sizeof(shader::Frequency)),
       scene_.paint.shapes.words(),
       scene_.paint.surfaces.words(),
+      buffers_.lit.words(),
       strip.columns * strip.rows,
       strip.padded_pixels,
       plane,

@@ -7,8 +7,8 @@
 #include "shaders/light/accumulate_depths.glsl"
 #else
 #include "shaders/light/accumulate.glsl"
-#define VISIBILITY_OF_BLOCK(i, block) visibility_of_block(i, block)
 #endif
+#define VISIBILITY_OF_BLOCK(i, block) visibility_of_block(i, block)
 #include "shaders/light/moments.glsl"
 
 void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRun run, float backscatter) {

@@ -16,7 +16,31 @@ layout(constant_id = constant_general_chip) const uint general_chip = 0;
 #define DIAGRAM_VALUES constants.diagrams
 #include "shaders/light/sum.glsl"
 
-uint sample_of_invocation() { return gl_GlobalInvocationID.x; }
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tiles {
+  TileList at;
+  uint list[];
+};
+
+// Where not every diode reaches every sample, the samples of a list of tiles; what only pads is beyond the last one.
+uint sample_of_invocation() {
+  if (shadowed == 0)
+    return gl_GlobalInvocationID.x;
+  Tiles tiles = Tiles(constants.tiles);
+  uint entry = gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y;
+  uint columns = constants.grid.columns, tiles_across = (columns + tile_side - 1u) / tile_side;
+  uint tile = tiles.list[min(entry, tiles.at.count - 1u)], within = gl_LocalInvocationID.x;
+  uvec2 at = uvec2(tile % tiles_across, tile / tiles_across) * tile_side + uvec2(within % tile_side, within / tile_side);
+  uint i = at.y * columns + at.x;
+  return entry < tiles.at.count && at.x < columns && i < constants.samples ? i : constants.plane - 1u;
+}
+
+// Of the block's diodes, those that reach sample i, a bit each.
+uint visibility_of_block(uint i, uint block) {
+  if (shadowed == 0)
+    return 0u;
+  uint first = block * diodes_per_block;
+  return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
+}
 
 ReferencePath load_point(uint i, LightRun run, out Point point) {
   uvec2 at = row_by_row(i, constants.grid.columns, constants.grid.inverse_columns);

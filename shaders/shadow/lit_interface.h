@@ -10,8 +10,6 @@ namespace pmdsim::shader {
 
 // Which diodes reach which sample. Samples are taken in tiles of pixels, diodes in bundles; a sample has a
 // word for each bundle, a bit for each diode. A window is the bundles whose words are kept at a time.
-PMDSIM_CONSTANT tile_side = 8;
-PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
 PMDSIM_CONSTANT own_shapes = 16; // of a tile part that are known one by one
 PMDSIM_CONSTANT parts_per_tile = 2;
 // That a part tries one by one; where there are more, rays are traced.
@@ -64,7 +62,6 @@ PMDSIM_CONSTANT list_unclear = list_traced + bundles_per_window;
 PMDSIM_CONSTANT list_walked = list_unclear + bundles_per_window;
 PMDSIM_CONSTANT list_said = list_walked + bundles_per_window; // append_once() in lit.glsl
 PMDSIM_CONSTANT lists = list_said + 1;
-PMDSIM_CONSTANT workgroups_per_row = 32768; // of an indirect dispatch along x; devices may end at 65,535
 
 // Arguments of the indirect dispatch over a list: a workgroup a part along x and then z; over `open` an
 // invocation a part.

@@ -140,9 +140,9 @@ void main() {
   uvec2 block = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across) * uvec2(wide, high_);
   uint within = (block.y + lane() / wide) * tile_side + block.x + lane() % wide;
   TileSample at = tile_sample(constants.strip, tile, within);
-  Real3 camera_point = load_position(constants.position, at.i);
+  Real3 camera_point = point_of(at, board);
   bool sees = at.is_there && high3(camera_point) != vec3(0.0);
-  uint own = sees ? shape_of(at, constants.strip, constants.ids, tiled != 0) : 0xfffffff0u;
+  uint own = sees ? shape_seen(at) : 0xfffffff0u;
   Real3 exact_point = in_board_frame(camera_point, board);
   point = sees ? high3(exact_point) : vec3(0.0, 0.0, -1.0);
   point_rest = sees ? rest3(exact_point) : vec3(0.0);
@@ -374,9 +374,12 @@ void main() {
     below_zero |= counts[w][planes_of_bits - 1] & facing[w];
   }
   unclear = unclear || overflows != 0u || below_zero != 0u;
-  uint to = sees ? at.i : constants.plane - 1u;
+  uint to = sees ? at.i : constants.plane - 1u, missing = 0u;
   [[unroll]] for (uint w = 0; w < bundles; ++w)
     Words(constants.visibility).at[w * constants.plane + to] = to_store[w];
+  [[unroll]] for (uint w = 0; w < bundles; ++w)
+    missing += bitCount(board.shining[w / 4u][w % 4u] & ~to_store[w]);
+  Words(board.lit).at[to] -= missing;
   if (sees && unclear) {
     uint place = atomicAdd(lists.at.rounds[constants.round].samples, 1u);
     lists.list[sample_at(place)] = tile * tile_samples + within;

@@ -7,11 +7,15 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#include "shaders/sampling/grid.glsl"
 #include "shaders/shadow/lit.glsl"
+#include "shaders/view/meet.glsl"
 #include "shaders/shadow/sweep_interface.h"
 
 layout(push_constant, std430) uniform Constants { SweepConstants constants; };
 layout(constant_id = constant_tiled) const uint tiled = 0;
+layout(constant_id = constant_depth_records) const uint depth_records = 0; // samples are these, row by row, and `strip` counts them
+layout(constant_id = constant_general_chip) const uint general_chip = 0;
 
 // Texel buffers: lavapipe fetches the 16 bytes of a texel in a fourth of the time of as many words.
 layout(set = 0, binding = 0) uniform usamplerBuffer item_texels; // four of each item
@@ -43,6 +47,20 @@ Real3 in_board_frame(Real3 p, SweepBoard board) {
   at.y = add(dot3(real3(board.rows_hi[1].xyz, board.rows_lo[1].xyz), p), real(board.rows_hi[1].w, board.rows_lo[1].w));
   at.z = add(dot3(real3(board.rows_hi[2].xyz, board.rows_lo[2].xyz), p), real(board.rows_hi[2].w, board.rows_lo[2].w));
   return at;
+}
+
+// Where the sample lies, camera frame; the lens itself where it sees nothing.
+Real3 point_of(TileSample at, SweepBoard board) {
+  if (depth_records == 0)
+    return load_position(constants.position, at.i);
+  Strip strip = constants.strip;
+  vec2 place = vec2(2 * ivec2(uvec2(strip.column, strip.row) + at.pixel) + 1 - ivec2(strip.resolution_x, strip.resolution_y));
+  return point_at_depth(grid_ray(board.slope, board.chip, place, general_chip != 0), load_record_depth(constants.ids, at.i));
+}
+
+// What it sees.
+uint shape_seen(TileSample at) {
+  return depth_records == 0 ? shape_of(at, constants.strip, constants.ids, tiled != 0) : load_record_ids(constants.ids, at.i).y;
 }
 
 // The normal of the shape that a sample lies on, turned to the lens.
@@ -194,10 +212,10 @@ uint interleaved(uint i, uint count) {
 
 // Where in the lists they are; `kind`: list_edges or list_hidden.
 const uint list_edges = 0u, list_hidden = 1u;
-uint length_at(uint kind, uint tile) { return 2u * kind * constants.tiles + tile; }
-uint place_at(uint kind, uint tile) { return (2u * kind + 1u) * constants.tiles + tile; }
-uint active_at(uint round_, uint entry) { return (4u + round_) * constants.tiles + entry; }
-uint sample_at(uint entry) { return (4u + sweep_rounds) * constants.tiles + entry; }
+uint length_at(uint kind, uint tile) { return (1u + 2u * kind) * constants.tiles + tile; }
+uint place_at(uint kind, uint tile) { return (2u + 2u * kind) * constants.tiles + tile; }
+uint active_at(uint round_, uint entry) { return (5u + round_) * constants.tiles + entry; }
+uint sample_at(uint entry) { return (5u + sweep_rounds) * constants.tiles + entry; }
 
 uint round_of(uint place) { return min(place / entries_per_round, sweep_rounds); }
 

@@ -99,6 +99,14 @@ uint keep_items(uint first, uint length, uint own, Ways ways, Real3 point, Sweep
   return count;
 }
 
+// Puts right what sweep.comp stored.
+void correct(uint bundle, uint i, uint reached, SweepBoard board) {
+  Words words = Words(constants.visibility);
+  uint at = bundle * constants.plane + i, shining = board.shining[bundle / 4u][bundle % 4u];
+  Words(board.lit).at[i] += uint(bitCount(shining & reached) - bitCount(shining & words.at[at]));
+  words.at[at] = reached;
+}
+
 void main() {
   SweepBoard board = Boards(constants.board).at;
   SweepLists lists = SweepLists(constants.work);
@@ -106,8 +114,8 @@ void main() {
     return;
   uint sample_ = lists.list[sample_at(entry_of_workgroup())], tile = sample_ / tile_samples;
   TileSample at = tile_sample(constants.strip, tile, sample_ % tile_samples);
-  uint own = shape_of(at, constants.strip, constants.ids, tiled != 0);
-  Real3 point = in_board_frame(load_position(constants.position, at.i), board);
+  uint own = shape_seen(at);
+  Real3 point = in_board_frame(point_of(at, board), board);
   vec4 slopes_a, slopes_b;
   slopes_of(high3(point), board, slopes_a, slopes_b);
   Ways ways = ways_anywhere(high3(point), high3(point), board);
@@ -150,7 +158,7 @@ void main() {
     reached |= subgroupBallot(reaches).x << within % 32u;
     if (within % 32u + gl_WorkGroupSize.x == 32u) {
       if (lane() == 0u)
-        Words(constants.visibility).at[within / 32u * constants.plane + at.i] = reached;
+        correct(within / 32u, at.i, reached, board);
       reached = 0u;
     }
   }

@@ -28,6 +28,8 @@ PMDSIM_CONSTANT item_hidden = 0xfffffffeu; // no edge, but a triangle that the l
 struct SweepBoard {
   vec4 rows_hi[3]; // board_from_camera: of the rotation, w of the translation
   vec4 rows_lo[3];
+  vec4 slope;      // of samples that are depth records, as in SampleGrid
+  uvec4 shining[2]; // of each bundle of the window the diodes that shine
   vec4 supports_a; // of diodes, centre and lens along +x, -x, +y, -y; not negative
   vec4 supports_b; // along (1, 1), (-1, -1), (1, -1), (-1, 1), of unit length
   float lens_z;
@@ -38,6 +40,8 @@ struct SweepBoard {
   float padding_1, padding_2;
   uint level_first[tree_levels]; // in the boxes; level 0 is that over the items
   uint level_count[tree_levels];
+  uvec2 chip;     // in, of depth records: ChipPlace
+  uvec2 lit;      // uint a sample, in and out: the diodes that reach it
   uvec2 piercers; // Piercer[]: triangles that the straight ways from lens to diodes go through
   uint piercer_count;
   float nearest;        // z below which samples are in front of the board
@@ -70,14 +74,15 @@ struct SweepRound {
   uint samples;
 };
 
-// Lists of the sweep. What follows: for each tile the length of its list of edges and the entry where it begins,
-// the same of its list of hidden triangles, then of each round the tiles one of whose lists is not empty, then
-// the samples that have to be decided exactly.
+// Lists of the sweep. What follows: the active tiles, for each tile the length of its list of edges and the entry where it begins,
+// the same of its list of hidden triangles, then of each round its active tiles, then the samples that have to be
+// decided exactly.
 struct SweepWork {
   SweepRound rounds[sweep_rounds];
   uint entries;    // of all tiles' lists
   uint lost_tiles; // for which there is no round
   uint padding_1, padding_2;
+  TileList shaded; // one of whose lists is not empty
 };
 
 struct SweepConstants {
@@ -112,8 +117,8 @@ struct Piercer {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SweepBoard) == 16 * 13 && sizeof(TileShaft) == 96 &&
-              sizeof(SweepWork) == 48 * sweep_rounds + 16);
+static_assert(sizeof(SweepBoard) == 16 * 17 && sizeof(TileShaft) == 96 &&
+              sizeof(SweepWork) == 48 * sweep_rounds + 32);
 static_assert(sizeof(SweepConstants) <= 128);
 } // namespace pmdsim::shader
 #endif

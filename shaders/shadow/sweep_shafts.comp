@@ -8,7 +8,7 @@ layout(constant_id = constant_all_facing) const uint all_facing = 0;
 
 // Whether a diode may stand behind the surface that a sample lies on.
 bool may_turn_away(TileSample at, vec3 p, SweepBoard board) {
-  uint own = shape_of(at, constants.strip, constants.ids, tiled != 0);
+  uint own = shape_seen(at);
   vec3 normal = normal_in_board_frame(own, board);
   float lowest = -dot(normal, p) - 1.00001 * board.radius * length(normal.xy);
   return lowest < 1e-6 * (length(p) + board.radius);
@@ -22,7 +22,7 @@ void main() {
   bool turns_away = false, in_front = true;
   for (uint within = 0; within < tile_samples; ++within) {
     TileSample at = tile_sample(constants.strip, min(tile, constants.tiles - 1u), within);
-    Real3 position = load_position(constants.position, at.i);
+    Real3 position = point_of(at, board);
     bool sees = at.is_there && high3(position) != vec3(0.0);
     vec3 p = high3(in_board_frame(position, board));
     vec4 a, b;

@@ -305,7 +305,8 @@ struct Frequency {
   uint first_channel;
   float limit_m, fixed_m, per_condition_m;
   float amplitude_limit, amplitude_fixed, amplitude_per_condition;
-  uint padding_1, padding_2;
+  uint diodes;      // of all illuminators
+  uint lit_channel; // where the share of them that reaches a pixel goes
 };
 
 struct DemodulationConstants {
@@ -329,6 +330,16 @@ struct DemodulationConstants {
   uint diodes; // of all illuminators
 };
 
+// Samples row by row, taken in tiles of so many a side. A list of tiles begins with the arguments of a dispatch over
+// it, a workgroup a tile along y and then z; their numbers follow, row by row.
+PMDSIM_CONSTANT tile_side = 8;
+PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
+PMDSIM_CONSTANT workgroups_per_row = 32768; // along y; devices may end at 65,535
+struct TileList {
+  uint groups_x, groups_y, groups_z;
+  uint count;
+};
+
 // The sum over depth records and what becomes of it: all samples alike, row by row, each with a record of two
 // words of IDs and two of depth (Real). The sum has no backscatter in it; its planes hold a vec4 a sample, as
 // above, or, of a frame's only run, a vec2.
@@ -346,6 +357,8 @@ struct DepthSumConstants {
   uint plane;
   uint samples;  // of the strip, in all
   uint is_first; // of the frame's runs: nothing is in the sum yet
+  uvec2 visibility; // in, where shadowed: as in AccumulateConstants
+  uvec2 tiles;      // in, where shadowed: TileList of the samples that are summed, in place of what is there
 };
 
 struct DepthDemodulationConstants {
@@ -359,6 +372,7 @@ struct DepthDemodulationConstants {
   uvec2 frequency;
   uvec2 shapes; // as in PointsConstants
   uvec2 surfaces;
+  uvec2 lit; // in: uint a sample, the diodes that reach it
   uint pixels; // of the strip
   uint padded_pixels;
   uint plane;

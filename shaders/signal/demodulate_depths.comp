@@ -53,6 +53,8 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
   sum.range = add(sum.range, hits ? range : real(0.0));
   sum.depth = add(sum.depth, hits ? depth : real(0.0));
   sum.hits += hits ? 1u : 0u;
+  if (lit_is_kept != 0)
+    sum.lit += hits ? Words(constants.lit).at[i] : 0u;
 }
 
 void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
@@ -85,4 +87,6 @@ void main() {
   }
   if (ground_truth != 0)
     store_truth(to, pixel, first, sum);
+  if (lit_is_kept != 0)
+    store_lit(to, of[0].lit_channel, of[0].diodes, pixel, sum);
 }

@@ -75,7 +75,7 @@ TEST_CASE("channels that a layout holds have a number each, and the range is the
 }
 
 TEST_CASE("a frequency's turns and its ambiguity, to double precision") {
-  const auto records = frequency_records(signal_with_taps(), 2.5, {});
+  const auto records = frequency_records(signal_with_taps(), 2.5, {}, 240);
   REQUIRE(records.size() == modulation_hz.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     INFO(modulation_hz[i] << " Hz");
@@ -89,7 +89,7 @@ TEST_CASE("a frequency's turns and its ambiguity, to double precision") {
 
 TEST_CASE("a frequency knows its channels and its unit") {
   const Modulation signal = signal_with_taps();
-  const auto records = frequency_records(signal, 2.5, {});
+  const auto records = frequency_records(signal, 2.5, {}, 240);
   for (std::uint32_t i = 0; i < records.size(); ++i) {
     CHECK(records[i].first_channel == ChannelLayout(signal).first_channel(i));
     CHECK(records[i].amplitude_scale == 2.5f);
@@ -97,10 +97,10 @@ TEST_CASE("a frequency knows its channels and its unit") {
 }
 
 TEST_CASE("every frequency carries what was promised, or nothing") {
-  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, {}))
+  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, {}, 240))
     CHECK((record.limit_m == 0.0f && record.per_condition_m == 0.0f && record.amplitude_limit == 0.0f));
   const ErrorBound bound{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
-  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound)) {
+  for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound, 240)) {
     CHECK(record.limit_m == 1e-5f);
     CHECK(record.fixed_m == 2e-6f);
     CHECK(record.per_condition_m == 3e-7f);
