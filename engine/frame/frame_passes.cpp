@@ -112,9 +112,12 @@ Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) 
                   shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
                 shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
               },
-          .store = shadow.sweep && shadow.sweep->may_overflow()
-                       ? [=](const Recording &, Measurement &) { shadow.sweep->check(); }
-                       : std::function<void(const Recording &, Measurement &)>{}};
+          .store = shadow.sweep && shadow.sweep->may_lose()
+                       ? [sweep = shadow.sweep](const Recording &, Measurement &) {
+                           if (sweep->has_lost())
+                             throw TooDense();
+                         }
+                       : std::function<void(const Recording &, Measurement &)>()};
 }
 
 // The bits for the host.
@@ -239,8 +242,17 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   if (on.path.host_reads_truth)
     truth = truth_of_records(on.device, on.options, on.request.scene);
 
-  FramePasses made{on.path, on.sensor,         on.modulation, strips, windows.size(),
-                   sources, std::move(memory), raster,        {},     report_of(on.plan, on.path)};
+  FramePasses made{on.path,
+                   shadow.sweep && shadow.sweep->may_lose(),
+                   on.sensor,
+                   on.modulation,
+                   strips,
+                   windows.size(),
+                   sources,
+                   std::move(memory),
+                   raster,
+                   {},
+                   report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, graph);
   if (shadow)

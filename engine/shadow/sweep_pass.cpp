@@ -37,6 +37,9 @@ std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
   return most;
 }
 
+// Of so many items, 256 diodes and subgroups of 8 no loop is too long, and all lists have room.
+constexpr std::uint32_t fewest_to_lose = 1400;
+
 Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
   return {device, bytes, vk::BufferUsageFlagBits::eStorageBuffer | more, vulkan::Memory::device};
 }
@@ -105,9 +108,10 @@ struct SweepPass::State {
   std::vector<BoardBuffers> boards;
   std::vector<WindowBuffers> of_window;
   Buffer shafts, work, entries;
-  Buffer header_read; // of the work, where lists may be too long
+  Buffer header_read; // of the work
   vulkan::ComputePipeline find_shafts, count_edges, write_edges, count_hidden, write_hidden;
   std::uint32_t spare_entry = 0;
+  bool may_lose = false;
   vulkan::Buffer const *planes = nullptr;
 
   shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
@@ -285,6 +289,7 @@ SweepPass::SweepPass(const PassSetup &on, const Occluders &occluders, const Came
         }
         for (std::size_t bundle = 0; bundle < bits.size(); ++bundle)
           record.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = bits[bundle];
+        record.leaves_none = !items.in_the_way.empty();
         record.lit = on.buffers.lit.words();
         record.piercers = of.piercers.words();
         record.piercer_count = static_cast<std::uint32_t>(piercers.size());
@@ -299,7 +304,7 @@ SweepPass::SweepPass(const PassSetup &on, const Occluders &occluders, const Came
       of.lines = upload_texels(device, tables.lines);
       of.diodes = upload_texels(device, tables.diodes);
       of.board = b;
-      of.first_of_board = window == board.windows.front();
+      of.first_of_board = window == 0 || !std::ranges::binary_search(board.windows, window - 1);
       of.rank_bins = static_cast<std::uint32_t>(tables.ranks.size());
       constexpr vk::Format words = vk::Format::eR32G32B32A32Uint, floats = vk::Format::eR32G32B32A32Sfloat;
       const auto bind = [&](const Buffer &items_, const Buffer &boxes) {
@@ -336,11 +341,12 @@ SweepPass::SweepPass(const PassSetup &on, const Occluders &occluders, const Came
                         (5 + shader::sweep_rounds + shader::tile_samples) * tiles * sizeof(std::uint32_t),
                     vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst |
                         vk::BufferUsageFlagBits::eTransferSrc);
+  state.may_lose = most_items > fewest_to_lose ||
+                   most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round;
   state.spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
   state.entries = sweep_storage(device, (vk::DeviceSize{state.spare_entry} + 1) * sizeof(std::uint32_t));
-  if (most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round)
-    state.header_read = Buffer(device, sizeof(shader::SweepWork), vk::BufferUsageFlagBits::eTransferDst,
-                               vulkan::Memory::read);
+  state.header_read =
+      Buffer(device, sizeof(shader::SweepWork), vk::BufferUsageFlagBits::eTransferDst, vulkan::Memory::read);
 }
 
 void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
@@ -352,8 +358,7 @@ void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::St
     state.record_count(commands, strip, window);
   for (std::uint32_t round = 0; round < shader::sweep_rounds; ++round)
     state.record_round(commands, strip, window, round);
-  if (may_overflow())
-    state.record_read_back(commands);
+  state.record_read_back(commands);
 }
 
 void SweepPass::State::record_read_back(const vk::raii::CommandBuffer &commands) const {
@@ -367,16 +372,12 @@ void SweepPass::State::record_read_back(const vk::raii::CommandBuffer &commands)
 
 SampleTiles SweepPass::shadowed_tiles() const { return {state_->work, offsetof(shader::SweepWork, shaded)}; }
 
-bool SweepPass::may_overflow() const { return state_->header_read.bytes() > 0; }
+bool SweepPass::may_lose() const { return state_->may_lose; }
 
-void SweepPass::check() const {
+bool SweepPass::has_lost() const {
   shader::SweepWork work;
   std::memcpy(&work, state_->header_read.mapped().data(), sizeof(work));
-  if (work.lost_tiles > 0)
-    throw Error(ExitCode::out_of_memory,
-                "the scene has too many edges for its shadows: expected at most " +
-                    std::to_string(std::uint64_t{shader::sweep_rounds} * shader::entries_per_round) +
-                    " pairs of an edge and a tile of 8 x 8 samples that it may shade");
+  return work.lost != 0;
 }
 
 } // namespace pmdsim

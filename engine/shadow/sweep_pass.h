@@ -30,10 +30,11 @@ public:
   // Those of the depth records that not every diode may reach.
   SampleTiles shadowed_tiles() const;
 
-  // Whether a strip's lists may be too long for the rounds that they are made in.
-  bool may_overflow() const;
-  // Once the device is done with a strip. Throws Error (out_of_memory) where they were.
-  void check() const;
+  // Whether has_lost() may ever be true.
+  bool may_lose() const;
+  // Once the device is done with a strip: whether a scene with so many edges in a tile's way is beyond what the
+  // shaders' loops can do, and the bits are not all right.
+  bool has_lost() const;
 
 private:
   struct State;

@@ -18,7 +18,7 @@ const uint most_items = 512; // of a segment
 const uint most_steps = 30000; // of loops: lavapipe ends them after 65,535 without a word
 const uint most_hidden = 1000;
 const uint most_close = 32;  // close decisions of an invocation in a segment
-shared uint kept[most_items + 1], pairs[(most_items + 1) * gl_WorkGroupSize.x], close[most_close * gl_WorkGroupSize.x];
+shared uint kept[most_items + 1], pairs[(most_items + 1) * lanes], close[most_close * lanes];
 
 // Counts of surfaces in front of each diode, bit by bit, two's complement: a plane of bits each.
 const uint planes_of_bits = 6;
@@ -135,7 +135,7 @@ void main() {
   if (entry_of_workgroup() >= tiles)
     return;
   uint tile = lists.list[active_at(constants.round, interleaved(entry_of_workgroup(), tiles))];
-  const uint wide = gl_WorkGroupSize.x == 8u ? 4u : 8u, high_ = gl_WorkGroupSize.x / wide;
+  const uint wide = lanes == 8u ? 4u : 8u, high_ = lanes / wide;
   uint across = tile_side / wide;
   uvec2 block = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across) * uvec2(wide, high_);
   uint within = (block.y + lane() / wide) * tile_side + block.x + lane() % wide;
@@ -174,24 +174,24 @@ void main() {
   for (uint segment = 0; segment < length; segment += most_items) {
     // Of the tile's items those that may matter here, an invocation an item.
     uint end = min(length - segment, most_items), count = 0u;
-    for (uint i = 0; i < end; i += gl_WorkGroupSize.x) {
+    for (uint i = 0; i < end; i += lanes) {
       uint index = Words(constants.entries).at[first + segment + min(i + lane(), end - 1u)];
       bool matters = i + lane() < end && may_matter(ways, load_item(index));
       uint met = subgroupBallot(matters).x;
       kept[matters ? count + bitCount(met & lanes_below()) : most_items] = index;
       count += bitCount(met);
     }
-    steps += end / gl_WorkGroupSize.x + 2u * count;
+    steps += end / lanes + 2u * count;
     if (subgroupMax(steps) > most_steps) {
       unclear = sees;
       break;
     }
     // Each invocation an item to load, then all the same item, each for its own sample: which angle it takes.
     uint found = 0u;
-    for (uint i = 0; i < count; i += gl_WorkGroupSize.x) {
+    for (uint i = 0; i < count; i += lanes) {
       Item item = load_item(kept[min(i + lane(), count - 1u)]);
       vec3 rest_a = rest_of(item.first.w, board.rest_step), rest_b = rest_of(item.second.w, board.rest_step);
-      uint many = min(gl_WorkGroupSize.x, count - i);
+      uint many = min(lanes, count - i);
       for (uint k = 0; k < many; ++k) {
         uvec4 texel_a = subgroupShuffle(item.a, k), texel_b = subgroupShuffle(item.b, k);
         uvec4 texel_1 = subgroupShuffle(item.first, k), texel_2 = subgroupShuffle(item.second, k);
@@ -249,7 +249,7 @@ void main() {
         }
         counted = counted && int(rank_to - rank_from) + (wraps ? int(constants.diodes) : 0) > 0;
         bool negative = (weight > 0) != turned;
-        pairs[found * gl_WorkGroupSize.x + lane()] = (i + k) | rank_from << 9 | rank_to << 18 | (wraps ? pair_wraps : 0u) | (abs(weight) == 2 ? pair_doubled : 0u) |
+        pairs[found * lanes + lane()] = (i + k) | rank_from << 9 | rank_to << 18 | (wraps ? pair_wraps : 0u) | (abs(weight) == 2 ? pair_doubled : 0u) |
             (negative ? pair_negative : 0u) | (turned ? pair_turned : 0u) | (unsure ? pair_unsure : 0u);
         found += counted ? 1u : 0u;
       }
@@ -258,7 +258,7 @@ void main() {
     uint most_found = subgroupMax(found), close_count = 0u;
     steps += 2u * most_found;
     for (uint y = 0; y < most_found; ++y) {
-      uint pair = pairs[min(y, max(found, 1u) - 1u) * gl_WorkGroupSize.x + lane()];
+      uint pair = pairs[min(y, max(found, 1u) - 1u) * lanes + lane()];
       bool is_there = y < found;
       pair = is_there ? pair : 0u;
       uint index = kept[pair & 511u];
@@ -277,7 +277,7 @@ void main() {
         negative = unsure ? ((weight > 0) != turned ? ~0u : 0u) : negative;
         unsure = false;
       }
-      pairs[min(y, max(found, 1u) - 1u) * gl_WorkGroupSize.x + lane()] =
+      pairs[min(y, max(found, 1u) - 1u) * lanes + lane()] =
           (pair & ~(pair_doubled | pair_negative)) | (doubled ? pair_doubled : 0u) | (negative != 0u ? pair_negative : 0u);
       vec3 way = b - a, line = cross(a, way);
       float offset = line.z * to_board - dot(line.xy, point.xy);
@@ -313,7 +313,7 @@ void main() {
         vec2 diode = texelFetch(diode_texels, int(2u * d)).xy;
         float f = line.x * diode.x + line.y * diode.y + offset;
         bool is_beyond = f < 0.0, is_close = abs(f) < near_line;
-        close[min(close_count, most_close - 1u) * gl_WorkGroupSize.x + lane()] = y | d << 16 | (is_beyond ? 1u << 31 : 0u);
+        close[min(close_count, most_close - 1u) * lanes + lane()] = y | d << 16 | (is_beyond ? 1u << 31 : 0u);
         close_count += is_close ? 1u : 0u;
         any_unknown = 0u;
         [[unroll]] for (uint w = 0; w < bundles; ++w) {
@@ -331,9 +331,9 @@ void main() {
     uint most = subgroupMax(min(close_count, most_close));
     for (uint z = 0; z < most; ++z) {
       bool is_there = z < close_count;
-      uint entry_ = close[z * gl_WorkGroupSize.x + lane()];
+      uint entry_ = close[z * lanes + lane()];
       entry_ = is_there ? entry_ : 0u;
-      uint pair = pairs[(entry_ & 0xffffu) * gl_WorkGroupSize.x + lane()], d = entry_ >> 16 & 0x3fffu;
+      uint pair = pairs[(entry_ & 0xffffu) * lanes + lane()], d = entry_ >> 16 & 0x3fffu;
       pair = is_there ? pair : 0u;
       Item item = load_item(kept[pair & 511u]);
       Real3 a = subtract3(real3(floats(item.a), rest_of(item.first.w, board.rest_step)), exact_point);

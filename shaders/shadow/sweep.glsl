@@ -13,6 +13,7 @@
 #include "shaders/shadow/sweep_interface.h"
 
 layout(push_constant, std430) uniform Constants { SweepConstants constants; };
+layout(constant_id = constant_lanes) const uint lanes = 8; // of a subgroup
 layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_depth_records) const uint depth_records = 0; // samples are these, row by row, and `strip` counts them
 layout(constant_id = constant_general_chip) const uint general_chip = 0;

@@ -1,6 +1,6 @@
 #version 460
 // Decides what sweep.comp left unclear: any sample, and diodes anywhere. The triangle of sample, lens and diode is tested with every
-// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup: a sample and a bundle of diodes.
+// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup and a sample.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadow/sweep.glsl"
 #include "shaders/shadow/sweep_weight.glsl"
@@ -54,7 +54,7 @@ Crossing cross_in_real(Real3 a, Real3 b, Real3 lens, Real3 diode) {
 int count_hidden(SweepLists lists, uint tile, Real3 point, Real3 lens, SweepBoard board) {
   uint length = lists.list[length_at(list_hidden, tile)], first = list_begin(lists, list_hidden, tile);
   int count = 0;
-  for (uint i = 0; i < length; i += gl_WorkGroupSize.x) {
+  for (uint i = 0; i < length; i += lanes) {
     Item item = load_hidden(Words(constants.entries).at[first + min(i + lane(), length - 1u)]);
     bool between = i + lane() < length && may_hide(floats(item.a) - high3(point), floats(item.b) - high3(point),
                                                    floats(item.first) - high3(point), high3(lens));
@@ -78,7 +78,7 @@ int count_hidden(SweepLists lists, uint tile, Real3 point, Real3 lens, SweepBoar
 // `weights`.
 uint keep_items(uint first, uint length, uint own, Ways ways, Real3 point, SweepBoard board) {
   uint met = 0u, count = 0u;
-  for (uint i = 0; i < length; i += gl_WorkGroupSize.x) {
+  for (uint i = 0; i < length; i += lanes) {
     uint index = Words(constants.entries).at[first + min(i + lane(), length - 1u)];
     Item item = load_item(index);
     bool matters = i + lane() < length && may_matter(ways, item) && item.a.w != own && item.b.w != own;
@@ -86,7 +86,7 @@ uint keep_items(uint first, uint length, uint own, Ways ways, Real3 point, Sweep
     kept[matters ? met + bitCount(ballot & lanes_below()) : most_items] = index;
     met += bitCount(ballot);
   }
-  for (uint i = 0; i < met; i += gl_WorkGroupSize.x) {
+  for (uint i = 0; i < met; i += lanes) {
     uint index = kept[min(i + lane(), met - 1u)];
     Item item = load_item(index);
     int weight = exact_weight(index, item.first.w >> 30, item.second.w >> 30, item.b.w == item_boundary, point, board);
@@ -124,23 +124,29 @@ void main() {
   Real3 lens = subtract3(Real3(real(0.0), real(0.0), real(board.lens_z)), point);
 
   int hidden = count_hidden(lists, tile, point, lens, board);
-  for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x)
+  for (uint d = lane(); d < constants.diodes; d += lanes)
     surfaces[d] = hidden;
   for (uint i = 0; i < board.piercer_count; ++i) {
     Piercer piercer = Piercers(board.piercers).at[i];
     int side = exact_side(piercer.plane_hi, piercer.plane_lo, point, plane_rounding(piercer.plane_hi, point, board));
-    for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x)
+    for (uint d = lane(); d < constants.diodes; d += lanes)
       surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
   }
   uint length = lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
+  uint steps = lists.list[length_at(list_hidden, tile)] / 4u + 1000u; // of all loops
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
+    steps += most_items / 4u + count * (2u + constants.diodes / lanes);
+    if (steps > most_sweep_steps) {
+      atomicMax(lists.at.lost, 1u);
+      break;
+    }
     for (uint i = 0; i < count; ++i) {
       Item item = load_item(kept[i]);
       int weight = weights[i];
       Real3 a = subtract3(real3(floats(item.a), rest_of(item.first.w, board.rest_step)), point);
       Real3 b = subtract3(real3(floats(item.b), rest_of(item.second.w, board.rest_step)), point);
-      for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x) {
+      for (uint d = lane(); d < constants.diodes; d += lanes) {
         Real3 diode = subtract3(diode_place(int(d)), point);
         Crossing crossing = cross_in_float(high3(a), high3(b), high3(lens), high3(diode));
         while (subgroupAny(crossing.unsure))
@@ -151,12 +157,12 @@ void main() {
   }
   vec3 normal = normal_in_board_frame(own, board);
   uint reached = 0u;
-  for (uint d = lane(); d < constants.diodes; d += gl_WorkGroupSize.x) {
+  for (uint d = lane(); d < constants.diodes; d += lanes) {
     vec3 to_diode = high3(subtract3(diode_place(int(d)), point));
     bool reaches = surfaces[d] == 0 && dot(normal, to_diode) > 0.0;
     uint within = d - lane();
     reached |= subgroupBallot(reaches).x << within % 32u;
-    if (within % 32u + gl_WorkGroupSize.x == 32u) {
+    if (within % 32u + lanes == 32u) {
       if (lane() == 0u)
         correct(within / 32u, at.i, reached, board);
       reached = 0u;

@@ -37,7 +37,8 @@ struct SweepBoard {
   float rest_step; // of what rounding to float took of an item's ends
   float highest;   // z of diodes and lens, at most
   float diodes_low, diodes_high; // z of the diodes
-  float padding_1, padding_2;
+  uint leaves_none; // 1: no tile may be left out, as something stands between lens and diodes
+  uint padding_1;
   uint level_first[tree_levels]; // in the boxes; level 0 is that over the items
   uint level_count[tree_levels];
   uvec2 chip;     // in, of depth records: ChipPlace
@@ -60,6 +61,7 @@ struct TileShaft {
 
 // The lists of tiles are made in rounds, so that they fit into memory: a round's lists begin in its own stretch of
 // all their entries, and only the last of them goes beyond it. A frame with more entries is refused.
+PMDSIM_CONSTANT most_sweep_steps = 50000; // of the loops of an invocation; lavapipe ends them after 65,535, silently
 PMDSIM_CONSTANT sweep_rounds = 16;
 PMDSIM_CONSTANT entries_per_round = 1u << 23;
 
@@ -79,8 +81,8 @@ struct SweepRound {
 // decided exactly.
 struct SweepWork {
   SweepRound rounds[sweep_rounds];
-  uint entries;    // of all tiles' lists
-  uint lost_tiles; // for which there is no round
+  uint entries; // of all tiles' lists
+  uint lost;    // 1: a tile has no round, or loops were too long for all that had to be done
   uint padding_1, padding_2;
   TileList shaded; // one of whose lists is not empty
 };

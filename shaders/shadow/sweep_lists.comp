@@ -18,7 +18,7 @@ shared uint found[most_items + 1];
 // Neighbouring tiles of the frame, four beside each other.
 uint tile_of_invocation() {
   uvec2 tiles = tiles_of(constants.strip);
-  const uint wide = 4u, high = gl_WorkGroupSize.x / wide;
+  const uint wide = 4u, high = lanes / wide;
   uvec2 groups = (tiles + uvec2(wide, high) - 1u) / uvec2(wide, high);
   uint of_subsample = groups.x * groups.y;
   uint group = interleaved(gl_WorkGroupID.x, gl_NumWorkGroups.x);
@@ -60,7 +60,7 @@ void list_items(uint count, Outlook own) {
   for (uint i = 0; i < count; i += gl_SubgroupSize) {
     uint index = found[min(i + lane(), count - 1u)];
     Item item = load_item(index);
-    for (uint j = 0; j < gl_WorkGroupSize.x; j += 8u)
+    for (uint j = 0; j < lanes; j += 8u)
       [[unroll]] for (uint k = j; k < j + 8u; ++k) {
         Item one = Item(subgroupShuffle(item.a, k), subgroupShuffle(item.b, k), subgroupShuffle(item.first, k), subgroupShuffle(item.second, k));
         uint of_one = subgroupShuffle(index, k);
@@ -73,15 +73,15 @@ void list_items(uint count, Outlook own) {
 }
 
 // Room for both lists of a tile, and a place among the tiles of a round.
-void make_room(SweepLists lists, uint tile, bool turns_away) {
+void make_room(SweepLists lists, uint tile, bool is_shaded) {
   uint hidden = lists.list[length_at(list_hidden, tile)];
   uint place = listed + hidden > 0u ? atomicAdd(lists.at.entries, listed + hidden) : 0u, round_ = round_of(place);
   lists.list[place_at(list_edges, tile)] = place;
   lists.list[place_at(list_hidden, tile)] = place + listed;
-  if (listed + hidden == 0u && !turns_away)
+  if (listed + hidden == 0u && !is_shaded)
     return;
   if (round_ == sweep_rounds) {
-    atomicAdd(lists.at.lost_tiles, 1u);
+    atomicMax(lists.at.lost, 1u);
     return;
   }
   uint entry = atomicAdd(lists.at.rounds[round_].tiles, 1u);
@@ -119,7 +119,9 @@ void main() {
   if (is_first == 0 && !subgroupAny(writes))
     return;
 
-  for (uint root = 0; root < board.level_count[2]; root += boxes_of_root) {
+  uint steps = 0u;
+  for (uint root = 0; root < board.level_count[2] && steps < most_sweep_steps; root += boxes_of_root) {
+    ++steps;
     uint hits = subgroupBallot(lane() < boxes_of_root && root + lane() < board.level_count[2] && meets_box(all, board.level_first[2], root + lane())).x;
     uint count_1 = 0u, count_0 = 0u, count = 0u;
     for (; hits != 0u; hits &= hits - 1u) {
@@ -129,6 +131,7 @@ void main() {
       boxes_1[meets ? count_1 + bitCount(met & lanes_below()) : most_1] = box;
       count_1 += bitCount(met);
     }
+    steps += 2u * count_1;
     for (uint i = 0; i < count_1; ++i) {
       uint box = boxes_1[i] * tree_width + lane();
       bool meets = lane() < tree_width && meets_box(all, board.level_first[0], box);
@@ -136,6 +139,7 @@ void main() {
       boxes_0[meets ? count_0 + bitCount(met & lanes_below()) : most_0] = box;
       count_0 += bitCount(met);
     }
+    steps += 4u * count_0; // three of them of the items found
     for (uint i = 0; i < count_0; ++i) {
       uint index = boxes_0[i] * tree_width + lane();
       bool matters = lane() < tree_width && is_concerned(all, load_item(index));
@@ -148,9 +152,11 @@ void main() {
       }
     }
   }
+  if (is_first != 0 && steps >= most_sweep_steps)
+    atomicMax(lists.at.lost, 1u);
   if (is_first == 0 || !is_there)
     return;
   lists.list[length_at(lists_hidden, tile)] = listed;
   if (lists_hidden == 0) // hidden triangles are counted before edges
-    make_room(lists, tile, shaft.low.w != 0.0);
+    make_room(lists, tile, shaft.low.w != 0.0 || (board.leaves_none != 0u && shaft.low.x <= shaft.high.x));
 }

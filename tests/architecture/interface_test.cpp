@@ -3,6 +3,7 @@
 
 #include "engine/vulkan/shader_module.h"
 #include "shaders/shadow/lit_interface.h"
+#include "shaders/shadow/sweep_interface.h"
 #include "tests/architecture/spirv_layout.h"
 
 #include <catch2/catch.hpp>
@@ -28,7 +29,8 @@ struct HostLayout {
 #define PARENTHESES ()
 #define MEMBERS(Struct, member, ...)                                                                         \
   MEMBER(Struct, member), __VA_OPT__(AGAIN PARENTHESES(Struct, __VA_ARGS__))
-#define EXPAND_4(...) __VA_ARGS__
+#define EXPAND_5(...) __VA_ARGS__
+#define EXPAND_4(...) EXPAND_5(EXPAND_5(__VA_ARGS__))
 #define EXPAND_3(...) EXPAND_4(EXPAND_4(EXPAND_4(EXPAND_4(__VA_ARGS__))))
 #define EXPAND(...) EXPAND_3(EXPAND_3(EXPAND_3(EXPAND_3(__VA_ARGS__))))
 // clang-format off
@@ -80,6 +82,18 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(LitDecideConstants, strip, position, ids, parts, scene, diodes, work, candidates, visibility,
            bundle, part_count, slots, first_node, last_node),
     STRUCT(LitCountConstants, visibility, diodes, lit, plane),
+    STRUCT(TileList, groups_x, groups_y, groups_z, count),
+    STRUCT(SweepBoard, rows_hi, rows_lo, slope, shining, supports_a, supports_b, lens_z, radius, rest_step, highest,
+           diodes_low, diodes_high, leaves_none, padding_1, level_first, level_count, chip, lit, piercers,
+           piercer_count, nearest, line_margin, world_rounding),
+    STRUCT(TileShaft, slopes_a, slopes_b, sights_a, sights_b, low, high),
+    STRUCT(SweepRound, list_groups_x, list_groups_y, list_groups_z, tiles, tile_groups_x, tile_groups_y,
+           tile_groups_z, padding, sample_groups_x, sample_groups_y, sample_groups_z, samples),
+    STRUCT(SweepWork, rounds, entries, lost, padding_1, padding_2, shaded),
+    STRUCT(SweepConstants, strip, position, ids, planes, board, shafts, work, entries, visibility, exact, round,
+           spare_entry, tiles, plane, diodes, rank_bins),
+    STRUCT(SweepPlanes, first_hi, first_lo, second_hi, second_lo),
+    STRUCT(Piercer, plane_hi, plane_lo, diodes),
     STRUCT(AccumulateConstants, position, surface, backscatter, sum, run, diodes, tones, diagrams, visibility,
            terms, list, blocks, plane, padded_pixels, adds_terms),
     STRUCT(DepthSumConstants, grid, chip, records, planes, sum, run, diodes, tones, diagrams, blocks,

@@ -5,8 +5,10 @@
 #include "tests/comparison/visibility_comparison.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -75,6 +77,7 @@ std::vector<BoardCase> board_cases() {
           {"two boards",
            {moved(rings(0.0, 24), glm::dmat3(1.0), {-0.3, 0.0, 0.0}),
             moved(rings(0.0, 24), tilt(0.3), {0.3, 0.0, 0.0})}},
+          {"boards in turn", {rings(0.0, 300), moved(rings(0.0, 300), tilt(0.3), {}), rings(0.0, 300)}},
           {"a bar through the lens", {bar(40)}},
           {"one diode in the lens", {{glm::dvec3(0.0)}}},
           {"one diode beside it", {{glm::dvec3(0.05, 0.02, 0.0)}}},
@@ -152,6 +155,21 @@ TEST_CASE("every kind of board agrees with the reference", "[smoke]") { check_bo
 TEST_CASE("every kind of board agrees with the reference, more samples", "[long]") {
   for (std::uint32_t seed = 42; seed < 46; ++seed)
     check_boards(seed, 96);
+}
+
+TEST_CASE("a wall between lens and diodes shades all that the lens sees") {
+  const Sensor sensor = axial_sensor({24, 24});
+  SceneBuilder builder;
+  builder.add_wall({2.0});
+  // The whole plane x = 0.5 m, as far as anybody looks; none of its edges is near any way.
+  builder.add_triangle({0.5, -50.0, 50.0}, {0.5, -50.0, -50.0}, {0.5, 100.0, 0.0}, {0.5, true});
+  const BoardCase beyond{"beyond the wall", {moved(rings(0.0, 48), glm::dmat3(1.0), {1.0, 0.0, 0.0})}};
+  const auto illuminators = illuminators_of(beyond, sensor);
+  Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
+  simulator.prepare(builder.scene(), sensor, illuminators, Backscatter::lambert, Shadows::automatic);
+  const Measurement measured = simulator.measure();
+  CHECK(std::ranges::all_of(measured.lit, [](float lit) { return lit == 0.0f; }));
+  CHECK(std::ranges::all_of(measured.coverage, [](float coverage) { return coverage == 1.0f; }));
 }
 
 TEST_CASE("a board's frame has its diodes in one plane and the lens over its origin") {
