@@ -15,7 +15,6 @@ layout(constant_id = constant_all_facing) const uint all_facing = 0;
 layout(constant_id = constant_exact_only) const uint exact_only = 0; // every sample is left to sweep_exact.comp
 
 const uint most_items = 512; // of a segment
-const uint most_steps = 30000; // of loops: lavapipe ends them after 65,535 without a word
 const uint most_hidden = 1000;
 const uint most_close = 32;  // close decisions of an invocation in a segment
 shared uint kept[most_items + 1], pairs[(most_items + 1) * lanes], close[most_close * lanes];
@@ -181,8 +180,8 @@ void main() {
       kept[matters ? count + bitCount(met & lanes_below()) : most_items] = index;
       count += bitCount(met);
     }
-    steps += end / lanes + 2u * count;
-    if (subgroupMax(steps) > most_steps) {
+    steps += end / lanes + 2u * count + 8u;
+    if (steps > most_sweep_steps) {
       unclear = sees;
       break;
     }
@@ -256,7 +255,7 @@ void main() {
     }
     // Each invocation its own pairs: which diodes of the angle lie beyond the line.
     uint most_found = subgroupMax(found), close_count = 0u;
-    steps += 2u * most_found;
+    steps += 4u * most_found;
     for (uint y = 0; y < most_found; ++y) {
       uint pair = pairs[min(y, max(found, 1u) - 1u) * lanes + lane()];
       bool is_there = y < found;
@@ -308,11 +307,11 @@ void main() {
           }
         }
       }
-      while (any_unknown != 0u) { // diodes near the line, one by one
-        uint bit, word = next_bit(unknown, bit), d = word * 32u + findLSB(bit);
+      while (subgroupAny(any_unknown != 0u) && steps < most_sweep_steps) { // diodes near the line, one by one
+        uint bit, word = next_bit(unknown, bit), d = bit != 0u ? word * 32u + findLSB(bit) : 0u;
         vec2 diode = texelFetch(diode_texels, int(2u * d)).xy;
         float f = line.x * diode.x + line.y * diode.y + offset;
-        bool is_beyond = f < 0.0, is_close = abs(f) < near_line;
+        bool is_beyond = f < 0.0, is_close = bit != 0u && abs(f) < near_line;
         close[min(close_count, most_close - 1u) * lanes + lane()] = y | d << 16 | (is_beyond ? 1u << 31 : 0u);
         close_count += is_close ? 1u : 0u;
         any_unknown = 0u;
@@ -324,11 +323,13 @@ void main() {
         }
         ++steps;
       }
+      unclear = unclear || (sees && any_unknown != 0u); // too many of them
       count_diodes(beyond, doubled, negative);
     }
     // What was too close for floats, in Real, and the count put right where the float was wrong.
     unclear = unclear || close_count > most_close;
     uint most = subgroupMax(min(close_count, most_close));
+    steps += most;
     for (uint z = 0; z < most; ++z) {
       bool is_there = z < close_count;
       uint entry_ = close[z * lanes + lane()];

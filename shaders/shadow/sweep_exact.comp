@@ -133,10 +133,10 @@ void main() {
       surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
   }
   uint length = lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
-  uint steps = lists.list[length_at(list_hidden, tile)] / 4u + 1000u; // of all loops
+  uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * (constants.diodes / lanes + 2u); // of all loops
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
-    steps += most_items / 4u + count * (2u + constants.diodes / lanes);
+    steps += most_items / 4u + 4u + count * (2u + 3u * constants.diodes / lanes);
     if (steps > most_sweep_steps) {
       atomicMax(lists.at.lost, 1u);
       break;

@@ -61,7 +61,9 @@ struct TileShaft {
 
 // The lists of tiles are made in rounds, so that they fit into memory: a round's lists begin in its own stretch of
 // all their entries, and only the last of them goes beyond it. A frame with more entries is refused.
-PMDSIM_CONSTANT most_sweep_steps = 50000; // of the loops of an invocation; lavapipe ends them after 65,535, silently
+// Turns of all loops of an invocation, one for the end of each loop included; lavapipe ends them after 65,535,
+// silently.
+PMDSIM_CONSTANT most_sweep_steps = 50000;
 PMDSIM_CONSTANT sweep_rounds = 16;
 PMDSIM_CONSTANT entries_per_round = 1u << 23;
 

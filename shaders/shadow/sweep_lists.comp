@@ -121,7 +121,7 @@ void main() {
 
   uint steps = 0u;
   for (uint root = 0; root < board.level_count[2] && steps < most_sweep_steps; root += boxes_of_root) {
-    ++steps;
+    steps += 16u;
     uint hits = subgroupBallot(lane() < boxes_of_root && root + lane() < board.level_count[2] && meets_box(all, board.level_first[2], root + lane())).x;
     uint count_1 = 0u, count_0 = 0u, count = 0u;
     for (; hits != 0u; hits &= hits - 1u) {
