@@ -38,7 +38,7 @@ std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
 }
 
 // Of so many items, 256 diodes and subgroups of 8 no loop is too long, and all lists have room.
-constexpr std::uint32_t fewest_to_lose = 1400;
+constexpr std::uint32_t fewest_to_lose = 400;
 
 Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
   return {device, bytes, vk::BufferUsageFlagBits::eStorageBuffer | more, vulkan::Memory::device};
@@ -178,8 +178,8 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
     commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);
   if (of_window[window].first_of_board) {
     shader::SweepWork nothing{};
-    std::ranges::fill(nothing.rounds,
-                      shader::SweepRound{0, 1, 1, 0, shader::tile_samples / lanes, 0, 1, 0, 1, 0, 1, 0});
+    std::ranges::fill(nothing.rounds, shader::SweepRound{0, 1, 1, 0, shader::tile_samples / lanes, 0, 1, 0,
+                                                         windows[window].bundles, 0, 1, 0});
     nothing.shaded = {1, 0, 1, 0};
     commands.updateBuffer<shader::SweepWork>(work.get(), 0, nothing);
     if (!boards[of_window[window].board].any_hidden)
@@ -188,7 +188,7 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
     for (std::size_t round = 0; round < shader::sweep_rounds; ++round)
       commands.updateBuffer<std::uint32_t>(
           work.get(), round * sizeof(shader::SweepRound) + offsetof(shader::SweepRound, sample_groups_x),
-          std::array<std::uint32_t, 4>{1, 0, 1, 0});
+          std::array<std::uint32_t, 4>{windows[window].bundles, 0, 1, 0});
   }
   vulkan::memory_barrier(
       commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,

@@ -1,6 +1,7 @@
 #version 460
 // Decides what sweep.comp left unclear: any sample, and diodes anywhere. The triangle of sample, lens and diode is tested with every
-// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup and a sample.
+// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup, a sample
+// and, where its list is long, a bundle of diodes.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadow/sweep.glsl"
 #include "shaders/shadow/sweep_weight.glsl"
@@ -8,7 +9,8 @@
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Piercers { Piercer at[]; };
 layout(local_size_x_id = constant_lanes) in;
 
-const uint most_items = 512; // of a segment
+const uint most_items = 512;      // of a segment
+const uint longest_for_all = 400; // of a tile's list, for one workgroup to do all diodes
 shared uint kept[most_items + 1];
 shared int weights[most_items + 1];
 shared int surfaces[bundles_per_window * 32u]; // before each diode
@@ -114,6 +116,11 @@ void main() {
     return;
   uint sample_ = lists.list[sample_at(entry_of_workgroup())], tile = sample_ / tile_samples;
   TileSample at = tile_sample(constants.strip, tile, sample_ % tile_samples);
+  uint length = lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
+  bool is_long = length > longest_for_all;
+  if (!is_long && gl_WorkGroupID.x > 0u)
+    return;
+  uint begin = is_long ? diodes_per_bundle * gl_WorkGroupID.x : 0u, end = is_long ? begin + diodes_per_bundle : constants.diodes;
   uint own = shape_seen(at);
   Real3 point = in_board_frame(point_of(at, board), board);
   vec4 slopes_a, slopes_b;
@@ -124,19 +131,18 @@ void main() {
   Real3 lens = subtract3(Real3(real(0.0), real(0.0), real(board.lens_z)), point);
 
   int hidden = count_hidden(lists, tile, point, lens, board);
-  for (uint d = lane(); d < constants.diodes; d += lanes)
+  for (uint d = begin + lane(); d < end; d += lanes)
     surfaces[d] = hidden;
   for (uint i = 0; i < board.piercer_count; ++i) {
     Piercer piercer = Piercers(board.piercers).at[i];
     int side = exact_side(piercer.plane_hi, piercer.plane_lo, point, plane_rounding(piercer.plane_hi, point, board));
-    for (uint d = lane(); d < constants.diodes; d += lanes)
+    for (uint d = begin + lane(); d < end; d += lanes)
       surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
   }
-  uint length = lists.list[length_at(list_edges, tile)], first = list_begin(lists, list_edges, tile);
-  uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * (constants.diodes / lanes + 2u); // of all loops
+  uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * ((end - begin) / lanes + 2u); // of all loops
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
-    steps += most_items / 4u + 4u + count * (2u + 3u * constants.diodes / lanes);
+    steps += most_items / 4u + 4u + count * (2u + 3u * (end - begin) / lanes);
     if (steps > most_sweep_steps) {
       atomicMax(lists.at.lost, 1u);
       break;
@@ -146,7 +152,7 @@ void main() {
       int weight = weights[i];
       Real3 a = subtract3(real3(floats(item.a), rest_of(item.first.w, board.rest_step)), point);
       Real3 b = subtract3(real3(floats(item.b), rest_of(item.second.w, board.rest_step)), point);
-      for (uint d = lane(); d < constants.diodes; d += lanes) {
+      for (uint d = begin + lane(); d < end; d += lanes) {
         Real3 diode = subtract3(diode_place(int(d)), point);
         Crossing crossing = cross_in_float(high3(a), high3(b), high3(lens), high3(diode));
         while (subgroupAny(crossing.unsure))
@@ -157,7 +163,7 @@ void main() {
   }
   vec3 normal = normal_in_board_frame(own, board);
   uint reached = 0u;
-  for (uint d = lane(); d < constants.diodes; d += lanes) {
+  for (uint d = begin + lane(); d < end; d += lanes) {
     vec3 to_diode = high3(subtract3(diode_place(int(d)), point));
     bool reaches = surfaces[d] == 0 && dot(normal, to_diode) > 0.0;
     uint within = d - lane();
