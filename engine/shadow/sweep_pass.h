@@ -32,8 +32,8 @@ public:
 
   // Whether has_lost() may ever be true.
   bool may_lose() const;
-  // Once the device is done with a strip: whether a scene with so many edges in a tile's way is beyond what the
-  // shaders' loops can do, and the bits are not all right.
+  // Once the device is done with a strip: whether a scene with so many edges in a tile's way is beyond what
+  // the shaders' loops can do, and the bits are not all right.
   bool has_lost() const;
 
 private:

@@ -20,24 +20,25 @@ PMDSIM_CONSTANT line_offsets = 256;
 
 // What t2 of an item is that is no edge between two triangles.
 PMDSIM_CONSTANT item_boundary = 0xffffffffu; // an edge of one triangle alone
-PMDSIM_CONSTANT item_hidden = 0xfffffffeu; // no edge, but a triangle that the lens does not see: a, b, and c in
-                                           // place of the normal; its packed rest in place of the other's x
+// No edge, but a triangle that the lens does not see: a, b, and c in place of the normal; its packed rest in
+// place of the other normal's x.
+PMDSIM_CONSTANT item_hidden = 0xfffffffeu;
 
 // A board of diodes. Board frame: its centre is the foot of the lens, z = 0 its plane, the scene lies at
 // z < 0. Lengths in m.
 struct SweepBoard {
   vec4 rows_hi[3]; // board_from_camera: of the rotation, w of the translation
   vec4 rows_lo[3];
-  vec4 slope;      // of samples that are depth records, as in SampleGrid
+  vec4 slope;       // of samples that are depth records, as in SampleGrid
   uvec4 shining[2]; // of each bundle of the window the diodes that shine
-  vec4 supports_a; // of diodes, centre and lens along +x, -x, +y, -y; not negative
-  vec4 supports_b; // along (1, 1), (-1, -1), (1, -1), (-1, 1), of unit length
+  vec4 supports_a;  // of diodes, centre and lens along +x, -x, +y, -y; not negative
+  vec4 supports_b;  // along (1, 1), (-1, -1), (1, -1), (-1, 1), of unit length
   float lens_z;
-  float radius; // of all diodes about the centre
-  float rest_step; // of what rounding to float took of an item's ends
-  float highest;   // z of diodes and lens, at most
+  float radius;                  // of all diodes about the centre
+  float rest_step;               // of what rounding to float took of an item's ends
+  float highest;                 // z of diodes and lens, at most
   float diodes_low, diodes_high; // z of the diodes
-  uint leaves_none; // 1: no tile may be left out, as something stands between lens and diodes
+  uint leaves_none;              // 1: no tile may be left out, as something stands between lens and diodes
   uint padding_1;
   uint level_first[tree_levels]; // in the boxes; level 0 is that over the items
   uint level_count[tree_levels];
@@ -50,25 +51,26 @@ struct SweepBoard {
   float world_rounding; // what double rounding in the world's frame leaves of places
 };
 
-// The bounds of the straight ways from a tile's samples to the board: u . xy + k z <= s for eight directions u.
+// The bounds of the straight ways from a tile's samples to the board: u . xy + k z <= s for eight directions
+// u.
 struct TileShaft {
   vec4 slopes_a, slopes_b; // k
   vec4 sights_a, sights_b; // likewise of the ways to the lens alone
-  // Box around the samples, board frame; low > high where there is none. low.w: 1 where one of them may turn its
-  // back to a diode. high.w: 1 where not all of them are in front of the board: nothing is left out then.
+  // Box around the samples, board frame; low > high where there is none. low.w: 1 where one of them may turn
+  // its back to a diode. high.w: 1 where not all of them are in front of the board: nothing is left out then.
   vec4 low, high;
 };
 
-// The lists of tiles are made in rounds, so that they fit into memory: a round's lists begin in its own stretch of
-// all their entries, and only the last of them goes beyond it. A frame with more entries is refused.
-// Turns of all loops of an invocation, one for the end of each loop included; lavapipe ends them after 65,535,
-// silently.
+// The lists of tiles are made in rounds, so that they fit into memory: a round's lists begin in its own
+// stretch of all their entries, and only the last of them goes beyond it. A frame with more entries is
+// refused. Turns of all loops of an invocation, one for the end of each loop included; lavapipe ends them
+// after 65,535, silently.
 PMDSIM_CONSTANT most_sweep_steps = 50000;
 PMDSIM_CONSTANT sweep_rounds = 16;
 PMDSIM_CONSTANT entries_per_round = 1u << 23;
 
-// Of a round: workgroups that write its lists, the sweep over its tiles, and the exact one over those of their
-// samples that it leaves.
+// Of a round: workgroups that write its lists, the sweep over its tiles, and the exact one over those of
+// their samples that it leaves.
 struct SweepRound {
   uint list_groups_x, list_groups_y, list_groups_z;
   uint tiles;
@@ -78,9 +80,9 @@ struct SweepRound {
   uint samples;
 };
 
-// Lists of the sweep. What follows: the active tiles, for each tile the length of its list of edges and the entry where it begins,
-// the same of its list of hidden triangles, then of each round its active tiles, then the samples that have to be
-// decided exactly.
+// Lists of the sweep. What follows: the active tiles, for each tile the length of its list of edges and the
+// entry where it begins, the same of its list of hidden triangles, then of each round its active tiles, then
+// the samples that have to be decided exactly.
 struct SweepWork {
   SweepRound rounds[sweep_rounds];
   uint entries; // of all tiles' lists
@@ -113,10 +115,10 @@ struct SweepPlanes {
   vec4 first_hi, first_lo, second_hi, second_lo;
 };
 
-// A triangle that the way from the lens to some diodes of a window goes through, board frame: there the light's
-// place comes from one side of it to the other.
+// A triangle that the way from the lens to some diodes of a window goes through, board frame: there the
+// light's place comes from one side of it to the other.
 struct Piercer {
-  vec4 plane_hi, plane_lo; // normal . P = offset, the lens in front
+  vec4 plane_hi, plane_lo;         // normal . P = offset, the lens in front
   uint diodes[bundles_per_window]; // a bit each
 };
 
