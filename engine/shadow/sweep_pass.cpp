@@ -173,7 +173,7 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
   const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip));
-  commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * sample_count(strip) * word, ~0u);
+  commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * word * sample_count(strip), ~0u);
   if (window == 0)
     commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);
   if (of_window[window].first_of_board) {

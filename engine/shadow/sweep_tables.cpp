@@ -13,8 +13,8 @@ namespace {
 
 using shader::uvec4;
 
-constexpr std::size_t words = shader::bundles_per_window;
-using Bits = std::array<std::uint32_t, words>;
+constexpr std::size_t bit_words = shader::bundles_per_window;
+using Bits = std::array<std::uint32_t, bit_words>;
 
 void set(Bits &bits, std::size_t diode) { bits[diode / 32] |= 1u << diode % 32; }
 
@@ -87,7 +87,7 @@ std::vector<uvec4> prefix_table(const std::vector<std::pair<float, std::uint32_t
   std::vector<uvec4> table;
   Bits bits{};
   for (std::size_t rank = 0; rank <= ordered.size(); ++rank) {
-    for (std::size_t w = 0; w < words; w += 4)
+    for (std::size_t w = 0; w < bit_words; w += 4)
       table.push_back({bits[w], bits[w + 1], bits[w + 2], bits[w + 3]});
     if (rank < ordered.size())
       set(bits, ordered[rank].second);
@@ -151,16 +151,16 @@ void add_direction(const DirectionBin &bin, const Board &board, const std::vecto
   }
   Bits sure{};
   for (std::size_t i = 0; i < shader::line_offsets; ++i) {
-    for (std::size_t w = 0; w < words; ++w)
+    for (std::size_t w = 0; w < bit_words; ++w)
       sure[w] |= beyond[i][w];
-    for (std::size_t w = 0; w < words; w += 2)
+    for (std::size_t w = 0; w < bit_words; w += 2)
       lines.push_back({sure[w], perhaps[i][w] & ~sure[w], sure[w + 1], perhaps[i][w + 1] & ~sure[w + 1]});
   }
 }
 
 std::vector<uvec4> line_table(const Board &board, const std::vector<glm::dvec2> &diodes_m) {
   std::vector<uvec4> lines;
-  lines.reserve(std::size_t{shader::line_directions} * shader::line_offsets * words / 2);
+  lines.reserve(std::size_t{shader::line_directions} * shader::line_offsets * bit_words / 2);
   for (std::size_t direction = 0; direction < shader::line_directions; ++direction)
     add_direction(direction_bin(direction), board, diodes_m, lines);
   return lines;

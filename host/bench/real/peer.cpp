@@ -4,38 +4,60 @@
 #include "host/capture/progress.h"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstddef>
-#include <cstdio>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
 #include <string>
 #include <string_view>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
 
 namespace pmdsim {
 namespace {
-
-// As the shell takes it for one word, whatever is in it.
-std::string quoted(const std::filesystem::path &path) {
-  std::string word;
-  for (const char c : path.string())
-    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + word + "'";
-}
 
 [[noreturn]] void fail(const Peer &peer, const std::string &what) {
   throw Error(ExitCode::input, fmt::format("{}: {}", peer.program.string(), what));
 }
 
-// Both streams of the command.
-std::string output_of(const Peer &peer, const std::string &command) {
-  std::FILE *stream = ::popen((command + " 2>&1").c_str(), "r");
-  if (!stream)
-    fail(peer, "cannot be run");
+// All that comes until the end of the pipe.
+std::string read_all(int from) {
   std::string output;
   std::array<char, 4096> text;
-  while (const std::size_t count = std::fread(text.data(), 1, text.size(), stream))
-    output.append(text.data(), count);
-  const int status = ::pclose(stream);
+  for (ssize_t count = 1; count > 0 || (count < 0 && errno == EINTR);) {
+    count = ::read(from, text.data(), text.size());
+    if (count > 0)
+      output.append(text.data(), static_cast<std::size_t>(count));
+  }
+  return output;
+}
+
+// Both streams of the program.
+std::string output_of(const Peer &peer, std::vector<std::string> words) {
+  std::vector<char *> arguments;
+  for (std::string &word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::array<int, 2> ends{}; // of a pipe
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    fail(peer, "cannot be run: no pipe");
+  posix_spawn_file_actions_t streams;
+  ::posix_spawn_file_actions_init(&streams);
+  ::posix_spawn_file_actions_adddup2(&streams, ends[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, ends[1], STDERR_FILENO);
+  pid_t child = 0;
+  const int error = ::posix_spawn(&child, arguments.front(), &streams, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&streams);
+  ::close(ends[1]);
+  const std::string output = error == 0 ? read_all(ends[0]) : std::string();
+  ::close(ends[0]);
+  int status = 0;
+  if (error != 0 || ::waitpid(child, &status, 0) != child)
+    fail(peer, fmt::format("cannot be run: {}", std::generic_category().message(error)));
   throw_if_interrupted();
   if (status != 0)
     fail(peer, fmt::format("failed: {}", output.substr(0, output.find('\n'))));
@@ -45,11 +67,12 @@ std::string output_of(const Peer &peer, const std::string &command) {
 } // namespace
 
 double last_frame_ms(const Peer &peer, const SceneFiles &files, const Sensor &sensor, int count) {
-  const std::string output = output_of(
-      peer,
-      fmt::format("{} {} {} --res {} {} --fov-x-tan {} --freq {} --shadows --threads {} --reps {}",
-                  quoted(peer.program), quoted(files.scene), quoted(files.diodes), sensor.resolution.x,
-                  sensor.resolution.y, half_view_tangent, sensor.modulation_hz.front(), peer.threads, count));
+  const auto text = [](auto value) { return fmt::format("{}", value); };
+  const std::string output =
+      output_of(peer, {peer.program.string(), files.scene.string(), files.diodes.string(), "--res",
+                       text(sensor.resolution.x), text(sensor.resolution.y), "--fov-x-tan",
+                       text(half_view_tangent), "--freq", text(sensor.modulation_hz.front()), "--shadows",
+                       "--threads", text(peer.threads), "--reps", text(count)});
   constexpr std::string_view key = "frame_ms ";
   const std::size_t at = std::string_view(output).rfind(key);
   double ms = 0.0;
