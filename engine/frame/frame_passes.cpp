@@ -7,6 +7,7 @@
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
 #include "engine/signal/read_back.h"
+#include "engine/view/lens_search_pass.h"
 #include "engine/view/points_pass.h"
 
 #include <algorithm>

@@ -12,7 +12,6 @@ namespace {
 constexpr double grid = 256.0; // steps of the raster's grid a fragment: Vulkan's usual sub-pixel precision
 constexpr double margin =
     16; // fragments kept around a block, so that clipped edges' snapping stays outside it
-constexpr double nearest_depth_m = 1e-7;
 constexpr std::size_t boxes_at_most = 1024;
 
 // The half-space normal . P >= offset.

@@ -11,6 +11,9 @@
 
 namespace pmdsim {
 
+// What is nearer to a block's plane through the lens is not seen in it.
+constexpr double nearest_depth_m = 1e-7;
+
 struct Projection {
   std::vector<RasterBlock> blocks; // together they are the frame
   std::vector<shader::RasterVertex> vertices;
