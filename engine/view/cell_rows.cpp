@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -15,11 +17,15 @@ CellSpan cells_of(double low, double high, std::uint32_t count) {
 
 } // namespace
 
-OutlineCells::OutlineCells(const Outline &outline, const glm::uvec2 &size) : outline_(outline), size_(size) {
+OutlineCells::OutlineCells(const Outline &outline, const glm::uvec2 &size)
+    : edge_count_(outline.count), size_(size) {
   Range x, y;
   for (std::size_t i = 0; i < outline.count; ++i) {
-    x.take(outline.corners[i].x);
-    y.take(outline.corners[i].y);
+    const glm::dvec2 &a = outline.corners[i], &b = outline.corners[i + 1 < outline.count ? i + 1 : 0];
+    const auto [top, bottom] = a.y <= b.y ? std::pair(a, b) : std::pair(b, a);
+    edges_[i] = {top, bottom, (bottom.x - top.x) / (bottom.y - top.y)};
+    x.take(a.x);
+    y.take(a.y);
   }
   if (outline.count > 0) {
     rows_ = cells_of(y.low, y.high, size.y);
@@ -29,14 +35,11 @@ OutlineCells::OutlineCells(const Outline &outline, const glm::uvec2 &size) : out
 
 OutlineCells::Range OutlineCells::columns_between(double y_low, double y_high) const {
   Range x;
-  for (std::size_t i = 0; i < outline_.count; ++i) {
-    const glm::dvec2 &from = outline_.corners[i], &to = outline_.corners[i + 1 < outline_.count ? i + 1 : 0];
-    if (std::max(from.y, to.y) < y_low || std::min(from.y, to.y) > y_high)
+  for (const Edge &edge : std::span(edges_).first(edge_count_)) {
+    if (edge.bottom.y < y_low || edge.top.y > y_high)
       continue;
-    for (const glm::dvec2 &end : {from, to}) {
-      const double beyond = std::clamp(end.y, y_low, y_high) - end.y; // of the band, along y
-      x.take(beyond == 0.0 ? end.x : end.x + (to.x - from.x) * (beyond / (to.y - from.y)));
-    }
+    x.take(edge.top.y >= y_low ? edge.top.x : edge.column_at(y_low));
+    x.take(edge.bottom.y <= y_high ? edge.bottom.x : edge.column_at(y_high));
   }
   return x;
 }

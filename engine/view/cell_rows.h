@@ -20,14 +20,16 @@ struct Outline {
   void add(const glm::dvec2 &corner) { corners[count++] = corner; }
 };
 
-// Columns of a row, both ends included; none where the last comes before the first.
+// Rows, or columns of a row, both ends included; none where the last comes before the first.
 struct CellSpan {
   std::int64_t first = 0, last = -1;
 };
 
+constexpr double cell_margin = 1.0 / 64.0; // fragments
+
 // The rows, and of a row the columns, of a raster of `size` cells that an outline touches, and those columns
-// whose cells lie inside it altogether. Cells are taken a little too large, by more than a float errs in
-// telling in which of them a place of the raster lies.
+// whose cells lie inside it altogether. Cells are taken larger by the margin, which is more than a float errs
+// by in telling in which of them a place of the raster lies.
 class OutlineCells {
 public:
   OutlineCells(const Outline &outline, const glm::uvec2 &size);
@@ -47,25 +49,28 @@ private:
       high = std::max(high, place);
     }
   };
+  struct Edge {
+    glm::dvec2 top, bottom;
+    double slope; // columns a row, where it crosses rows
+
+    double column_at(double y) const { return top.x + (y - top.y) * slope; }
+  };
   Range columns_between(double y_low, double y_high) const;
 
-  Outline outline_;
+  std::array<Edge, 4> edges_;
+  std::size_t edge_count_;
   glm::uvec2 size_;
   CellSpan rows_, columns_;
 };
-
-// By how much that is.
-constexpr double cell_margin = 1.0 / 64.0; // fragments
 
 class CellSet {
 public:
   explicit CellSet(const glm::uvec2 &size)
       : words_per_row_((size.x + 63) / 64), words_(std::size_t{words_per_row_} * size.y) {}
 
-  void add(std::int64_t row, std::int64_t column) { words_[word_at(row, column)] |= bit_of(column); }
   void add(std::int64_t row, const CellSpan &columns) {
     for (std::int64_t column = columns.first; column <= columns.last; ++column)
-      add(row, column);
+      words_[word_at(row, column)] |= std::uint64_t{1} << (column % 64);
   }
   // Once all are added: numbers them row by row. Returns how many there are.
   std::uint32_t number();
@@ -88,7 +93,6 @@ public:
   }
 
 private:
-  static std::uint64_t bit_of(std::int64_t column) { return std::uint64_t{1} << (column % 64); }
   std::size_t word_at(std::int64_t row, std::int64_t column) const {
     return static_cast<std::size_t>(row) * words_per_row_ + static_cast<std::size_t>(column / 64);
   }

@@ -66,8 +66,10 @@ vulkan::Buffer upload_lens(const vulkan::Device &device, const Sensor &sensor) {
 vulkan::Buffer upload_views(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
   std::vector<shader::RasterView> views;
   for (const RasterBlock &block : blocks) {
-    const glm::mat3 rows(glm::transpose(block.raster_from_camera));
-    views.push_back({glm::vec4(rows[0], 0), glm::vec4(rows[1], 0), glm::vec4(rows[2], 0), block.fragments.x,
+    const glm::mat3 rows(glm::transpose(block.raster_from_camera)),
+        rays(glm::inverse(block.raster_from_camera));
+    views.push_back({glm::vec4(rows[0], 0), glm::vec4(rows[1], 0), glm::vec4(rows[2], 0),
+                     glm::vec4(rays[0], 0), glm::vec4(rays[1], 0), glm::vec4(rays[2], 0), block.fragments.x,
                      block.fragments.y, 0, 0});
   }
   return vulkan::upload(device, views);

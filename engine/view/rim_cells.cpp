@@ -159,11 +159,8 @@ private:
   void add_side(const Side &side) {
     const std::array ends{block_.raster_from_camera * side.from_m, block_.raster_from_camera * side.to_m};
     const OutlineCells line(seen_of(ends).outline, block_.fragments);
-    for (std::int64_t row = line.rows().first; row <= line.rows().last; ++row) {
-      const CellSpan columns = line.touched(row);
-      for (std::int64_t column = columns.first; column <= columns.last; ++column)
-        cells_.add(row, column);
-    }
+    for (std::int64_t row = line.rows().first; row <= line.rows().last; ++row)
+      cells_.add(row, line.touched(row));
   }
 
   // All that the shape touches, but for what lies within a disc.
@@ -174,7 +171,7 @@ private:
       const CellSpan columns = shape.touched(row);
       for (std::int64_t column = columns.first; column <= columns.last; ++column)
         if (whole || !is_within_disc(index, row, column))
-          cells_.add(row, column);
+          cells_.add(row, {column, column});
     }
   }
 
@@ -218,8 +215,9 @@ private:
     const bool hides = !is_disc(index) && !has_holes(index);
     const OutlineCells outline(shape.outline, block_.fragments);
     for (std::int64_t row = outline.rows().first; row <= outline.rows().last; ++row) {
-      const CellSpan inside = hides ? outline.inside(row) : CellSpan();
-      cells_.for_each(row, outline.touched(row), [&](std::uint32_t cell, std::uint32_t column) {
+      const CellSpan touched = outline.touched(row);
+      const CellSpan inside = hides && touched.last - touched.first >= 2 ? outline.inside(row) : CellSpan();
+      cells_.for_each(row, touched, [&](std::uint32_t cell, std::uint32_t column) {
         const auto [near_m, far_m] = depths.of({column, row});
         if (near_m > far_m_[cell])
           return;

@@ -124,9 +124,10 @@ struct LensModel {
 PMDSIM_CONSTANT lens_guesses = 1024;
 
 // The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) /
-// (z . ray).
+// (z . ray), and the ray through (x, y) is x * ray_x + y * ray_y + ray_corner.
 struct RasterView {
   vec4 x, y, z;
+  vec4 ray_x, ray_y, ray_corner;
   uint columns, rows; // fragments
   uint padding_1, padding_2;
 };

@@ -9,6 +9,8 @@
 #include "shaders/view/points.glsl"
 #include "shaders/shared/real.glsl"
 
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Corners { TriangleCorners at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer RimCandidates { RimCandidate at[]; };
 layout(push_constant, std430) uniform Constants { LensSearchConstants constants; };
 
 layout(constant_id = constant_cutouts) const uint cutouts = 0;
@@ -26,30 +28,31 @@ bool comes_before(Hit a, Hit b) {
   return difference < 0.0 || (difference == 0.0 && a.triangle < b.triangle);
 }
 
-const uint words_per_corners = 11; // pairs of them, of TriangleCorners
+const uint pairs_of_corners = 11; // of words, in TriangleCorners
 Real coordinate(uint triangle, uint n) {
-  vec2 pair = uintBitsToFloat(load_words(constants.corners, words_per_corners * triangle + n));
+  vec2 pair = uintBitsToFloat(load_words(constants.corners, pairs_of_corners * triangle + n));
   return real(pair.x, pair.y);
 }
 Real3 corner(uint triangle, uint n) {
   return Real3(coordinate(triangle, 3 * n), coordinate(triangle, 3 * n + 1), coordinate(triangle, 3 * n + 2));
 }
 
-// Which of the edges ab, bc, ca the ray passes beyond, the farthest off; no_edge inside and on edges. Neighbours take the
-// same bits for their common edge, so no ray slips through between them.
+// Which of the edges ab, bc, ca the straight way to the ray leaves the triangle by; no_edge where the ray meets it, edges
+// included. Neighbours take the same bits for their common edge, so no ray slips through between them. `across` points to the
+// left of the way.
 const uint no_edge = 3;
-uint edge_beyond(Real3 ray, uint triangle) {
+uint way_out(Real3 ray, uint triangle, vec3 across) {
   Real3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
   vec3 sides = vec3(high(dot3(ray, cross3(a, b))), high(dot3(ray, cross3(b, c))), high(dot3(ray, cross3(c, a))));
-  sides = sides.x + sides.y + sides.z < 0.0 ? -sides : sides;
-  float farthest = min(sides.x, min(sides.y, sides.z));
-  if (farthest >= 0.0)
+  bool clockwise = sides.x + sides.y + sides.z < 0.0;
+  bvec3 beyond = lessThan(clockwise ? -sides : sides, vec3(0.0));
+  if (!any(beyond))
     return no_edge;
-  return sides.x == farthest ? 0u : sides.y == farthest ? 1u : 2u;
-}
-
-uint triangle_beyond(uint triangle, uint edge) {
-  return Words(constants.corners).at[2 * (words_per_corners * triangle + 9) + edge];
+  // Where the ray is beyond two edges, the way passes their common corner on one side or the other.
+  uint first = beyond.x && !beyond.z ? 0u : beyond.y && !beyond.x ? 1u : 2u, second = first == 2u ? 0u : first + 1u;
+  bool is_beyond_both = (beyond.x && beyond.y) || (beyond.y && beyond.z) || (beyond.z && beyond.x);
+  bool is_left = dot(across, high3(first == 0u ? b : first == 1u ? c : a)) > 0.0;
+  return is_beyond_both && is_left == clockwise ? second : first;
 }
 
 Real range_along(Real3 ray, uint triangle) {
@@ -67,6 +70,7 @@ struct Search {
   uint asked;            // a bit for each of them
   bool in_rim;           // then the candidates from the next one on instead
   uint candidate;
+  vec2 middle; // of the fragment that the ray falls in
 };
 
 // What the fragments around the ray see.
@@ -86,47 +90,53 @@ Search search_around(vec3 ray, RasterView view) {
   }
   search.in_rim = mark != 0u;
   search.candidate = mark - 1u;
+  search.middle = vec2(cell) + 0.5;
   return search;
 }
 
-// Of what may be seen at that depth or before, what has not been asked yet; no_triangle in the end.
-uint next(inout Search search, float depth_m) {
+// Of what may be seen at that depth or before, one that has not been asked yet, and across the way from where it is seen to
+// the ray; no_triangle in the end.
+uint next(inout Search search, float depth_m, Real3 ray, RasterView view, inout vec3 across) {
   if (search.in_rim) {
-    uvec2 candidate = load_words(constants.candidates, search.candidate++);
-    return uintBitsToFloat(candidate.y) <= depth_m ? candidate.x : no_triangle;
+    RimCandidate candidate = RimCandidates(constants.candidates).at[search.candidate++];
+    return candidate.depth_m <= depth_m ? candidate.shape : no_triangle;
   }
   uint first = findLSB(~search.asked), triangle = no_triangle;
   [[unroll]] for (uint n = 0; n < neighbours; ++n)
     triangle = n == first ? search.seen[n] : triangle;
   [[unroll]] for (uint n = 0; n < neighbours; ++n)
     search.asked |= search.seen[n] == triangle ? 1u << n : 0u;
+  vec2 seen_at = search.middle + vec2(first % 3, first / 3) - 1.0;
+  across = cross(seen_at.x * view.ray_x.xyz + seen_at.y * view.ray_y.xyz + view.ray_corner.xyz, high3(ray));
   return triangle;
 }
 
-// Where the ray meets what is seen first. On what the fragments see it walks from neighbour to neighbour, as triangles
-// smaller than fragments may not be seen by any; a rim cell has them all. One loop, which all lanes go through as often as
-// the slowest: a body in it is run once more than a loop is.
-const uint longest_walk = 64;
-Hit nearest(Real3 ray, Search search, float axis_cosine) {
+// Where the ray meets what is seen first. From what the fragments see the search walks from neighbour to neighbour, as
+// triangles smaller than fragments may not be seen by any; of a rim cell it knows all. It is a single loop that ends at its
+// end: lanes wait for each other, and lavapipe runs what follows a break once more for nobody.
+const uint longest_walk = 1024;
+Hit nearest(Real3 ray, RasterView view) {
   const float anywhere = uintBitsToFloat(0x7f800000u);
+  Search search = search_around(high3(ray), view);
   Hit best = Hit(no_triangle, real(0.0));
   float depth_m = anywhere;
-  uint triangle = next(search, depth_m), walked = 0u;
+  vec3 across = vec3(0.0);
+  uint triangle = next(search, depth_m, ray, view, across), walked = 0u;
   if (triangle == no_triangle)
     return best;
   do {
-    uint edge = edge_beyond(ray, triangle), beyond = no_triangle;
+    uint edge = way_out(ray, triangle, across), beyond = no_triangle;
     if (edge == no_edge) {
       Hit hit = Hit(triangle, range_along(ray, triangle));
       if (high(hit.range) > 0.0 && (best.triangle == no_triangle || comes_before(hit, best)) &&
           is_there(triangle, scale3(ray, hit.range))) {
         best = hit;
-        depth_m = high(hit.range) * axis_cosine;
+        depth_m = high(hit.range) * dot(view.z.xyz, high3(ray));
       }
     } else if (!search.in_rim && walked < longest_walk)
-      beyond = triangle_beyond(triangle, edge);
+      beyond = Corners(constants.corners).at[triangle].beyond[edge];
     walked = beyond != no_triangle ? walked + 1u : 0u;
-    triangle = beyond != no_triangle ? beyond : next(search, depth_m);
+    triangle = beyond != no_triangle ? beyond : next(search, depth_m, ray, view, across);
   } while (triangle != no_triangle);
   return best;
 }
@@ -137,15 +147,15 @@ void main() {
   PointBuffers to = PointBuffers(constants.position, constants.surface, constants.backscatter,
                                  constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
-  // Before anything branches, so that lavapipe reads the lens once for all lanes.
+  // Before anything branches, so that lavapipe reads lens and view once for all lanes.
+  RasterView view = Views(constants.view).at;
   Lenses lens = Lenses(constants.lens);
   Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, from_centre_of(at.subsample, strip)));
   if (at.pixel >= strip.columns * strip.rows) {
     store_miss(to, i);
     return;
   }
-  RasterView view = Views(constants.view).at;
-  Hit hit = nearest(ray, search_around(high3(ray), view), dot(view.z.xyz, high3(ray)));
+  Hit hit = nearest(ray, view);
   uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
   if (hit.triangle == no_triangle) {
     store_words(constants.ids, id_at, uvec2(0u));

@@ -38,7 +38,7 @@ const std::map<std::string, HostLayout> host_layouts{
            half_step_x_hi, half_step_x_lo, half_step_y_hi, half_step_y_lo),
     STRUCT(LensModel, chip, radial_hi, radial_lo, tangential, guesses_per_radius, padding_1, padding_2,
            padding_3),
-    STRUCT(RasterView, x, y, z, columns, rows, padding_1, padding_2),
+    STRUCT(RasterView, x, y, z, ray_x, ray_y, ray_corner, columns, rows, padding_1, padding_2),
     STRUCT(RimCell, fragment, first_candidate),
     STRUCT(RimCandidate, shape, depth_m),
     STRUCT(MarkRimsConstants, fragments, cells, count, padding),
