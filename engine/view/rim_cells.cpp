@@ -1,7 +1,7 @@
 #include "engine/view/rim_cells.h"
 
 #include "engine/view/cell_rows.h"
-#include "engine/view/projection.h"
+#include "engine/view/seen_outline.h"
 
 #include <algorithm>
 #include <array>
@@ -53,31 +53,6 @@ bool is_rim(const std::vector<shader::TriangleCorners> &all, std::uint32_t id, s
   const double own = glm::dot(through_edge, corners_m[(side + 2) % 3]),
                other = glm::dot(through_edge, *theirs_m);
   return !((own > 0.0 && other < 0.0) || (own < 0.0 && other > 0.0));
-}
-
-// What the lens sees of a shape in a block: its outline on the raster, less what lies behind, and its depths.
-struct Seen {
-  Outline outline;
-  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0;
-};
-
-// `points_m` in the raster's frame (x, y, depth), before x and y are divided by the depth; a polygon or a
-// line.
-Seen seen_of(std::span<const glm::dvec3> points_m) {
-  Seen seen;
-  const auto add = [&](const glm::dvec3 &h) {
-    seen.outline.add(glm::dvec2(h) / h.z);
-    seen.nearest_m = std::min(seen.nearest_m, h.z);
-    seen.farthest_m = std::max(seen.farthest_m, h.z);
-  };
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    const glm::dvec3 &from = points_m[i], &to = points_m[i + 1 < points_m.size() ? i + 1 : 0];
-    if (from.z >= nearest_depth_m)
-      add(from);
-    if ((from.z >= nearest_depth_m) != (to.z >= nearest_depth_m))
-      add(from + (to - from) * ((nearest_depth_m - from.z) / (to.z - from.z)));
-  }
-  return seen;
 }
 
 // The depths of a shape in a cell. On the raster one over the depth is affine.
@@ -149,16 +124,10 @@ private:
     const auto &paint = scene_.surfaces[scene_.surface_of(camera_.triangles[index].id)].paint;
     return paint && paint->alpha_cutoff > 0.0;
   }
-  Seen seen(std::size_t index) const {
-    Corners h = camera_.triangles[index].corners_m;
-    for (glm::dvec3 &corner : h)
-      corner = block_.raster_from_camera * corner;
-    return seen_of(h);
-  }
+  Seen seen(std::size_t index) const { return seen_in(block_, camera_.triangles[index].corners_m); }
 
   void add_side(const Side &side) {
-    const std::array ends{block_.raster_from_camera * side.from_m, block_.raster_from_camera * side.to_m};
-    const OutlineCells line(seen_of(ends).outline, block_.fragments);
+    const OutlineCells line(seen_in(block_, std::array{side.from_m, side.to_m}).outline, block_.fragments);
     for (std::int64_t row = line.rows().first; row <= line.rows().last; ++row)
       cells_.add(row, line.touched(row));
   }

@@ -49,6 +49,7 @@ PMDSIM_CONSTANT constant_lanes = 36; // invocations that try the candidates of a
 PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another of its bundle: z is the same
 PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
+PMDSIM_CONSTANT constant_depth_records = 40; // 1: samples are records; 0: they have ids alone
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

@@ -252,6 +252,27 @@ struct RecordDepthsConstants {
   uint padding;
 };
 
+// A sample of the frame, by its column and row among all samples, and the triangle that it sees, or no_triangle.
+struct EdgeSample {
+  uint column, row;
+  uint triangle;
+};
+
+// Gives samples near edges what they see.
+struct SettleEdgesConstants {
+  SampleGrid grid; // where they have records
+  uvec2 chip;      // in: ChipPlace, likewise
+  uvec2 planes;    // in: TrianglePlane[], likewise
+  uvec2 ids;       // in and out: ids or records
+  uvec2 samples;   // in: EdgeSample[]
+  uint count;
+  uint column, row;   // of the strip's first pixel
+  uint columns, rows; // of the strip, pixels
+  uint side;          // S
+  uint resolution_x;  // of the frame
+  uint padding;
+};
+
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;

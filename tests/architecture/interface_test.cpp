@@ -39,6 +39,8 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(LensModel, chip, radial_hi, radial_lo, tangential, guesses_per_radius, padding_1, padding_2,
            padding_3),
     STRUCT(RasterView, x, y, z, ray_x, ray_y, ray_corner, columns, rows, padding_1, padding_2),
+    STRUCT(EdgeSample, column, row, triangle),
+    STRUCT(SettleEdgesConstants, grid, chip, planes, ids, samples, count, column, row, columns, rows, side, resolution_x, padding),
     STRUCT(RimCell, fragment, first_candidate),
     STRUCT(RimCandidate, shape, depth_m),
     STRUCT(MarkRimsConstants, fragments, cells, count, padding),
