@@ -1,7 +1,7 @@
 #include "engine/view/rim_cells.h"
 
 #include "engine/view/cell_rows.h"
-#include "engine/view/seen_outline.h"
+#include "engine/view/projection.h"
 
 #include <algorithm>
 #include <array>
