@@ -16,12 +16,18 @@ namespace {
 // a tile.
 constexpr double snapping = 1.0 / 256.0;
 
+// Relative: a ray that meets an edge but for so much meets it, so that both neighbours hold it. More than
+// double rounds, and far less than samples lie apart.
+constexpr double rounding = 1e-13;
+constexpr double depth_slack = 1e-9; // relative
+
+// In the order of their ids: of neighbours whose common edge a ray meets the first stays.
 struct Nearest {
   std::uint32_t id = shader::no_triangle;
   double along = std::numeric_limits<double>::infinity();
 
   void take(std::uint32_t other, double other_along) {
-    if (std::tie(other_along, other) < std::tie(along, id))
+    if (other_along < along * (1.0 - 10.0 * rounding))
       *this = {other, other_along};
   }
 };
@@ -39,7 +45,7 @@ public:
   void decide(const Take &take) {
     for (std::size_t i = 0; i < camera_.triangles.size(); ++i)
       if (!is_disc(i)) // whose rims the raster decides by exact rays
-        mark(outline(i));
+        mark(seen(i).outline);
     const std::uint32_t count = near_.number();
     if (count == 0)
       return;
@@ -63,10 +69,10 @@ private:
   }
 
   // Moved so that samples are in the middles of cells.
-  Outline outline(std::size_t index) const {
-    Outline seen = seen_in(block_, camera_.triangles[index].corners_m).outline;
-    for (std::size_t i = 0; i < seen.count; ++i)
-      seen.corners[i] -= shift_;
+  Seen seen(std::size_t index) const {
+    Seen seen = seen_in(block_, camera_.triangles[index].corners_m);
+    for (std::size_t i = 0; i < seen.outline.count; ++i)
+      seen.outline.corners[i] -= shift_;
     return seen;
   }
 
@@ -97,21 +103,18 @@ private:
   }
 
   void try_shape(std::size_t index) {
-    const OutlineCells cells(outline(index), block_.fragments);
+    const Seen shape = seen(index);
+    const OutlineCells cells(shape.outline, block_.fragments);
     for (std::int64_t row = cells.rows().first; row <= cells.rows().last; ++row)
       near_.for_each(row, cells.touched(row), [&](std::uint32_t sample, std::uint32_t column) {
         const glm::dvec2 place = glm::dvec2(column, row) + 0.5 + shift_;
-        try_shape(index, camera_from_raster_ * glm::dvec3(place, 1.0), sample);
+        const glm::dvec3 ray = camera_from_raster_ * glm::dvec3(place, 1.0); // its length counts depths
+        const double along = camera_.planes[index].offset_m / glm::dot(camera_.planes[index].normal, ray);
+        if (along >= shape.nearest_m * (1.0 - depth_slack) &&
+            along <= shape.farthest_m * (1.0 + depth_slack) &&
+            (is_disc(index) ? is_in_disc(index, along * ray) : is_in_triangle(index, ray)))
+          (has_holes(index) ? holed_ : solid_)[sample].take(camera_.triangles[index].id, along);
       });
-  }
-
-  void try_shape(std::size_t index, const glm::dvec3 &ray, std::uint32_t sample) {
-    const Plane &plane = camera_.planes[index];
-    const double along = plane.offset_m / glm::dot(plane.normal, ray);
-    if (!(along > 0.0 && std::isfinite(along)))
-      return;
-    if (is_disc(index) ? is_in_disc(index, along * ray) : is_in_triangle(index, ray))
-      (has_holes(index) ? holed_ : solid_)[sample].take(camera_.triangles[index].id, along);
   }
 
   bool is_in_disc(std::size_t index, const glm::dvec3 &point_m) const {
@@ -120,12 +123,17 @@ private:
     return glm::distance(point_m, centre_m) <= radius_m;
   }
 
-  // Neighbours take the same bits for their common edge.
   bool is_in_triangle(std::size_t index, const glm::dvec3 &ray) const {
     const auto &[a, b, c] = camera_.triangles[index].corners_m;
-    const double ab = glm::dot(ray, glm::cross(a, b)), bc = glm::dot(ray, glm::cross(b, c)),
-                 ca = glm::dot(ray, glm::cross(c, a));
-    return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+    const int ab = side_of(ray, a, b), bc = side_of(ray, b, c), ca = side_of(ray, c, a);
+    return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  }
+
+  // On which side of the edge from a to b the ray passes, 1 or -1; 0 where it meets it.
+  static int side_of(const glm::dvec3 &ray, const glm::dvec3 &a, const glm::dvec3 &b) {
+    const double volume = glm::dot(ray, glm::cross(a, b));
+    const double zero = rounding * std::sqrt(glm::dot(ray, ray) * glm::dot(a, a) * glm::dot(b, b));
+    return volume > zero ? 1 : volume < -zero ? -1 : 0;
   }
 
   const CameraScene &camera_;
