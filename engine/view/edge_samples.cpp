@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <tuple>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -54,11 +54,11 @@ public:
     for (std::size_t i = 0; i < camera_.triangles.size(); ++i)
       try_shape(i);
     for (std::int64_t row = 0; row < block_.fragments.y; ++row)
-      near_.for_each(
-          row, {0, std::int64_t{block_.fragments.x} - 1}, [&](std::uint32_t sample, std::uint32_t column) {
-            if (holed_[sample].along >= solid_[sample].along || holed_[sample].id == shader::no_triangle)
-              take(column, static_cast<std::uint32_t>(row), solid_[sample].id);
-          });
+      near_.for_each(row, {0, std::int64_t{block_.fragments.x} - 1},
+                     [&](std::uint32_t sample, std::uint32_t column) {
+                       if (holed_[sample].along >= solid_[sample].along)
+                         take(column, static_cast<std::uint32_t>(row), solid_[sample].id);
+                     });
   }
 
 private:
