@@ -8,6 +8,8 @@
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
 #include "engine/signal/read_back.h"
+#include "engine/view/edge_settling.h"
+#include "engine/view/lens_search_pass.h"
 #include "engine/view/points_pass.h"
 
 #include <algorithm>
@@ -78,11 +80,16 @@ Pass points_of(const Basis &on, Precision precision, const vulkan::Buffer *list 
 }
 
 // What each sample sees, and where.
-void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster, FrameGraph &graph) {
-  graph.add_before(
-      {.name = "visibility", .reads = no_resource, .writes = ids, .record = [raster](const Recording &at) {
-         raster->record(at.commands, at.planned);
-       }});
+void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
+               const std::shared_ptr<const EdgeSettling> &edges, FrameGraph &graph) {
+  graph.add_before({.name = "visibility",
+                    .reads = no_resource,
+                    .writes = ids,
+                    .record = [=, &scene = on.scene, &buffers = on.buffers](const Recording &at) {
+                      raster->record(at.commands, at.planned);
+                      if (edges)
+                        edges->record(at.commands, at.planned, scene.planes, buffers.ids);
+                    }});
   if (on.path.grid == SampleGrid::distorted)
     graph.add_before(lens_search_pass(on.device, on.options.precision, on.sensor, on.facts.camera,
                                       on.request.scene, on.facts.projection.blocks,
@@ -229,6 +236,10 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   auto raster =
       std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, strips, on.scene,
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
+  std::shared_ptr<const EdgeSettling> edges;
+  if (on.path.grid != SampleGrid::distorted)
+    edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
+                                                 on.request.scene, on.facts.projection.blocks, grid);
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   ShadowPasses shadow;
   if (on.path.sweeps)
@@ -254,7 +265,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
                    {},
                    report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
-  list_view(on, raster, graph);
+  list_view(on, raster, edges, graph);
   if (shadow)
     graph.add_to_window(shadow_pass(on, shadow, true));
   if (shadow && on.options.keep_visibility)

@@ -162,7 +162,7 @@ void IdRasterPass::add_depths(const vk::raii::CommandBuffer &commands, const Pla
   depths_->dispatch(commands, constants, padded(fragments), shader::workgroup_size);
   vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                          Stage::eComputeShader | Stage::eTransfer,
-                         Access::eShaderStorageRead | Access::eTransferRead);
+                         Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eTransferRead);
 }
 
 void IdRasterPass::draw(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const {

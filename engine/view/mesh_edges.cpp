@@ -47,10 +47,9 @@ std::vector<WeldedEdge> welded_edges(const Scene &scene, std::span<const std::ui
 std::vector<shader::TriangleCorners> triangle_corners(const CameraScene &camera, const Scene &scene) {
   std::vector<shader::TriangleCorners> records(scene.shape_count());
   for (const auto &[corners_m, id] : camera.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const DoublePair4 pair(corners_m[k], 0.0);
-      records[id].hi[k] = pair.hi;
-      records[id].lo[k] = pair.lo;
+    for (int k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis)
+        records[id].corners[3 * k + axis] = float_pair(corners_m[static_cast<std::size_t>(k)][axis]);
       records[id].beyond[k] = shader::no_triangle;
     }
   // Where more than two triangles share an edge, neighbours in the order of their ids.

@@ -1,5 +1,6 @@
 #pragma once
-// The passes that find for every sample the point of the scene that it sees.
+// The pass that finds for every sample the point of the scene that it sees, where the lens does not bend
+// lines.
 
 #include "engine/model/simulator_options.h"
 #include "engine/sampling/pass.h"
@@ -15,13 +16,5 @@ namespace pmdsim {
 Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
                  std::uint32_t surface_vectors, const StripBuffers &buffers, const SceneBuffers &scene,
                  const vulkan::Buffer *list = nullptr);
-
-// The lens search, which stands for the points pass where the lens distorts: for every sample its exact ray,
-// by the inverse lens model, and the nearest triangle that the fragments around it see. The planes of
-// `scene_buffers` have ranges along the ray.
-Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
-                      const CameraScene &camera, const Scene &scene, const std::vector<RasterBlock> &blocks,
-                      std::uint32_t surface_vectors, const StripBuffers &buffers,
-                      const SceneBuffers &scene_buffers);
 
 } // namespace pmdsim

@@ -5,17 +5,34 @@
 
 #include "engine/sampling/raster_blocks.h"
 #include "engine/view/camera_scene.h"
+#include "engine/view/cell_rows.h"
 #include "shaders/shared/interface.h"
 
+#include <glm/glm.hpp>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace pmdsim {
+
+// What is nearer to a block's plane through the lens is not seen in it.
+constexpr double nearest_depth_m = 1e-7;
 
 struct Projection {
   std::vector<RasterBlock> blocks; // together they are the frame
   std::vector<shader::RasterVertex> vertices;
   std::vector<VisibleBox> visible; // some 1,000 at most, whatever the number of triangles
 };
+
+// What the lens sees of a shape in a block, in double and without the raster's grid: the outline on the
+// block's raster, less what lies behind the lens, and the depths; nothing where all does.
+struct Seen {
+  Outline outline;
+  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0;
+};
+
+// Of a triangle, or of a line, whose corners are in the camera frame.
+Seen seen_in(const RasterBlock &block, std::span<const glm::dvec3> corners_m);
 
 // `blocks` without their vertices.
 Projection project(const CameraScene &camera, std::vector<RasterBlock> blocks);

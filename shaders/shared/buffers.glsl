@@ -10,7 +10,6 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { flo
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer WordPairs { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Planes { TrianglePlane at[]; };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Corners { TriangleCorners at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Chips { ChipPlace at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Lenses {
   LensModel at;

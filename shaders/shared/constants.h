@@ -49,6 +49,7 @@ PMDSIM_CONSTANT constant_lanes = 36; // invocations that try the candidates of a
 PMDSIM_CONSTANT constant_flat_bundles = 37; // 1: no diode stands before another of its bundle: z is the same
 PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
+PMDSIM_CONSTANT constant_depth_records = 40; // 1: samples are records; 0: they have ids alone
 
 PMDSIM_CONSTANT constant_lens_apart = 40; // 1: the lens does not lie in the plane of the diodes
 PMDSIM_CONSTANT constant_all_facing = 41; // 1: every surface faces every diode

@@ -19,6 +19,7 @@ PMDSIM_CONSTANT blocks_per_stretch = 16;
 // A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
+PMDSIM_CONSTANT fragment_hit = 1;
 
 PMDSIM_CONSTANT distortion_brown = 0;
 PMDSIM_CONSTANT distortion_fisheye = 1;
@@ -93,9 +94,8 @@ struct BlockPlane {
 
 // A triangle's corners a, b, c, camera frame, m, and what lies beyond its edges.
 struct TriangleCorners {
-  vec4 hi[3];
-  vec4 lo[3];
-  uint beyond[3]; // the visible triangle that shares the edge ab, bc, ca; no_triangle where there is none
+  vec2 corners[9]; // x, y, z of each: hi, rest
+  uint beyond[3];  // the visible triangle that shares the edge ab, bc, ca; no_triangle where there is none
   uint padding;
 };
 
@@ -124,11 +124,25 @@ struct LensModel {
 PMDSIM_CONSTANT lens_guesses = 1024;
 
 // The raster of fragments in which a distorted strip searches: fragment coordinates are (x . ray, y . ray) /
-// (z . ray).
+// (z . ray), and the ray through (x, y) is x * ray_x + y * ray_y + ray_corner.
 struct RasterView {
   vec4 x, y, z;
+  vec4 ray_x, ray_y, ray_corner;
   uint columns, rows; // fragments
   uint padding_1, padding_2;
+};
+
+// A fragment of a raster view that a rim crosses, and where the shapes that may be seen in it begin among all
+// candidates.
+struct RimCell {
+  uint fragment; // row by row
+  uint first_candidate;
+};
+
+// A shape, or no_triangle after the last one of a cell.
+struct RimCandidate {
+  uint shape;
+  float depth_m; // along the view's axis, at least; a hair less than exact
 };
 
 // A diode, relative to the reference point of its group, camera frame.
@@ -207,8 +221,8 @@ struct Strip {
 // IDs are uvec2(pixel id, triangle id); the pixel id is row * resolution_x + column + 1, or 0 where nothing
 // was hit. Those of samples that are an even grid over the whole strip lie row by row. Where pixels are
 // filled in part, there are S x S tiles of one sample a pixel each. With distortion, fragments are no
-// samples: their IDs only say what is seen (pixel id 1), and the samples' IDs follow from a search, row by
-// row.
+// samples: their IDs only say what is seen, and the samples' IDs follow from a search, row by row. In place of a
+// pixel id they have fragment_hit, 0 where nothing is hit, and of a rim cell 2 (1 + its first candidate) more.
 struct IdRasterConstants {
   vec2 shift;          // of the tile's samples from the fragments' centres, fragments, a multiple of 1/256
   uint tile_x, tile_y; // of its first fragment
@@ -238,6 +252,27 @@ struct RecordDepthsConstants {
   uint padding;
 };
 
+// A sample of the frame, by its column and row among all samples, and the triangle that it sees, or no_triangle.
+struct EdgeSample {
+  uint column, row;
+  uint triangle;
+};
+
+// Gives samples near edges what they see.
+struct SettleEdgesConstants {
+  SampleGrid grid; // where they have records
+  uvec2 chip;      // in: ChipPlace, likewise
+  uvec2 planes;    // in: TrianglePlane[], likewise
+  uvec2 ids;       // in and out: ids or records
+  uvec2 samples;   // in: EdgeSample[]
+  uint count;
+  uint column, row;   // of the strip's first pixel
+  uint columns, rows; // of the strip, pixels
+  uint side;          // S
+  uint resolution_x;  // of the frame
+  uint padding;
+};
+
 // Sample (sx, sy) of the strip's pixel p is stored at (sy * S + sx) * padded_pixels + p.
 struct PointsConstants {
   Strip strip;
@@ -254,13 +289,22 @@ struct PointsConstants {
   uvec2 list;        // in, where listed: PixelList and its pixels
 };
 
+// Marks the fragments that are rim cells.
+struct MarkRimsConstants {
+  uvec2 fragments; // in and out
+  uvec2 cells;     // in: RimCell[]
+  uint count;
+  uint padding;
+};
+
 struct LensSearchConstants {
   Strip strip;
   uvec2 lens;      // in: LensModel and its table
   uvec2 view;      // in: RasterView
-  uvec2 fragments; // in: ids of the view's fragments
+  uvec2 fragments; // in: ids of the view's fragments, marked
   uvec2 planes;    // in: TrianglePlane[]
   uvec2 corners;   // in: TriangleCorners[]
+  uvec2 candidates; // in: RimCandidate[]
   uvec2 ids;       // out: ids of the samples
   uvec2 position;  // out, as in PointsConstants
   uvec2 surface;

@@ -1,6 +1,7 @@
 #version 460
 // The point of the scene that each sample sees through a lens with distortion: its ray follows from the inverse lens model,
-// and meets the nearest of the surfaces that the fragment that it falls in and the eight around it see.
+// and meets the nearest of the surfaces that the fragment that it falls in and the eight around it see; or in a rim cell
+// the nearest of all shapes there.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/buffers.glsl"
 #include "shaders/sampling/chip.glsl"
@@ -8,6 +9,8 @@
 #include "shaders/view/points.glsl"
 #include "shaders/shared/real.glsl"
 
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Corners { TriangleCorners at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer RimCandidates { RimCandidate at[]; };
 layout(push_constant, std430) uniform Constants { LensSearchConstants constants; };
 
 layout(constant_id = constant_cutouts) const uint cutouts = 0;
@@ -25,93 +28,117 @@ bool comes_before(Hit a, Hit b) {
   return difference < 0.0 || (difference == 0.0 && a.triangle < b.triangle);
 }
 
-Real3 corner(TriangleCorners corners, uint n) { return real3(corners.hi[n].xyz, corners.lo[n].xyz); }
-
-// Which of the edges ab, bc, ca the ray passes beyond, the farthest off; no_edge inside and on edges. Neighbours take the
-// same bits for their common edge, so no ray slips through between them.
-const uint no_edge = 3;
-uint edge_beyond(Real3 ray, TriangleCorners corners) {
-  Real3 a = corner(corners, 0), b = corner(corners, 1), c = corner(corners, 2);
-  vec3 sides = vec3(high(dot3(ray, cross3(a, b))), high(dot3(ray, cross3(b, c))), high(dot3(ray, cross3(c, a))));
-  sides = sides.x + sides.y + sides.z < 0.0 ? -sides : sides;
-  float farthest = min(sides.x, min(sides.y, sides.z));
-  if (farthest >= 0.0)
-    return no_edge;
-  return sides.x == farthest ? 0u : sides.y == farthest ? 1u : 2u;
+const uint pairs_of_corners = 11; // of words, in TriangleCorners
+Real coordinate(uint triangle, uint n) {
+  vec2 pair = uintBitsToFloat(load_words(constants.corners, pairs_of_corners * triangle + n));
+  return real(pair.x, pair.y);
+}
+Real3 corner(uint triangle, uint n) {
+  return Real3(coordinate(triangle, 3 * n), coordinate(triangle, 3 * n + 1), coordinate(triangle, 3 * n + 2));
 }
 
-Real range_along(Real3 ray, TrianglePlane plane) {
-  Real3 normal = real3(plane.plane_hi.xyz, plane.plane_lo.xyz);
-  return divide(real(plane.plane_hi.w, plane.plane_lo.w), dot3(normal, ray));
+// Which of the edges ab, bc, ca the straight way to the ray leaves the triangle by; no_edge where the ray meets it, edges
+// included. Neighbours take the same bits for their common edge, so no ray slips through between them. `across` points to the
+// left of the way.
+const uint no_edge = 3;
+uint way_out(Real3 ray, uint triangle, vec3 across) {
+  Real3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
+  vec3 sides = vec3(high(dot3(ray, cross3(a, b))), high(dot3(ray, cross3(b, c))), high(dot3(ray, cross3(c, a))));
+  bool clockwise = sides.x + sides.y + sides.z < 0.0;
+  bvec3 beyond = lessThan(clockwise ? -sides : sides, vec3(0.0));
+  if (!any(beyond))
+    return no_edge;
+  // Where the ray is beyond two edges, the way passes their common corner on one side or the other.
+  uint first = beyond.x && !beyond.z ? 0u : beyond.y && !beyond.x ? 1u : 2u, second = first == 2u ? 0u : first + 1u;
+  bool is_beyond_both = (beyond.x && beyond.y) || (beyond.y && beyond.z) || (beyond.z && beyond.x);
+  bool is_left = dot(across, high3(first == 0u ? b : first == 1u ? c : a)) > 0.0;
+  return is_beyond_both && is_left == clockwise ? second : first;
+}
+
+Real range_along(Real3 ray, uint triangle) {
+  vec4 plane_hi = load_vec4(constants.planes, 3 * triangle), plane_lo = load_vec4(constants.planes, 3 * triangle + 1);
+  return divide(real(plane_hi.w, plane_lo.w), dot3(real3(plane_hi.xyz, plane_lo.xyz), ray));
 }
 
 bool is_there(uint id, Real3 point) {
   return cutouts == 0 || look_of(constants.shapes, constants.surfaces, id, point).is_there;
 }
 
-// Where the ray meets the surface that `triangle` belongs to, walking from neighbour to neighbour: triangles smaller than
-// fragments may not be seen by any.
-const uint longest_walk = 16;
-Hit walk(Real3 ray, uint triangle) {
-  for (uint step = 0; step < longest_walk && triangle != no_triangle; ++step) {
-    TriangleCorners corners = Corners(constants.corners).at[triangle];
-    uint edge = edge_beyond(ray, corners);
-    if (edge == no_edge) {
-      Real range = range_along(ray, Planes(constants.planes).at[triangle]);
-      return Hit(high(range) > 0.0 && is_there(triangle, scale3(ray, range)) ? triangle : no_triangle, range);
-    }
-    triangle = edge == 0u ? corners.beyond[0] : edge == 1u ? corners.beyond[1] : corners.beyond[2];
-  }
-  return Hit(no_triangle, real(0.0));
-}
-
-// Starts from each different triangle among `seen` once; the loop ends when all lanes are done.
-Hit nearest(Real3 ray, uint seen[neighbours]) {
-  Hit best = Hit(no_triangle, real(0.0));
-  uint done = 0u;
-  [[unroll]] for (uint n = 0; n < neighbours; ++n)
-    done |= seen[n] == no_triangle ? 1u << n : 0u;
-  while (done != (1u << neighbours) - 1u) {
-    uint next = findLSB(~done), triangle = no_triangle;
-    [[unroll]] for (uint n = 0; n < neighbours; ++n)
-      triangle = n == next ? seen[n] : triangle;
-    [[unroll]] for (uint n = 0; n < neighbours; ++n)
-      done |= seen[n] == triangle ? 1u << n : 0u;
-    Hit hit = walk(ray, triangle);
-    if (hit.triangle != no_triangle && (best.triangle == no_triangle || comes_before(hit, best)))
-      best = hit;
-  }
-  return best;
-}
+// What a sample has still to ask.
+struct Search {
+  uint seen[neighbours]; // by the fragments around its ray
+  uint asked;            // a bit for each of them
+  bool in_rim;           // then the candidates from the next one on instead
+  uint candidate;
+  vec2 middle; // of the fragment that the ray falls in
+};
 
 // What the fragments around the ray see.
-void look_around(Real3 ray, out uint seen[neighbours]) {
-  RasterView view = Views(constants.view).at;
-  vec3 d = high3(ray);
-  vec2 fragment = vec2(dot(view.x.xyz, d), dot(view.y.xyz, d)) / dot(view.z.xyz, d);
+Search search_around(vec3 ray, RasterView view) {
+  vec2 fragment = vec2(dot(view.x.xyz, ray), dot(view.y.xyz, ray)) / dot(view.z.xyz, ray);
   ivec2 cell = clamp(ivec2(floor(fragment)), ivec2(1), ivec2(view.columns, view.rows) - 2);
+  Search search;
+  search.asked = 0u;
+  uint mark = 0u;
   [[unroll]] for (uint n = 0; n < neighbours; ++n) {
     ivec2 at = cell + ivec2(n % 3, n / 3) - 1;
-    uvec2 ids = WordPairs(constants.fragments).at[uint(at.y) * view.columns + uint(at.x)];
-    seen[n] = ids.x != 0u ? ids.y : no_triangle;
+    uvec2 ids = load_words(constants.fragments, uint(at.y) * view.columns + uint(at.x));
+    bool hit = (ids.x & fragment_hit) != 0u;
+    search.seen[n] = hit ? ids.y : no_triangle;
+    search.asked |= hit ? 0u : 1u << n;
+    mark = n == covering ? ids.x / 2u : mark;
   }
+  search.in_rim = mark != 0u;
+  search.candidate = mark - 1u;
+  search.middle = vec2(cell) + 0.5;
+  return search;
 }
 
-// Where surfaces are no meshes, all nine may miss the triangle that the ray meets. If there is surface all around, the
-// covering fragment's stands in for it, within its own distances.
-Hit hit_or_stand_in(Real3 ray, uint seen[neighbours]) {
-  Hit hit = nearest(ray, seen);
-  if (hit.triangle != no_triangle)
-    return hit;
-  bool surrounded = true;
+// Of what may be seen at that depth or before, one that has not been asked yet, and across the way from where it is seen to
+// the ray; no_triangle in the end.
+uint next(inout Search search, float depth_m, Real3 ray, RasterView view, inout vec3 across) {
+  if (search.in_rim) {
+    RimCandidate candidate = RimCandidates(constants.candidates).at[search.candidate++];
+    return candidate.depth_m <= depth_m ? candidate.shape : no_triangle;
+  }
+  uint first = findLSB(~search.asked), triangle = no_triangle;
   [[unroll]] for (uint n = 0; n < neighbours; ++n)
-    surrounded = surrounded && seen[n] != no_triangle;
-  if (cutouts != 0 && surrounded)
-    surrounded = !may_be_absent(constants.shapes, constants.surfaces, seen[covering]);
-  if (!surrounded)
-    return hit;
-  TrianglePlane plane = Planes(constants.planes).at[seen[covering]];
-  return Hit(seen[covering], real_clamp(range_along(ray, plane), plane.along_min, plane.along_max));
+    triangle = n == first ? search.seen[n] : triangle;
+  [[unroll]] for (uint n = 0; n < neighbours; ++n)
+    search.asked |= search.seen[n] == triangle ? 1u << n : 0u;
+  vec2 seen_at = search.middle + vec2(first % 3, first / 3) - 1.0;
+  across = cross(seen_at.x * view.ray_x.xyz + seen_at.y * view.ray_y.xyz + view.ray_corner.xyz, high3(ray));
+  return triangle;
+}
+
+// Where the ray meets what is seen first. From what the fragments see the search walks from neighbour to neighbour, as
+// triangles smaller than fragments may not be seen by any; of a rim cell it knows all. It is a single loop that ends at its
+// end: lanes wait for each other, and lavapipe runs what follows a break once more for nobody.
+const uint longest_walk = 1024;
+Hit nearest(Real3 ray, RasterView view) {
+  const float anywhere = uintBitsToFloat(0x7f800000u);
+  Search search = search_around(high3(ray), view);
+  Hit best = Hit(no_triangle, real(0.0));
+  float depth_m = anywhere;
+  vec3 across = vec3(0.0);
+  uint triangle = next(search, depth_m, ray, view, across), walked = 0u;
+  if (triangle == no_triangle)
+    return best;
+  do {
+    uint edge = way_out(ray, triangle, across), beyond = no_triangle;
+    if (edge == no_edge) {
+      Hit hit = Hit(triangle, range_along(ray, triangle));
+      if (high(hit.range) > 0.0 && (best.triangle == no_triangle || comes_before(hit, best)) &&
+          is_there(triangle, scale3(ray, hit.range))) {
+        best = hit;
+        depth_m = high(hit.range) * dot(view.z.xyz, high3(ray));
+      }
+    } else if (!search.in_rim && walked < longest_walk)
+      beyond = Corners(constants.corners).at[triangle].beyond[edge];
+    walked = beyond != no_triangle ? walked + 1u : 0u;
+    triangle = beyond != no_triangle ? beyond : next(search, depth_m, ray, view, across);
+  } while (triangle != no_triangle);
+  return best;
 }
 
 void main() {
@@ -120,22 +147,21 @@ void main() {
   PointBuffers to = PointBuffers(constants.position, constants.surface, constants.backscatter,
                                  constants.shapes, constants.surfaces);
   Sample at = sample_of(i, strip);
-  // Before anything branches, so that lavapipe reads the lens once for all lanes.
+  // Before anything branches, so that lavapipe reads lens and view once for all lanes.
+  RasterView view = Views(constants.view).at;
   Lenses lens = Lenses(constants.lens);
   Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, from_centre_of(at.subsample, strip)));
   if (at.pixel >= strip.columns * strip.rows) {
     store_miss(to, i);
     return;
   }
-  uint seen[neighbours];
-  look_around(ray, seen);
-  Hit hit = hit_or_stand_in(ray, seen);
+  Hit hit = nearest(ray, view);
   uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
   if (hit.triangle == no_triangle) {
-    WordPairs(constants.ids).at[id_at] = uvec2(0u);
+    store_words(constants.ids, id_at, uvec2(0u));
     store_miss(to, i);
     return;
   }
-  WordPairs(constants.ids).at[id_at] = uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle);
-  store_point(to, i, high3(ray), scale3(ray, hit.range), hit.triangle, Planes(constants.planes).at[hit.triangle]);
+  store_words(constants.ids, id_at, uvec2(at.in_frame.y * strip.resolution_x + at.in_frame.x + 1u, hit.triangle));
+  store_point(to, i, high3(ray), scale3(ray, hit.range), hit.triangle, load_plane(constants.planes, hit.triangle));
 }

@@ -163,9 +163,8 @@ TEST_CASE("some random scenes agree with the reference", "[smoke]") { check_rand
 
 TEST_CASE("random scenes agree with the reference", "[long]") { check_random_scenes(0, 24); }
 
-// With distortion a sliver narrower than a fragment, which is no part of a mesh, may be seen by none of the
-// fragments that a sample asks. Here are many, and few pixels, so that the share of such samples is counted
-// over all cameras.
+// With distortion no raster snaps: samples and reference see another triangle only where rounding decides.
+// Pixels are few, so that the share of such samples is counted over all cameras.
 namespace {
 
 void check_random_cameras(std::uint32_t first, std::uint32_t last) {
@@ -184,16 +183,15 @@ void check_random_cameras(std::uint32_t first, std::uint32_t last) {
                                           pixels_in_grazing_light(expected, scene, sensor, illuminator));
     fmt::print("{}", comparison_row(fmt::format("{}: {}", seed, described(sensor)), comparison));
     INFO("seed " << seed);
+    check_comparison(comparison, sensor.pixel_count() / 10);
     if (sensor.has_distortion()) {
-      check_values(comparison, sensor.pixel_count() / 10);
       distorted.samples += comparison.samples;
       distorted.differing_samples += comparison.differing_samples;
-    } else
-      check_comparison(comparison, sensor.pixel_count() / 10);
+    }
   }
   fmt::print("of all cameras with distortion, {:.5f} % of the samples see another triangle\n",
              100 * distorted.differing_fraction());
-  CHECK(distorted.differing_fraction() <= 1e-3);
+  CHECK(distorted.differing_fraction() <= 1e-5);
 }
 
 } // namespace
