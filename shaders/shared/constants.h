@@ -51,11 +51,10 @@ PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 PMDSIM_CONSTANT constant_depth_records = 40; // 1: samples are records; 0: they have ids alone
 
-PMDSIM_CONSTANT constant_lens_apart = 40; // 1: the lens does not lie in the plane of the diodes
-PMDSIM_CONSTANT constant_all_facing = 41; // 1: every surface faces every diode
-PMDSIM_CONSTANT constant_lists_hidden = 42; // 1: of triangles that the lens does not see
-PMDSIM_CONSTANT constant_exact_only = 43; // 1: nothing is decided in float
-PMDSIM_CONSTANT constant_depth_records = 44; // 1: samples are depth records
+PMDSIM_CONSTANT constant_lens_apart = 41; // 1: the lens does not lie in the plane of the diodes
+PMDSIM_CONSTANT constant_all_facing = 42; // 1: every surface faces every diode
+PMDSIM_CONSTANT constant_lists_hidden = 43; // 1: of triangles that the lens does not see
+PMDSIM_CONSTANT constant_exact_only = 44; // 1: nothing is decided in float
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest
