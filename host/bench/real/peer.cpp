@@ -50,7 +50,7 @@ std::string output_of(const Peer &peer, std::vector<std::string> words) {
   ::posix_spawn_file_actions_adddup2(&streams, ends[1], STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&streams, ends[1], STDERR_FILENO);
   pid_t child = 0;
-  const int error = ::posix_spawn(&child, arguments.front(), &streams, nullptr, arguments.data(), environ);
+  const int error = ::posix_spawnp(&child, arguments.front(), &streams, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&streams);
   ::close(ends[1]);
   const std::string output = error == 0 ? read_all(ends[0]) : std::string();

@@ -148,7 +148,8 @@ TEST_CASE("bench --suite writes its scenes, and says what is wrong") {
   CHECK(run_pmdsim({"check", work / "scenes/soup_1000.json"}).exit_code == 0);
 
   check_refusal(with_words({"--kinds", "blob,fog"}), 2, {"--kinds", "blob, knot", "found fog"});
-  check_refusal(with_words({"--kinds", "blob", "--against", work / "nothing"}), 3, {"nothing", "not found"});
+  check_refusal(with_words({"--kinds", "blob", "--against", work / "nothing"}), 3,
+                {"nothing", "cannot be run"});
   check_refusal(with_words({"--kinds", "blob", "--against", "echo"}), 3, {"echo", "frame_ms"});
   check_refusal(run_pmdsim({"bench", "--kinds", "blob"}), 2, {"--kinds", "--suite"});
 }
