@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_access.hpp>
-#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -36,6 +35,8 @@ std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
     most = std::max(most, tile_count(planned.strip));
   return most;
 }
+
+constexpr std::uint32_t texel_buffers = 7; // of sweep.glsl
 
 // Of so many items, 256 diodes and subgroups of 8 no loop is too long, and all lists have room.
 constexpr std::uint32_t fewest_to_lose = 400;
@@ -80,7 +81,16 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
 } // namespace
 
 struct SweepPass::State {
-  explicit State(const StripBuffers &buffers_) : buffers(buffers_) {}
+  State(const PassSetup &on, const std::vector<SourceWindow> &of_frame,
+        const std::optional<ChipGrid> &depth_records)
+      : buffers(on.buffers), scene(on.scene), records(depth_records), windows(of_frame),
+        lanes(on.device.limits().subgroup),
+        specialization{{shader::constant_tiled, is_tiled(on.sensor)},
+                       {shader::constant_lanes, lanes},
+                       {shader::constant_all_facing, on.model.backscatter == shader::backscatter_flat},
+                       {shader::constant_depth_records, records.has_value()},
+                       {shader::constant_general_chip, records && !records->is_nominal()}},
+        of_window(windows.size()) {}
 
   // A board on the device.
   struct BoardBuffers {
@@ -101,10 +111,13 @@ struct SweepPass::State {
   };
 
   const StripBuffers &buffers;
-  bool depth_records = false;
-  std::uint32_t shining = 0; // diodes of all windows
+  const SceneBuffers &scene;
+  std::optional<ChipGrid> records; // where samples are these
   std::vector<SourceWindow> windows;
   std::uint32_t lanes;
+  vulkan::Specialization specialization;
+  std::uint32_t shining = 0;  // diodes of all windows
+  std::size_t most_items = 0; // of a board
   std::vector<BoardBuffers> boards;
   std::vector<WindowBuffers> of_window;
   Buffer shafts, work, entries;
@@ -112,7 +125,16 @@ struct SweepPass::State {
   vulkan::ComputePipeline find_shafts, count_edges, write_edges, count_hidden, write_hidden;
   std::uint32_t spare_entry = 0;
   bool may_lose = false;
-  vulkan::Buffer const *planes = nullptr;
+
+  vulkan::ComputePipeline pipeline(const PassSetup &on, std::string_view name) const;
+  void add_board(const PassSetup &on, const Board &board, const SweepItems &items);
+  // One of the board that was added last.
+  void add_window(const PassSetup &on, const Board &board, const SweepItems &items,
+                  const SourceGroups &groups, std::size_t window);
+  void upload_records(const PassSetup &on, const Board &board, const SweepItems &items,
+                      const SourceGroups &groups, std::size_t window);
+  void make_list_pipelines(const PassSetup &on);
+  void make_lists(const PassSetup &on, vk::DeviceSize tiles);
 
   shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
                                    std::uint32_t round = 0) const;
@@ -131,7 +153,7 @@ struct SweepPass::State {
 };
 
 shader::Strip SweepPass::State::sample_strip(const shader::Strip &strip) const {
-  if (!depth_records)
+  if (!records)
     return strip;
   const std::uint32_t s = strip.samples;
   return {s * strip.column,
@@ -151,7 +173,7 @@ shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, s
   return {of_samples,
           buffers.position.words(),
           buffers.ids.words(),
-          planes->words(),
+          scene.planes.words(),
           of.record.words(),
           shafts.words(),
           work.words(),
@@ -239,114 +261,119 @@ void SweepPass::State::record_round(const vk::raii::CommandBuffer &commands, con
 
 SweepPass::~SweepPass() = default;
 
+vulkan::ComputePipeline SweepPass::State::pipeline(const PassSetup &on, std::string_view name) const {
+  return {on.device,
+          vulkan::shader_module(on.device, on.options.precision, name),
+          sizeof(shader::SweepConstants),
+          specialization,
+          {texel_buffers, lanes}};
+}
+
+void SweepPass::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items) {
+  const vulkan::Device &device = on.device;
+  most_items = std::max(most_items, items.edges.items.size() + items.hidden.items.size());
+  boards.push_back({upload_texels(device, items.edges.items), upload_texels(device, items.edges.boxes),
+                    vulkan::upload(device, items.planes), upload_texels(device, items.hidden.items),
+                    upload_texels(device, items.hidden.boxes), items.any_hidden});
+  specialization.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
+}
+
+void SweepPass::State::upload_records(const PassSetup &on, const Board &board, const SweepItems &items,
+                                      const SourceGroups &groups, std::size_t window) {
+  WindowBuffers &of = of_window[window];
+  const std::vector<shader::Piercer> piercers =
+      find_piercers(board, items.in_the_way, places_of(windows[window], groups));
+  of.piercers = vulkan::upload(on.device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
+  const std::vector<std::uint32_t> bits = diodes_of(windows[window], groups).bits;
+  const auto record_of = [&](const SweepTree &tree) {
+    shader::SweepBoard record = board_record(board, items, tree, on.scene.world_rounding_m);
+    if (records) {
+      record.slope = records->slope();
+      record.chip = records->chip();
+    }
+    for (std::size_t bundle = 0; bundle < bits.size(); ++bundle)
+      record.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = bits[bundle];
+    record.leaves_none = !items.in_the_way.empty();
+    record.lit = on.buffers.lit.words();
+    record.piercers = of.piercers.words();
+    record.piercer_count = static_cast<std::uint32_t>(piercers.size());
+    return vulkan::upload(on.device, std::as_bytes(std::span(&record, 1)));
+  };
+  of.record = record_of(items.edges);
+  of.hidden_record = record_of(items.hidden);
+  for (const std::uint32_t of_bundle : bits)
+    shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
+}
+
+void SweepPass::State::add_window(const PassSetup &on, const Board &board, const SweepItems &items,
+                                  const SourceGroups &groups, std::size_t window) {
+  upload_records(on, board, items, groups, window);
+  const vulkan::Device &device = on.device;
+  const SweepTables tables = sweep_tables(board, places_of(windows[window], groups));
+  WindowBuffers &of = of_window[window];
+  of.ranks = upload_texels(device, tables.ranks);
+  of.prefixes = upload_texels(device, tables.prefixes);
+  of.lines = upload_texels(device, tables.lines);
+  of.diodes = upload_texels(device, tables.diodes);
+  of.rank_bins = static_cast<std::uint32_t>(tables.ranks.size());
+  of.board = boards.size() - 1;
+  of.first_of_board = window == 0 || !std::ranges::binary_search(board.windows, window - 1);
+  const BoardBuffers &of_board = boards.back();
+  constexpr vk::Format words = vk::Format::eR32G32B32A32Uint, floats = vk::Format::eR32G32B32A32Sfloat;
+  const auto bind = [&](const Buffer &items_, const Buffer &boxes) {
+    return vulkan::TexelBuffers(device, {{items_, words},
+                                         {boxes, floats},
+                                         {of.ranks, words},
+                                         {of.prefixes, words},
+                                         {of.lines, words},
+                                         {of.diodes, floats},
+                                         {of_board.hidden_items, words}});
+  };
+  of.texels = bind(of_board.items, of_board.boxes);
+  of.hidden_texels = bind(of_board.hidden_items, of_board.hidden_boxes);
+  specialization.set(shader::constant_bundles, windows[window].bundles)
+      .set(shader::constant_exact_only, !board.is_flat || !items.in_the_way.empty() || !tables.tells_angles);
+  of.sweep = pipeline(on, "sweep");
+  of.exact = pipeline(on, "sweep_exact");
+}
+
+void SweepPass::State::make_list_pipelines(const PassSetup &on) {
+  find_shafts = pipeline(on, "sweep_shafts");
+  const auto lists = [&](bool is_first, bool hidden) {
+    specialization.set(shader::constant_is_first, is_first).set(shader::constant_lists_hidden, hidden);
+    return pipeline(on, "sweep_lists");
+  };
+  count_edges = lists(true, false);
+  write_edges = lists(false, false);
+  count_hidden = lists(true, true);
+  write_hidden = lists(false, true);
+}
+
+void SweepPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
+  using Usage = vk::BufferUsageFlagBits;
+  shafts = sweep_storage(on.device, tiles * sizeof(shader::TileShaft));
+  const vk::DeviceSize words = (5 + shader::sweep_rounds + shader::tile_samples) * tiles;
+  work = sweep_storage(on.device, sizeof(shader::SweepWork) + words * sizeof(std::uint32_t),
+                       Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc);
+  may_lose = most_items > fewest_to_lose ||
+             most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round;
+  spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
+  entries = sweep_storage(on.device, (vk::DeviceSize{spare_entry} + 1) * sizeof(std::uint32_t));
+  header_read = Buffer(on.device, sizeof(shader::SweepWork), Usage::eTransferDst, vulkan::Memory::read);
+}
+
 SweepPass::SweepPass(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records)
-    : state_(std::make_unique<State>(on.buffers)) {
-  const vulkan::Device &device = on.device;
-  State &state = *state_;
-  state.windows = windows;
-  state.lanes = device.limits().subgroup;
-  state.planes = &on.scene.planes;
-  state.depth_records = records.has_value();
-  const std::vector<Board> boards = find_boards(groups, windows);
-  std::size_t most_items = 0;
-  state.of_window.resize(windows.size());
-  vulkan::Specialization constants{
-      {shader::constant_tiled, is_tiled(on.sensor)},
-      {shader::constant_lanes, state.lanes},
-      {shader::constant_all_facing, on.model.backscatter == shader::backscatter_flat},
-      {shader::constant_depth_records, records.has_value()},
-      {shader::constant_general_chip, records && !records->is_nominal()}};
-  const auto pipeline = [&](std::string_view name, std::size_t bytes, std::uint32_t texel_buffers) {
-    return vulkan::ComputePipeline(device, vulkan::shader_module(device, on.options.precision, name), bytes,
-                                   constants, {texel_buffers, texel_buffers > 0 ? state.lanes : 0});
-  };
-  constexpr std::uint32_t texel_buffers = 7;
-  for (std::size_t b = 0; b < boards.size(); ++b) {
-    const Board &board = boards[b];
+    : state_(std::make_unique<State>(on, windows, records)) {
+  for (const Board &board : find_boards(groups, windows)) {
     const SweepItems items = sweep_items(board, occluders, camera, scene);
-    most_items = std::max(most_items, items.edges.items.size() + items.hidden.items.size());
-    state.boards.push_back({upload_texels(device, items.edges.items),
-                            upload_texels(device, items.edges.boxes), vulkan::upload(device, items.planes),
-                            upload_texels(device, items.hidden.items),
-                            upload_texels(device, items.hidden.boxes), items.any_hidden});
-    constants.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
-    for (const std::size_t window : board.windows) {
-      const SweepTables tables = sweep_tables(board, places_of(windows[window], groups));
-      auto &of = state.of_window[window];
-      const std::vector<shader::Piercer> piercers =
-          find_piercers(board, items.in_the_way, places_of(windows[window], groups));
-      of.piercers = vulkan::upload(device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
-      const std::vector<std::uint32_t> bits = diodes_of(windows[window], groups).bits;
-      for (const std::uint32_t of_bundle : bits)
-        state.shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
-      const auto record_of = [&](const SweepTree &tree) {
-        shader::SweepBoard record = board_record(board, items, tree, on.scene.world_rounding_m);
-        if (records) {
-          record.slope = records->slope();
-          record.chip = records->chip();
-        }
-        for (std::size_t bundle = 0; bundle < bits.size(); ++bundle)
-          record.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = bits[bundle];
-        record.leaves_none = !items.in_the_way.empty();
-        record.lit = on.buffers.lit.words();
-        record.piercers = of.piercers.words();
-        record.piercer_count = static_cast<std::uint32_t>(piercers.size());
-        return vulkan::upload(device, std::as_bytes(std::span(&record, 1)));
-      };
-      of.record = record_of(items.edges);
-      of.hidden_record = record_of(items.hidden);
-      constants.set(shader::constant_exact_only,
-                    !board.is_flat || !items.in_the_way.empty() || !tables.tells_angles);
-      of.ranks = upload_texels(device, tables.ranks);
-      of.prefixes = upload_texels(device, tables.prefixes);
-      of.lines = upload_texels(device, tables.lines);
-      of.diodes = upload_texels(device, tables.diodes);
-      of.board = b;
-      of.first_of_board = window == 0 || !std::ranges::binary_search(board.windows, window - 1);
-      of.rank_bins = static_cast<std::uint32_t>(tables.ranks.size());
-      constexpr vk::Format words = vk::Format::eR32G32B32A32Uint, floats = vk::Format::eR32G32B32A32Sfloat;
-      const auto bind = [&](const Buffer &items_, const Buffer &boxes) {
-        return vulkan::TexelBuffers(device, {{items_, words},
-                                             {boxes, floats},
-                                             {of.ranks, words},
-                                             {of.prefixes, words},
-                                             {of.lines, words},
-                                             {of.diodes, floats},
-                                             {state.boards[b].hidden_items, words}});
-      };
-      of.texels = bind(state.boards[b].items, state.boards[b].boxes);
-      of.hidden_texels = bind(state.boards[b].hidden_items, state.boards[b].hidden_boxes);
-      constants.set(shader::constant_bundles, windows[window].bundles)
-          .set(shader::constant_is_first, window == 0);
-      of.sweep = pipeline("sweep", sizeof(shader::SweepConstants), texel_buffers);
-      of.exact = pipeline("sweep_exact", sizeof(shader::SweepConstants), texel_buffers);
-    }
+    state_->add_board(on, board, items);
+    for (const std::size_t window : board.windows)
+      state_->add_window(on, board, items, groups, window);
   }
-  state.find_shafts = pipeline("sweep_shafts", sizeof(shader::SweepConstants), texel_buffers);
-  const auto lists = [&](bool is_first, bool hidden) {
-    constants.set(shader::constant_is_first, is_first).set(shader::constant_lists_hidden, hidden);
-    return pipeline("sweep_lists", sizeof(shader::SweepConstants), texel_buffers);
-  };
-  state.count_edges = lists(true, false);
-  state.write_edges = lists(false, false);
-  state.count_hidden = lists(true, true);
-  state.write_hidden = lists(false, true);
-  const vk::DeviceSize tiles = largest_tile_count(strips);
-  state.shafts = sweep_storage(device, tiles * sizeof(shader::TileShaft));
-  state.work =
-      sweep_storage(device,
-                    sizeof(shader::SweepWork) +
-                        (5 + shader::sweep_rounds + shader::tile_samples) * tiles * sizeof(std::uint32_t),
-                    vk::BufferUsageFlagBits::eIndirectBuffer | vk::BufferUsageFlagBits::eTransferDst |
-                        vk::BufferUsageFlagBits::eTransferSrc);
-  state.may_lose = most_items > fewest_to_lose ||
-                   most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round;
-  state.spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
-  state.entries = sweep_storage(device, (vk::DeviceSize{state.spare_entry} + 1) * sizeof(std::uint32_t));
-  state.header_read =
-      Buffer(device, sizeof(shader::SweepWork), vk::BufferUsageFlagBits::eTransferDst, vulkan::Memory::read);
+  state_->make_list_pipelines(on);
+  state_->make_lists(on, largest_tile_count(strips));
 }
 
 void SweepPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

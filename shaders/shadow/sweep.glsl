@@ -120,14 +120,19 @@ Ways ways_anywhere(vec3 low, vec3 high, SweepBoard board) {
 // Whether a sample is in front of the board, so that slopes from there are of use.
 bool is_in_front(vec3 p, SweepBoard board) { return p.z < board.nearest; }
 
+// How far the part of a box between two heights lies outside of the half-spaces u . xy + k z <= s, at least.
+float outside_of(vec3 low, vec3 high, float z_low, float z_high, vec4 slopes_a, vec4 slopes_b, vec4 supports_a, vec4 supports_b) {
+  vec4 a = vec4(low.x, -high.x, low.y, -high.y) + min(slopes_a * z_low, slopes_a * z_high) - supports_a;
+  vec4 b = diagonal * vec4(low.x + low.y, -high.x - high.y, low.x - high.y, low.y - high.x) +
+           min(slopes_b * z_low, slopes_b * z_high) - supports_b;
+  vec4 outside = max(a, b);
+  return max(max(outside.x, outside.y), max(outside.z, outside.w));
+}
+
 bool may_meet_box(Ways ways, vec3 low, vec3 high) {
   bool between = high.z > ways.farthest && low.z < ways.highest;
-  float z_low = max(low.z, ways.farthest), z_high = min(high.z, ways.highest);
-  vec4 a = vec4(low.x, -high.x, low.y, -high.y) + min(ways.slopes_a * z_low, ways.slopes_a * z_high) - ways.supports_a;
-  vec4 b = diagonal * vec4(low.x + low.y, -high.x - high.y, low.x - high.y, low.y - high.x) +
-           min(ways.slopes_b * z_low, ways.slopes_b * z_high) - ways.supports_b;
-  vec4 outside = max(a, b);
-  return between && max(max(outside.x, outside.y), max(outside.z, outside.w)) < 0.0;
+  return between && outside_of(low, high, max(low.z, ways.farthest), min(high.z, ways.highest), ways.slopes_a, ways.slopes_b,
+                               ways.supports_a, ways.supports_b) < 0.0;
 }
 
 // An item's texels: ends a and b, the triangles t1 and t2 of an edge, their unit normals; packed rests of the ends.
@@ -135,17 +140,12 @@ struct Item {
   uvec4 a, b, first, second;
 };
 
-Item load_item(uint i) {
+Item load_from(usamplerBuffer texels, uint i) {
   int at = int(4 * i);
-  return Item(texelFetch(item_texels, at), texelFetch(item_texels, at + 1), texelFetch(item_texels, at + 2),
-              texelFetch(item_texels, at + 3));
+  return Item(texelFetch(texels, at), texelFetch(texels, at + 1), texelFetch(texels, at + 2), texelFetch(texels, at + 3));
 }
-
-Item load_hidden(uint i) {
-  int at = int(4 * i);
-  return Item(texelFetch(hidden_texels, at), texelFetch(hidden_texels, at + 1), texelFetch(hidden_texels, at + 2),
-              texelFetch(hidden_texels, at + 3));
-}
+Item load_item(uint i) { return load_from(item_texels, i); }
+Item load_hidden(uint i) { return load_from(hidden_texels, i); }
 
 Real3 diode_place(int d) {
   vec4 across = texelFetch(diode_texels, 2 * d), along = texelFetch(diode_texels, 2 * d + 1);
@@ -188,12 +188,9 @@ Sights sights_of(vec4 slopes_a, vec4 slopes_b, vec3 low, vec3 high, float lens_z
 
 bool may_cross(Sights sights, vec3 low, vec3 high) {
   float z_low = max(low.z, sights.low.z) - sights.lens_z, z_high = min(high.z, sights.lens_z) - sights.lens_z;
-  vec4 a = vec4(low.x, -high.x, low.y, -high.y) + min(sights.slopes_a * z_low, sights.slopes_a * z_high);
-  vec4 b = diagonal * vec4(low.x + low.y, -high.x - high.y, low.x - high.y, low.y - high.x) +
-           min(sights.slopes_b * z_low, sights.slopes_b * z_high);
-  vec4 outside = max(a, b);
   bool between = high.z > sights.low.z && low.z < sights.lens_z;
-  return (between || sights.anywhere > 0.0) && max(max(outside.x, outside.y), max(outside.z, outside.w)) < shaft_slack_m + sights.anywhere;
+  return (between || sights.anywhere > 0.0) &&
+         outside_of(low, high, z_low, z_high, sights.slopes_a, sights.slopes_b, vec4(0.0), vec4(0.0)) < shaft_slack_m + sights.anywhere;
 }
 
 // Whether a hidden triangle may lie between lens and samples: it turns its back to the lens, so a sample must be in front of it.

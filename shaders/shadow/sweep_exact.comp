@@ -1,7 +1,7 @@
 #version 460
 // Decides what sweep.comp left unclear: any sample, and diodes anywhere. The triangle of sample, lens and diode is tested with every
-// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup, a sample
-// and, where its list is long, a bundle of diodes.
+// edge that may matter; where a float may be wrong, in Real. A workgroup is a subgroup: a sample and,
+// where its list is long, a bundle of diodes.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadow/sweep.glsl"
 #include "shaders/shadow/sweep_weight.glsl"
@@ -121,6 +121,12 @@ void main() {
   if (!is_long && gl_WorkGroupID.x > 0u)
     return;
   uint begin = is_long ? diodes_per_bundle * gl_WorkGroupID.x : 0u, end = is_long ? begin + diodes_per_bundle : constants.diodes;
+  // Of all loops, asked before any: one that is too long takes the others' turns.
+  uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * ((end - begin) / lanes + 2u);
+  if (steps > most_sweep_steps) {
+    atomicMax(lists.at.lost, 1u);
+    return;
+  }
   uint own = shape_seen(at);
   Real3 point = in_board_frame(point_of(at, board), board);
   vec4 slopes_a, slopes_b;
@@ -135,11 +141,10 @@ void main() {
     surfaces[d] = hidden;
   for (uint i = 0; i < board.piercer_count; ++i) {
     Piercer piercer = Piercers(board.piercers).at[i];
-    int side = exact_side(piercer.plane_hi, piercer.plane_lo, point, plane_rounding(piercer.plane_hi, point, board));
+    int side = exact_side(piercer.plane_hi, piercer.plane_lo, point, board);
     for (uint d = begin + lane(); d < end; d += lanes)
       surfaces[d] += (piercer.diodes[d / 32u] >> d % 32u & 1u) != 0u ? side : 0;
   }
-  uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * ((end - begin) / lanes + 2u); // of all loops
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
     steps += most_items / 4u + 4u + count * (2u + 3u * (end - begin) / lanes);

@@ -6,8 +6,11 @@
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ExactPlanes { SweepPlanes at[]; };
 
+const float own_rounding = 2.3e-13; // as in occlusion.glsl: a pair of floats holds 48 bits
+
 // -1, 0 or 1: on which side of a triangle's plane the sample lies, if its own rounding leaves a side, in Real.
-int exact_side(vec4 plane_hi, vec4 plane_lo, Real3 p, float rounding) {
+int exact_side(vec4 plane_hi, vec4 plane_lo, Real3 p, SweepBoard board) {
+  float rounding = own_rounding * (dot(abs(high3(p)), vec3(1.0)) + abs(plane_hi.w)) + board.world_rounding;
   Real height = add(dot3(real3(plane_hi.xyz, plane_lo.xyz), p), negate(real(plane_hi.w, plane_lo.w)));
   float rounded = high(height);
   return abs(rounded) <= rounding ? 0 : rounded > 0.0 ? 1 : -1;
@@ -19,18 +22,11 @@ int weight_of(int side, uint board_side) {
   return side == 0 || (side > 0 && board_side == 1u) || (side < 0 && board_side == 2u) ? 0 : side;
 }
 
-const float own_rounding = 2.3e-13; // as in occlusion.glsl: a pair of floats holds 48 bits
-
-float plane_rounding(vec4 plane, Real3 p, SweepBoard board) {
-  return own_rounding * (dot(abs(high3(p)), vec3(1.0)) + abs(plane.w)) + board.world_rounding;
-}
-
 // The weight of an edge that has to be decided exactly.
 int exact_weight(uint index, uint sides_1, uint sides_2, bool is_boundary, Real3 p, SweepBoard board) {
   SweepPlanes planes = ExactPlanes(constants.exact).at[index];
-  float rounding = plane_rounding(planes.first_hi, p, board);
-  int first = weight_of(exact_side(planes.first_hi, planes.first_lo, p, rounding), sides_1);
-  int second = weight_of(exact_side(planes.second_hi, planes.second_lo, p, rounding), sides_2);
+  int first = weight_of(exact_side(planes.first_hi, planes.first_lo, p, board), sides_1);
+  int second = weight_of(exact_side(planes.second_hi, planes.second_lo, p, board), sides_2);
   return is_boundary ? -first : second - first;
 }
 
