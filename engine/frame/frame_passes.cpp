@@ -2,6 +2,7 @@
 
 #include "engine/frame/uniform_pixels_pass.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/shadow/host_sweep.h"
 #include "engine/shadow/sweep_pass.h"
 #include "engine/shadow/tile_shadow_pass.h"
 #include "engine/shadow/visibility_bits.h"
@@ -102,10 +103,21 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
 struct ShadowPasses {
   std::shared_ptr<const TileShadowPass> tiles;
   std::shared_ptr<const SweepPass> sweep;
-  explicit operator bool() const { return tiles || sweep; }
+  std::shared_ptr<const HostSweep> host;
+  explicit operator bool() const { return tiles || sweep || host; }
 };
 
+Pass host_shadow_pass(const Basis &on, const std::shared_ptr<const HostSweep> &sweep) {
+  return {.name = "lit",
+          .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
+          .writes = visibility_bits | visibility_counts,
+          .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
+          .store = [=](const Recording &at, Measurement &) { sweep->decide(at.of_strip(), at.window); }};
+}
+
 Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) {
+  if (shadow.host)
+    return host_shadow_pass(on, shadow.host);
   return {.name = "lit",
           .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
           .writes = visibility_bits | visibility_counts,
@@ -242,7 +254,11 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
                                                  on.request.scene, on.facts.projection.blocks, grid);
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   ShadowPasses shadow;
-  if (on.path.sweeps)
+  if (on.path.sweeps && on.options.allowed.host_sweep && HostSweep::is_possible(on.device, on.buffers))
+    shadow.host = std::make_shared<const HostSweep>(on, on.facts.occluders, on.facts.camera, on.request.scene,
+                                                    on.plan.all, windows, strips, grid,
+                                                    !grid || on.options.keep_visibility || on.path.check);
+  else if (on.path.sweeps)
     shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
                                                      on.request.scene, on.plan.all, windows, strips, grid);
   else if (on.path.windows > 0)
@@ -271,8 +287,8 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;
-  if (shadow.sweep && grid)
-    shadowed_tiles.emplace(shadow.sweep->shadowed_tiles());
+  if ((shadow.sweep || shadow.host) && grid)
+    shadowed_tiles.emplace(shadow.host ? shadow.host->shadowed_tiles() : shadow.sweep->shadowed_tiles());
   list_class(on, PixelsOf::all, windows, nullptr, graph, shadowed_tiles);
   if (on.path.is_sorted()) {
     const auto lists = std::make_shared<const PixelLists>(on.device, strips);

@@ -27,6 +27,12 @@ struct SampleTiles {
   vk::DeviceSize offset; // where it begins
 };
 
+// The strip of depth records: its samples as pixels of one sample each.
+shader::Strip strip_of_samples(const shader::Strip &strip);
+
+// In which the samples of a strip are taken, sub-sample by sub-sample.
+std::uint32_t tile_count(const shader::Strip &strip);
+
 class ChipGrid {
 public:
   // Of a sensor without distortion whose pixels are filled or have one sample.
@@ -35,11 +41,13 @@ public:
   bool is_nominal() const { return nominal_; }
   shader::SampleGrid of(const shader::Strip &strip) const;
   const shader::vec4 &slope() const { return slope_; } // as in SampleGrid
-  shader::uvec2 chip() const;                          // address of its ChipPlace
+  const shader::ChipPlace &place() const { return place_; }
+  shader::uvec2 chip() const; // address of its ChipPlace
 
 private:
   bool nominal_;
   shader::vec4 slope_;
+  shader::ChipPlace place_;
   std::shared_ptr<const vulkan::Buffer> chip_; // shared by the passes of a frame
 };
 

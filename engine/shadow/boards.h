@@ -3,6 +3,7 @@
 
 #include "engine/light/source_windows.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Board {
   std::array<double, 8> supports_m{};
   std::vector<std::size_t> windows;
 
+  // z below which samples are in front of all of it, so that ways from there have slopes.
+  double nearest_in_front_m() const { return std::min(lowest_m, lens_z_m) - 0.01 * radius_m - 1e-4; }
   glm::dvec3 in_frame(const glm::dvec3 &camera_m) const { return rotation * camera_m + translation_m; }
 };
 

@@ -25,10 +25,6 @@ std::uint32_t tiles_across(std::uint32_t pixels) {
   return (pixels + shader::tile_side - 1) / shader::tile_side;
 }
 
-std::uint32_t tile_count(const shader::Strip &strip) {
-  return tiles_across(strip.columns) * tiles_across(strip.rows) * strip.samples * strip.samples;
-}
-
 std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
   std::uint32_t most = 0;
   for (const PlannedStrip &planned : strips)
@@ -71,8 +67,7 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
   record.diodes_high = static_cast<float>(board.highest_m);
   std::ranges::copy(tree.level_first, record.level_first);
   std::ranges::copy(tree.level_count, record.level_count);
-  record.nearest =
-      static_cast<float>(std::min(board.lowest_m, board.lens_z_m) - 0.01 * board.radius_m - 1e-4);
+  record.nearest = static_cast<float>(board.nearest_in_front_m());
   record.line_margin = static_cast<float>(0.5 * line_margin_m(board));
   record.world_rounding = static_cast<float>(world_rounding_m);
   return record;
@@ -153,17 +148,7 @@ struct SweepPass::State {
 };
 
 shader::Strip SweepPass::State::sample_strip(const shader::Strip &strip) const {
-  if (!records)
-    return strip;
-  const std::uint32_t s = strip.samples;
-  return {s * strip.column,
-          s * strip.row,
-          s * strip.columns,
-          s * strip.rows,
-          s * strip.resolution_x,
-          s * strip.resolution_y,
-          1,
-          sample_count(strip)};
+  return records ? strip_of_samples(strip) : strip;
 }
 
 shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, std::size_t window,

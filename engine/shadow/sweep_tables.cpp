@@ -18,21 +18,11 @@ using Bits = std::array<std::uint32_t, bit_words>;
 
 void set(Bits &bits, std::size_t diode) { bits[diode / 32] |= 1u << diode % 32; }
 
-// Grows with the angle of (x, y), from 0 to 4, as in sweep.comp.
-float turn_of(glm::vec2 q) {
-  const float size = std::abs(q.x) + std::abs(q.y);
-  const float t = size > 0.0f ? q.y / size : 0.0f;
-  return q.x < 0.0f ? 2.0f - t : q.y < 0.0f ? 4.0f + t : t;
-}
-
-// Diodes of nearly the same angle about the board's origin count as of one.
 struct AngleClass {
   float turn;
   std::uint32_t before; // diodes of smaller angles
   std::uint32_t after;  // these and the class's own
 };
-
-constexpr float same_turn = 1e-6f;
 
 std::vector<AngleClass> angle_classes(const std::vector<std::pair<float, std::uint32_t>> &ordered) {
   std::vector<AngleClass> classes;
@@ -167,6 +157,12 @@ std::vector<uvec4> line_table(const Board &board, const std::vector<glm::dvec2> 
 }
 
 } // namespace
+
+float turn_of(glm::vec2 q) {
+  const float size = std::abs(q.x) + std::abs(q.y);
+  const float t = size > 0.0f ? q.y / size : 0.0f;
+  return q.x < 0.0f ? 2.0f - t : q.y < 0.0f ? 4.0f + t : t;
+}
 
 double line_margin_m(const Board &board) { return 1e-3 * board.radius_m; }
 

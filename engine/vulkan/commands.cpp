@@ -59,6 +59,14 @@ void compute_barrier(const vk::raii::CommandBuffer &commands) {
                  Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
 }
 
+void host_barrier(const vk::raii::CommandBuffer &commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  memory_barrier(commands, Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                 Access::eShaderStorageWrite | Access::eColorAttachmentWrite, Stage::eHost,
+                 Access::eHostRead);
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }

@@ -38,6 +38,9 @@ void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFl
 // do.
 void compute_barrier(const vk::raii::CommandBuffer &commands);
 
+// What shaders and rasters wrote may be read by the host, once it knows that they are done.
+void host_barrier(const vk::raii::CommandBuffer &commands);
+
 double milliseconds_since(std::chrono::steady_clock::time_point start);
 
 // Records a strip's passes, sends them to the device and adds up what each took.

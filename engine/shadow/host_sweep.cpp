@@ -1,0 +1,291 @@
+#include "engine/shadow/host_sweep.h"
+
+#include "engine/shadow/silhouette_tree.h"
+#include "engine/shadow/sweep_tables.h"
+#include "engine/vulkan/shader_module.h"
+#include "shaders/shared/constants.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_access.hpp>
+#include <limits>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace pmdsim {
+
+// One of each of engine/CMakeLists.txt's instruction sets.
+namespace baseline {
+extern const DecideTile decide_silhouettes;
+}
+#ifdef __x86_64__
+namespace avx2 {
+extern const DecideTile decide_silhouettes;
+}
+namespace avx512 {
+extern const DecideTile decide_silhouettes;
+}
+#endif
+
+namespace {
+
+DecideTile widest_decide_tile() {
+#ifdef __x86_64__
+  const bool avx2_and_fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (avx2_and_fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+    return avx512::decide_silhouettes;
+  if (avx2_and_fma)
+    return avx2::decide_silhouettes;
+#endif
+  return baseline::decide_silhouettes;
+}
+
+EdgePlanes exact_planes(const shader::SweepPlanes &planes) {
+  EdgePlanes exact{};
+  for (glm::length_t i = 0; i < 4; ++i) {
+    exact.first[i] = static_cast<double>(planes.first_hi[i]) + static_cast<double>(planes.first_lo[i]);
+    exact.second[i] = static_cast<double>(planes.second_hi[i]) + static_cast<double>(planes.second_lo[i]);
+  }
+  return exact;
+}
+
+void place_diodes(const Board &board, const std::vector<glm::dvec3> &places_m, SilhouetteBoard &to) {
+  std::vector<std::pair<float, std::int32_t>> ordered;
+  for (std::size_t d = 0; d < places_m.size(); ++d) {
+    const glm::vec2 place(board.in_frame(places_m[d]));
+    ordered.emplace_back(turn_of(place), static_cast<std::int32_t>(d));
+  }
+  std::ranges::sort(ordered);
+  to.diodes = static_cast<std::uint32_t>(ordered.size());
+  std::size_t classes = 0;
+  for (std::size_t rank = 0; rank < ordered.size(); ++rank) {
+    const auto &[turn, diode] = ordered[rank];
+    const glm::dvec3 place_m = board.in_frame(places_m[static_cast<std::size_t>(diode)]);
+    for (std::size_t k = 0; k < 3; ++k)
+      to.exact_m[k][rank] = place_m[static_cast<glm::length_t>(k)];
+    to.x_m[rank] = static_cast<float>(place_m.x);
+    to.y_m[rank] = static_cast<float>(place_m.y);
+    to.rank_of_bit[static_cast<std::size_t>(diode)] = static_cast<std::int32_t>(rank);
+    if (classes == 0 || turn > to.class_turn[classes - 1] + same_turn) {
+      to.class_turn[classes] = turn;
+      to.class_rank[classes++] = static_cast<std::int32_t>(rank);
+    }
+  }
+  to.class_turn[classes] = std::numeric_limits<float>::infinity();
+  to.class_rank[classes] = static_cast<std::int32_t>(ordered.size());
+  std::size_t next = 0;
+  for (std::uint32_t bin = 0; bin < angle_bins; ++bin) {
+    while (next < classes && to.class_turn[next] * (angle_bins / 4.0f) < static_cast<float>(bin))
+      ++next;
+    to.class_of_bin[bin] = static_cast<std::int32_t>(next);
+  }
+}
+
+void describe(const Board &board, SilhouetteBoard &to) {
+  for (glm::length_t row = 0; row < 3; ++row) {
+    for (glm::length_t column = 0; column < 3; ++column)
+      to.rotation[row][column] = board.rotation[column][row];
+    to.translation_m[row] = board.translation_m[row];
+  }
+  std::ranges::transform(board.supports_m, to.supports,
+                         [](double support_m) { return static_cast<float>(support_m); });
+  to.lens_z = static_cast<float>(board.lens_z_m);
+  to.radius = static_cast<float>(board.radius_m);
+  to.highest = static_cast<float>(std::max(board.highest_m, board.lens_z_m));
+  to.diodes_low = static_cast<float>(board.lowest_m);
+  to.diodes_high = static_cast<float>(board.highest_m);
+  to.nearest = static_cast<float>(board.nearest_in_front_m());
+  to.lens_apart = std::abs(board.lens_z_m) > 1e-9;
+}
+
+template <class T>
+T *host_memory(const vulkan::Buffer &buffer) {
+  return reinterpret_cast<T *>(buffer.mapped().data());
+}
+
+} // namespace
+
+struct HostSweep::State {
+  struct OnBoard {
+    SilhouetteTree edges, hidden;
+    std::vector<EdgePlanes> planes;
+  };
+  struct OfWindow {
+    std::vector<shader::Piercer> piercers;
+    std::unique_ptr<SilhouetteBoard> board;
+  };
+
+  const StripBuffers &buffers;
+  const SceneBuffers &scene;
+  std::optional<ChipGrid> records;
+  std::optional<shader::ChipPlace> chip;
+  glm::dvec2 slope;
+  bool has_fp64, tiled, all_facing, fills_all;
+  std::uint32_t shining = 0; // diodes of all windows
+  std::size_t most_blocks = 1;
+  DecideTile decide_tile = widest_decide_tile();
+  std::vector<std::unique_ptr<OnBoard>> boards;
+  std::vector<OfWindow> windows;
+  vulkan::Buffer shaded; // shader::TileList
+
+  void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups,
+                 const std::vector<SourceWindow> &of_frame);
+  SampleSource samples_of(const shader::Strip &strip) const;
+  void store(const shader::Strip &strip, std::size_t window, const TileBits &bits) const;
+  void list(const std::vector<std::uint8_t> &is_shaded) const;
+};
+
+void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
+                                 const SourceGroups &groups, const std::vector<SourceWindow> &of_frame) {
+  auto on_board = std::make_unique<OnBoard>();
+  on_board->edges = silhouette_tree(items.edges.items, items.rest_step);
+  if (items.any_hidden)
+    on_board->hidden = silhouette_tree(items.hidden.items, items.rest_step);
+  std::ranges::transform(items.planes, std::back_inserter(on_board->planes), exact_planes);
+  most_blocks = std::max({most_blocks, on_board->edges.items.size(), on_board->hidden.items.size()});
+  for (const std::size_t window : board.windows) {
+    OfWindow &of = windows[window];
+    const std::vector<glm::dvec3> places_m = places_of(of_frame[window], groups);
+    of.piercers = find_piercers(board, items.in_the_way, places_m);
+    of.board = std::make_unique<SilhouetteBoard>();
+    SilhouetteBoard &to = *of.board;
+    describe(board, to);
+    place_diodes(board, places_m, to);
+    to.world_rounding_m = on.scene.world_rounding_m;
+    to.leaves_none = !items.in_the_way.empty();
+    to.exact_only = !board.is_flat || to.leaves_none;
+    to.all_facing = all_facing;
+    to.bundles = of_frame[window].bundles;
+    const std::vector<std::uint32_t> bits = diodes_of(of_frame[window], groups).bits;
+    std::ranges::copy(bits, to.shining);
+    for (const std::uint32_t of_bundle : bits)
+      shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
+    to.edges = on_board->edges.view();
+    to.hidden = on_board->hidden.view();
+    to.planes = on_board->planes.data();
+    to.piercers = of.piercers.data();
+    to.piercer_count = static_cast<std::uint32_t>(of.piercers.size());
+  }
+  boards.push_back(std::move(on_board));
+}
+
+SampleSource HostSweep::State::samples_of(const shader::Strip &strip) const {
+  SampleSource source{};
+  source.strip = records ? strip_of_samples(strip) : strip;
+  source.ids = buffers.ids.mapped().data();
+  source.position = records ? nullptr : buffers.position.mapped().data();
+  source.planes = host_memory<shader::TrianglePlane>(scene.planes);
+  source.chip = chip ? &*chip : nullptr;
+  source.slope[0] = slope.x;
+  source.slope[1] = slope.y;
+  source.records = records.has_value();
+  source.has_fp64 = has_fp64;
+  source.tiled = tiled;
+  return source;
+}
+
+void HostSweep::State::store(const shader::Strip &strip, std::size_t window, const TileBits &bits) const {
+  const SilhouetteBoard &board = *windows[window].board;
+  const std::size_t plane = sample_count(strip);
+  auto *const words = host_memory<std::uint32_t>(buffers.visibility);
+  auto *const lit = host_memory<std::uint32_t>(buffers.lit);
+  for (std::size_t i = 0; i < shader::tile_samples; ++i) {
+    if (!bits.is_there[i])
+      continue;
+    const std::size_t at = bits.index[i];
+    std::uint32_t missing = 0;
+    for (std::size_t w = 0; w < board.bundles; ++w) {
+      missing += static_cast<std::uint32_t>(std::popcount(board.shining[w] & ~bits.words[i][w]));
+      if (bits.is_shaded || fills_all)
+        words[w * plane + at] = bits.words[i][w];
+    }
+    lit[at] = (window == 0 ? shining : lit[at]) - missing;
+  }
+}
+
+void HostSweep::State::list(const std::vector<std::uint8_t> &is_shaded) const {
+  shader::TileList &header = *host_memory<shader::TileList>(shaded);
+  auto *const numbers = reinterpret_cast<std::uint32_t *>(&header + 1);
+  std::uint32_t count = 0;
+  for (std::uint32_t tile = 0; tile < is_shaded.size(); ++tile)
+    if (is_shaded[tile] != 0)
+      numbers[count++] = tile;
+  header = {1, std::min(count, shader::workgroups_per_row),
+            (count + shader::workgroups_per_row - 1) / shader::workgroups_per_row, count};
+}
+
+HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
+                     const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records,
+                     bool fills_all)
+    : state_(std::make_unique<State>(State{.buffers = on.buffers,
+                                           .scene = on.scene,
+                                           .records = records,
+                                           .chip = {},
+                                           .slope = {},
+                                           .has_fp64 = vulkan::uses_fp64(on.device, on.options.precision),
+                                           .tiled = is_tiled(on.sensor),
+                                           .all_facing = on.model.backscatter == shader::backscatter_flat,
+                                           .fills_all = fills_all,
+                                           .boards = {},
+                                           .windows = {},
+                                           .shaded = {}})) {
+  State &state = *state_;
+  state.windows.resize(windows.size());
+  if (records) {
+    const shader::vec4 &slope = records->slope();
+    state.slope = {static_cast<double>(slope.x) + static_cast<double>(slope.y),
+                   static_cast<double>(slope.z) + static_cast<double>(slope.w)};
+    if (!records->is_nominal())
+      state.chip = records->place();
+  }
+  for (const Board &board : find_boards(groups, windows))
+    state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups, windows);
+  std::uint32_t tiles = 0;
+  for (const PlannedStrip &planned : strips)
+    tiles = std::max(tiles, tile_count(records ? strip_of_samples(planned.strip) : planned.strip));
+  using Usage = vk::BufferUsageFlagBits;
+  state.shaded = {on.device, sizeof(shader::TileList) + std::size_t{tiles} * sizeof(std::uint32_t),
+                  Usage::eStorageBuffer | Usage::eIndirectBuffer, vulkan::Memory::device};
+  state.list({1}); // so that a first run warms up what works on listed tiles
+}
+
+HostSweep::~HostSweep() = default;
+
+bool HostSweep::is_possible(const vulkan::Device &device, const StripBuffers &buffers) {
+  return device.is_cpu() && buffers.ids.is_mapped() && buffers.visibility.is_mapped() &&
+         buffers.lit.is_mapped();
+}
+
+void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
+  const State &state = *state_;
+  const SilhouetteBoard &board = *state.windows[window].board;
+  const SampleSource samples = state.samples_of(strip);
+  const std::uint32_t tiles = tile_count(samples.strip);
+  std::vector<std::uint8_t> is_shaded(tiles);
+  struct Memory {
+    std::vector<ListedBlock> edges, hidden;
+    TileBits bits;
+  };
+  tbb::enumerable_thread_specific<Memory> memory([&] {
+    return Memory{
+        std::vector<ListedBlock>(state.most_blocks + 1), std::vector<ListedBlock>(state.most_blocks + 1), {}};
+  });
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 4), [&](const auto &range) {
+    Memory &own = memory.local();
+    for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
+      state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
+      is_shaded[tile] = own.bits.is_shaded;
+      state.store(strip, window, own.bits);
+    }
+  });
+  state.list(is_shaded);
+}
+
+SampleTiles HostSweep::shadowed_tiles() const { return {state_->shaded, 0}; }
+
+} // namespace pmdsim

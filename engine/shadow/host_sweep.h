@@ -1,0 +1,40 @@
+#pragma once
+// The sweep on the host, for devices that are its processor: the same decisions as SweepPass's shaders make,
+// in its widest vectors, straight in the memory that both share.
+
+#include "engine/light/accumulate_pass.h"
+#include "engine/light/source_windows.h"
+#include "engine/sampling/sample_grid.h"
+#include "engine/shadow/boards.h"
+#include "engine/shadow/occluders.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+class HostSweep {
+public:
+  // As SweepPass. `fills_all`: bits are read of tiles, too, all of whose samples every diode reaches.
+  HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
+            const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+            std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records, bool fills_all);
+  ~HostSweep();
+
+  // Whether host and device share the memory of samples and bits.
+  static bool is_possible(const vulkan::Device &device, const StripBuffers &buffers);
+
+  // As SweepPass::record(), at once; the device is done with the samples.
+  void decide(const shader::Strip &strip, std::size_t window) const;
+
+  // As SweepPass::shadowed_tiles().
+  SampleTiles shadowed_tiles() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,97 @@
+#pragma once
+// Vectors of the widest registers of the instruction set that a file is compiled for. Operators and `?:` work
+// on them lane by lane; a comparison leaves all bits of a lane or none.
+
+#include <cstdint>
+#include <cstring>
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+namespace pmdsim::PMDSIM_INSTRUCTION_SET {
+
+#if defined(__AVX512F__)
+constexpr int vector_bytes = 64;
+#elif defined(__AVX2__)
+constexpr int vector_bytes = 32;
+#else
+constexpr int vector_bytes = 16;
+#endif
+constexpr int lanes = vector_bytes / 4, double_lanes = vector_bytes / 8;
+
+using Floats = float __attribute__((vector_size(vector_bytes)));
+using Ints = std::int32_t __attribute__((vector_size(vector_bytes)));
+using Doubles = double __attribute__((vector_size(vector_bytes)));
+using Longs = std::int64_t __attribute__((vector_size(vector_bytes)));
+
+template <class V, class T>
+inline V load(const T *from) {
+  V values;
+  std::memcpy(&values, from, sizeof(values));
+  return values;
+}
+template <class V, class T>
+inline void store(T *to, const V &values) {
+  std::memcpy(to, &values, sizeof(values));
+}
+
+inline Floats all(float value) { return value - Floats{}; }
+inline Ints all(std::int32_t value) { return value - Ints{}; }
+inline Doubles all(double value) { return value - Doubles{}; }
+
+template <class V>
+inline V smaller(const V &a, const V &b) {
+  return a < b ? a : b;
+}
+template <class V>
+inline V larger(const V &a, const V &b) {
+  return a > b ? a : b;
+}
+inline Floats absolute(const Floats &v) {
+  return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & 0x7fffffff);
+}
+
+// 0, 1, 2, ...
+inline Ints lane_numbers() {
+  Ints numbers;
+  for (int i = 0; i < lanes; ++i)
+    numbers[i] = i;
+  return numbers;
+}
+
+// A bit for each lane of a comparison.
+inline std::uint32_t bits_of(const Ints &comparison) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(comparison));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(comparison)));
+#else
+  std::uint32_t bits = 0;
+  for (int i = 0; i < lanes; ++i)
+    bits |= static_cast<std::uint32_t>(comparison[i] & 1) << i;
+  return bits;
+#endif
+}
+
+// Lanes of `order` beside each other: lane i of the result is lane order[i] of `v`.
+inline Ints reordered(const Ints &v, const Ints &order) {
+#ifdef __clang__
+  Ints result;
+  for (int i = 0; i < lanes; ++i)
+    result[i] = v[order[i]];
+  return result;
+#else
+  return __builtin_shuffle(v, order);
+#endif
+}
+
+// The numbers of the lanes whose bits are set, from the first lane on.
+inline Ints order_of(std::uint32_t bits) {
+  Ints order{};
+  for (int i = 0; bits != 0; bits &= bits - 1)
+    order[i++] = __builtin_ctz(bits);
+  return order;
+}
+
+} // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -1,0 +1,130 @@
+#pragma once
+// What the host's sweep works on, as plain arrays: its loops are compiled once for each instruction set, so
+// they share no code with the rest of the program.
+
+#include "shaders/shadow/sweep_interface.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pmdsim {
+
+// Of an item of the sweep (sweep_items.h). Places are in the board's frame, m.
+enum ItemRow : std::uint32_t {
+  row_ax,
+  row_ay,
+  row_az, // ends of an edge; the first two corners of a hidden triangle
+  row_bx,
+  row_by,
+  row_bz,
+  row_cx,
+  row_cy,
+  row_cz, // the first triangle's unit normal; the third corner
+  row_dx,
+  row_dy,
+  row_dz, // the second triangle's unit normal
+  row_rest_ax,
+  row_rest_ay,
+  row_rest_az, // what rounding to float took
+  row_rest_bx,
+  row_rest_by,
+  row_rest_bz,
+  row_first,
+  row_second, // triangles; no_id
+  row_sides,  // SweepItem's, of the first triangle in bits 0, 1, of the second in 2, 3
+  row_number, // of the item
+  item_rows
+};
+
+constexpr std::uint32_t items_per_block = 16;
+
+// Floats by their bits.
+struct alignas(64) ItemBlock {
+  std::int32_t rows[item_rows][items_per_block];
+};
+
+// Boxes around as many blocks of items, or of boxes.
+struct alignas(64) BoxBlock {
+  float low[3][items_per_block], high[3][items_per_block];
+};
+
+// A tree over blocks of items. Level 0 is around these, the last one has a single block.
+constexpr std::uint32_t most_box_levels = 8;
+struct ItemTree {
+  const ItemBlock *items = nullptr;
+  const BoxBlock *boxes[most_box_levels] = {};
+  std::uint32_t levels = 0;
+  std::uint32_t blocks = 0; // of items
+};
+
+// The planes of an edge's triangles, board frame: normal . p = offset; zeros where there is none.
+struct EdgePlanes {
+  double first[4], second[4];
+};
+
+// Diodes of one angle about the board's centre.
+constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
+constexpr std::uint32_t angle_bins = 4096;
+
+// A window of diodes on its board.
+struct SilhouetteBoard {
+  // Of SweepBoard.
+  double rotation[3][3], translation_m[3]; // board_from_camera
+  float supports[8];                       // +x, -x, +y, -y, (1, 1), (-1, -1), (1, -1), (-1, 1)
+  float lens_z, radius, highest, diodes_low, diodes_high, nearest;
+  double world_rounding_m;
+  bool leaves_none; // no tile may be left out
+  bool exact_only;  // every sample is decided by tetrahedra
+  bool lens_apart;  // from the board's plane
+  bool all_facing;  // nothing turns away from a diode
+  std::uint32_t shining[shader::bundles_per_window];
+  std::uint32_t shining_count;
+  std::uint32_t bundles;
+  ItemTree edges, hidden;
+  const EdgePlanes *planes; // beside the edges
+  const shader::Piercer *piercers;
+  std::uint32_t piercer_count;
+  // The diodes in the order of their angles about the centre, and where each bit's diode is in that order.
+  std::uint32_t diodes; // 32 a bundle
+  alignas(64) float x_m[most_diodes], y_m[most_diodes];
+  alignas(64) double exact_m[3][most_diodes];
+  alignas(64) std::int32_t rank_of_bit[most_diodes];
+  // Classes of one angle: each one's, a last one above all, and how many diodes have smaller ones. Of each
+  // bin of angles the first class.
+  alignas(64) float class_turn[most_diodes + 1];
+  std::int32_t class_rank[most_diodes + 1];
+  std::int32_t class_of_bin[angle_bins];
+};
+
+// Where a strip's samples lie, as the device left them.
+struct SampleSource {
+  shader::Strip strip;       // as tiles are cut
+  const std::byte *ids;      // records, or IDs
+  const std::byte *position; // Real[3] a sample, where these are no records
+  const shader::TrianglePlane *planes;
+  const shader::ChipPlace *chip; // of records, where the chip is not nominal
+  double slope[2];               // of records otherwise
+  bool records, has_fp64, tiled;
+};
+
+// What becomes known of a tile. Bits as StripBuffers::visibility has them, word by word of a sample.
+struct TileBits {
+  std::uint32_t words[shader::tile_samples][shader::bundles_per_window];
+  std::uint32_t index[shader::tile_samples]; // of the sample, where it is there
+  bool is_there[shader::tile_samples];
+  bool is_shaded; // some diode does not reach some sample that sees anything
+};
+
+// A worker's memory: `listed` has room for every block of items, hidden ones too.
+struct ListedBlock {
+  std::uint32_t block, bits;
+};
+struct TileMemory {
+  ListedBlock *edges, *hidden;
+};
+
+// One of each instruction set.
+using DecideTile = void (*)(const SilhouetteBoard &board, const SampleSource &samples, std::uint32_t tile,
+                            const TileMemory &memory, TileBits &bits);
+
+} // namespace pmdsim
