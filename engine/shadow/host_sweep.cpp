@@ -197,13 +197,10 @@ void HostSweep::State::store(const shader::Strip &strip, std::size_t window, con
     if (!bits.is_there[i])
       continue;
     const std::size_t at = bits.index[i];
-    std::uint32_t missing = 0;
-    for (std::size_t w = 0; w < board.bundles; ++w) {
-      missing += static_cast<std::uint32_t>(std::popcount(board.shining[w] & ~bits.words[i][w]));
-      if (bits.is_shaded || fills_all)
+    if (bits.is_shaded || fills_all)
+      for (std::size_t w = 0; w < board.bundles; ++w)
         words[w * plane + at] = bits.words[i][w];
-    }
-    lit[at] = (window == 0 ? shining : lit[at]) - missing;
+    lit[at] = (window == 0 ? shining : lit[at]) - (bits.is_shaded ? bits.missing[i] : 0);
   }
 }
 

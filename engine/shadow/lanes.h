@@ -60,6 +60,34 @@ inline Ints lane_numbers() {
   return numbers;
 }
 
+// from[at] of each lane. The masked forms do not alarm GCC 12 about the undefined vector of the others.
+inline Ints gathered(const std::int32_t *from, const Ints &at) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Ints>(
+      _mm512_mask_i32gather_epi32(__m512i{}, 0xffff, reinterpret_cast<__m512i>(at), from, 4));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Ints>(_mm256_i32gather_epi32(from, reinterpret_cast<__m256i>(at), 4));
+#else
+  Ints values;
+  for (int i = 0; i < lanes; ++i)
+    values[i] = from[at[i]];
+  return values;
+#endif
+}
+inline Floats gathered(const float *from, const Ints &at) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Floats>(
+      _mm512_mask_i32gather_ps(__m512{}, 0xffff, reinterpret_cast<__m512i>(at), from, 4));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Floats>(_mm256_i32gather_ps(from, reinterpret_cast<__m256i>(at), 4));
+#else
+  Floats values;
+  for (int i = 0; i < lanes; ++i)
+    values[i] = from[at[i]];
+  return values;
+#endif
+}
+
 // A bit for each lane of a comparison.
 inline std::uint32_t bits_of(const Ints &comparison) {
 #if defined(__AVX512F__)

@@ -220,32 +220,6 @@ Ways sights_of(const Shaft &shaft, const SilhouetteBoard &board) {
   return ways;
 }
 
-// Which of a block's boxes the ways may meet.
-std::uint32_t meet(const Ways &ways, const BoxBlock &boxes) {
-  std::uint32_t met = 0;
-  for (int i = 0; i < static_cast<int>(items_per_block); i += lanes) {
-    const Floats low_x = load<Floats>(boxes.low[0] + i), low_y = load<Floats>(boxes.low[1] + i),
-                 low_z = load<Floats>(boxes.low[2] + i), high_x = load<Floats>(boxes.high[0] + i),
-                 high_y = load<Floats>(boxes.high[1] + i), high_z = load<Floats>(boxes.high[2] + i);
-    const Floats z_low = larger(low_z, all(ways.farthest)), z_high = smaller(high_z, all(ways.highest));
-    const Floats along[8] = {low_x,
-                             -high_x,
-                             low_y,
-                             -high_y,
-                             diagonal * (low_x + low_y),
-                             -diagonal * (high_x + high_y),
-                             diagonal * (low_x - high_y),
-                             diagonal * (low_y - high_x)};
-    Floats outside = all(-1e30f);
-    for (int k = 0; k < 8; ++k) {
-      const Floats up = all(ways.slopes[k]);
-      outside = larger(outside, along[k] + smaller(up * z_low, up * z_high) - ways.supports[k]);
-    }
-    met |= bits_of((outside < 0.0f) & (high_z > ways.farthest) & (low_z < ways.highest)) << i;
-  }
-  return met;
-}
-
 // Items row by row.
 struct Rows {
   const std::int32_t *first;
@@ -274,6 +248,35 @@ inline Floats3 cross(const Floats3 &a, const Floats3 &b) {
 }
 inline Floats3 minus(const Floats3 &a, const Floats3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
+// Which boxes the ways may meet.
+Ints may_meet(const Ways &ways, const Floats3 &low, const Floats3 &high) {
+  const Floats z_low = larger(low.z, all(ways.farthest)), z_high = smaller(high.z, all(ways.highest));
+  const Floats along[8] = {low.x,
+                           -high.x,
+                           low.y,
+                           -high.y,
+                           diagonal * (low.x + low.y),
+                           -diagonal * (high.x + high.y),
+                           diagonal * (low.x - high.y),
+                           diagonal * (low.y - high.x)};
+  Floats outside = all(-1e30f);
+  for (int k = 0; k < 8; ++k) {
+    const Floats up = all(ways.slopes[k]);
+    outside = larger(outside, along[k] + smaller(up * z_low, up * z_high) - ways.supports[k]);
+  }
+  return (outside < 0.0f) & (high.z > ways.farthest) & (low.z < ways.highest);
+}
+
+std::uint32_t meet(const Ways &ways, const BoxBlock &boxes) {
+  std::uint32_t met = 0;
+  const auto three_at = [](const float(&of)[3][items_per_block], int i) {
+    return Floats3{load<Floats>(of[0] + i), load<Floats>(of[1] + i), load<Floats>(of[2] + i)};
+  };
+  for (int i = 0; i < static_cast<int>(items_per_block); i += lanes)
+    met |= bits_of(may_meet(ways, three_at(boxes.low, i), three_at(boxes.high, i))) << i;
+  return met;
+}
+
 // Which edges may change what is seen from one of the samples.
 Ints may_matter(const Ways &ways, const Rows &items, int i) {
   const Floats3 a = three(items, row_ax, i), b = three(items, row_bx, i);
@@ -301,6 +304,12 @@ Ints may_matter(const Ways &ways, const Rows &items, int i) {
   return meets & ~no_silhouette;
 }
 
+// A corner of the box around a triangle.
+template <class Choose>
+Floats3 corner(const Floats3 &a, const Floats3 &b, const Floats3 &c, Choose choose) {
+  return {choose(choose(a.x, b.x), c.x), choose(choose(a.y, b.y), c.y), choose(choose(a.z, b.z), c.z)};
+}
+
 // Which hidden triangles may lie between the lens and a sample, which is in front of them.
 Ints may_hide(const Ways &sights, const Rows &items, int i) {
   const Floats3 a = three(items, row_ax, i), b = three(items, row_bx, i), c = three(items, row_cx, i);
@@ -312,7 +321,8 @@ Ints may_hide(const Ways &sights, const Rows &items, int i) {
       absolute(normal.x) * (0.5f * (sights.high[0] - sights.low[0]) + 1e-6f * absolute(a.x) + slack_m) +
       absolute(normal.y) * (0.5f * (sights.high[1] - sights.low[1]) + 1e-6f * absolute(a.y) + slack_m) +
       absolute(normal.z) * (0.5f * (sights.high[2] - sights.low[2]) + 1e-6f * absolute(a.z) + slack_m);
-  return dot(normal, from) + reach > 0.0f;
+  return (dot(normal, from) + reach > 0.0f) &
+         may_meet(sights, corner(a, b, c, smaller<Floats>), corner(a, b, c, larger<Floats>));
 }
 
 // Lists the items that matter, block by block; returns how many blocks there are.
@@ -375,11 +385,12 @@ std::uint32_t gather(const ItemTree &tree, const ListedBlock *listed, std::uint3
   return first;
 }
 
-void narrow(const ItemList &from, const Ways &ways, ItemList &to) {
+template <class Matters>
+void narrow(const ItemList &from, const Ways &ways, Matters matters, ItemList &to) {
   to.count = 0;
   for (int i = 0; i < from.count; i += lanes) {
-    const std::uint32_t there = from.count - i < lanes ? (1u << (from.count - i)) - 1u : (1u << lanes) - 1u;
-    to.add(from.all(), i, bits_of(may_matter(ways, from.all(), i)) & there);
+    const std::uint32_t there = from.count - i < lanes ? (1u << (from.count - i)) - 1u : ~0u;
+    to.add(from.all(), i, bits_of(matters(ways, from.all(), i)) & there);
   }
 }
 
@@ -436,24 +447,51 @@ int exact_weight(const Rows &items, int i, const Sample &sample, const Silhouett
   return weight_of(exact_side(planes.second, sample, board), sides >> 2 & 3u) - first;
 }
 
+// Which hidden triangles may lie between a sample and the lens, by floats.
+Ints may_hide_from(const Sample &sample, const float (&lens)[3], const Rows &items, int i) {
+  const auto from = [&](int row) {
+    return Floats3{items.floats(row, i) - sample.point[0], items.floats(row + 1, i) - sample.point[1],
+                   items.floats(row + 2, i) - sample.point[2]};
+  };
+  const Floats3 a = from(row_ax), b = from(row_bx), c = from(row_cx),
+                to_lens{all(lens[0]), all(lens[1]), all(lens[2])};
+  const Floats ab = dot(cross(a, b), to_lens), bc = dot(cross(b, c), to_lens), ca = dot(cross(c, a), to_lens);
+  const auto size = [](const Floats3 &v) { return absolute(v.x) + absolute(v.y) + absolute(v.z); };
+  const Floats size_a = size(a), size_b = size(b), size_c = size(c);
+  const Floats slack =
+      1e-6f * sum_of_sizes(lens) * larger(size_a * size_b, larger(size_b * size_c, size_c * size_a));
+  const Ints inside =
+      ((ab > -slack) & (bc > -slack) & (ca > -slack)) | ((ab < slack) & (bc < slack) & (ca < slack));
+  const Floats3 normal = cross(minus(b, a), minus(c, a));
+  const Floats rounding =
+      1e-6f * (absolute(normal.x * a.x) + absolute(normal.y * a.y) + absolute(normal.z * a.z));
+  return inside & (dot(normal, a) < rounding);
+}
+
+bool hides(const Rows &items, int i, const Sample &sample, const Exact3 &lens) {
+  const Exact3 a = exact_place(items, row_ax, row_rest_ax, i, sample),
+               b = exact_place(items, row_bx, row_rest_bx, i, sample),
+               c = exact_place(items, row_cx, row_dx, i, sample);
+  const bool ab = dot(cross(a, b), lens) > 0.0, bc = dot(cross(b, c), lens) > 0.0,
+             ca = dot(cross(c, a), lens) > 0.0;
+  const Exact3 normal = cross(minus(b, a), minus(c, a));
+  // The sample in front of it, the lens behind.
+  return ab == bc && bc == ca && dot(normal, a) < 0.0 && dot(normal, minus(lens, a)) < 0.0;
+}
+
 // The hidden triangles between the sample and the lens.
 int count_hidden(const ItemTree &tree, const ListedBlock *listed, std::uint32_t count, const Sample &sample,
                  const SilhouetteBoard &board) {
+  const float to_lens[3] = {-sample.point[0], -sample.point[1], board.lens_z - sample.point[2]};
   const Exact3 lens{-sample.exact[0], -sample.exact[1], static_cast<double>(board.lens_z) - sample.exact[2]};
   int hidden = 0;
-  for (std::uint32_t entry = 0; entry < count; ++entry)
-    for (std::uint32_t bits = listed[entry].bits; bits != 0; bits &= bits - 1) {
-      const Rows items = rows_of(tree.items[listed[entry].block]);
-      const int i = std::countr_zero(bits);
-      const Exact3 a = exact_place(items, row_ax, row_rest_ax, i, sample),
-                   b = exact_place(items, row_bx, row_rest_bx, i, sample),
-                   c = exact_place(items, row_cx, row_dx, i, sample);
-      const bool ab = dot(cross(a, b), lens) > 0.0, bc = dot(cross(b, c), lens) > 0.0,
-                 ca = dot(cross(c, a), lens) > 0.0;
-      const Exact3 normal = cross(minus(b, a), minus(c, a));
-      // The sample in front of it, the lens behind.
-      hidden += ab == bc && bc == ca && dot(normal, a) < 0.0 && dot(normal, minus(lens, a)) < 0.0 ? 1 : 0;
-    }
+  for (std::uint32_t entry = 0; entry < count; ++entry) {
+    const Rows items = rows_of(tree.items[listed[entry].block]);
+    for (int i = 0; i < static_cast<int>(items_per_block); i += lanes)
+      for (std::uint32_t bits = bits_of(may_hide_from(sample, to_lens, items, i)) & listed[entry].bits >> i;
+           bits != 0; bits &= bits - 1)
+        hidden += hides(items, i + std::countr_zero(bits), sample, lens) ? 1 : 0;
+  }
   return hidden;
 }
 
@@ -497,7 +535,7 @@ struct Pair {
 struct Sweep {
   float depth, reach, beside, tolerance;
   float to_lens[3];
-  bool is_unclear;
+  bool is_unclear, is_touched;
   int base;                                     // surfaces before the board's centre
   alignas(64) std::int32_t counts[most_diodes]; // surfaces before each diode, in the order of angles
 };
@@ -516,8 +554,15 @@ void begin_sweep(const Sample &sample, const SilhouetteBoard &board, Sweep &swee
   sweep.tolerance = 5e-7f * (std::abs(p[0]) + std::abs(p[1]) + sweep.depth + board.radius);
   sweep.to_lens[0] = -p[0], sweep.to_lens[1] = -p[1], sweep.to_lens[2] = board.lens_z + sweep.depth;
   sweep.is_unclear = board.exact_only || !(p[2] < board.nearest);
+  sweep.is_touched = false;
   sweep.base = 0;
-  std::memset(sweep.counts, 0, sizeof(sweep.counts));
+}
+
+// The first to count something.
+void touch(Sweep &sweep) {
+  if (!sweep.is_touched)
+    std::memset(sweep.counts, 0, sizeof(sweep.counts));
+  sweep.is_touched = true;
 }
 
 // An angle's measure that grows with it, 0 to 4.
@@ -531,21 +576,13 @@ Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
   const Ints last = all(static_cast<std::int32_t>(angle_bins - 1));
   const Ints bin = __builtin_convertvector(turn * (angle_bins / 4.0f), Ints);
   const Ints within = smaller(larger(bin, Ints{}), last);
-  Ints of_angle, rank;
-  for (int i = 0; i < lanes; ++i)
-    of_angle[i] = board.class_of_bin[within[i]];
+  Ints of_angle = gathered(board.class_of_bin, within);
   for (;;) {
-    Floats limit;
-    for (int i = 0; i < lanes; ++i)
-      limit[i] = board.class_turn[of_angle[i]];
-    const Ints beyond = turn > limit;
+    const Ints beyond = turn > gathered(board.class_turn, of_angle);
     if (bits_of(beyond) == 0)
-      break;
+      return gathered(board.class_rank, of_angle);
     of_angle -= beyond;
   }
-  for (int i = 0; i < lanes; ++i)
-    rank[i] = board.class_rank[of_angle[i]];
-  return rank;
 }
 
 // What edges mean to a sample, a lane an edge.
@@ -738,6 +775,8 @@ void sweep_over(const ItemList &list, const Sample &sample, const SilhouetteBoar
   int count = 0;
   for (int i = 0; i < list.count; i += lanes)
     add_pairs(find_crossings(items, i, sample, board, sweep), i, list.count, pairs, count);
+  if (count > 0)
+    touch(sweep);
   for (int y = 0; y < count; ++y) {
     const Pair &pair = pairs[y];
     const int weight = pair.is_unsure ? exact_weight(items, pair.item, sample, board) : pair.weight;
@@ -798,7 +837,7 @@ void decide_exactly(Tile &tile, const Sample &sample, int hidden, Sweep &sweep) 
   ItemList list;
   for (std::uint32_t first = 0; first < tile.edge_blocks; first = tile.gathered_end) {
     gather_segment(tile, first);
-    narrow(tile.items, ways, list);
+    narrow(tile.items, ways, may_matter, list);
     const Rows items = list.all();
     for (int i = 0; i < list.count; ++i) {
       if (static_cast<std::uint32_t>(list.rows[row_first][i]) == sample.own ||
@@ -816,27 +855,30 @@ void decide_exactly(Tile &tile, const Sample &sample, int hidden, Sweep &sweep) 
 // means nothing of a diode behind the sample's own surface.
 bool find_bits(const Sweep &sweep, const std::int32_t *faces, const SilhouetteBoard &board,
                std::uint32_t *words) {
-  bool is_right = true;
-  for (std::uint32_t w = 0; w < board.bundles; ++w) {
-    std::uint32_t word = 0;
-    for (std::uint32_t k = 0; k < 32; ++k) {
-      const std::int32_t at = board.rank_of_bit[32 * w + k], count = sweep.counts[at];
-      word |= (count == 0 && faces[at] != 0 ? 1u : 0u) << k;
-      is_right = is_right && (count >= 0 || faces[at] == 0);
-    }
-    words[w] = word;
+  std::uint32_t below_zero = 0;
+  std::memset(words, 0, shader::bundles_per_window * sizeof(*words));
+  for (std::uint32_t d = 0; d < board.diodes; d += lanes) {
+    const Ints ranks = load<Ints>(board.rank_of_bit + d);
+    const Ints count = gathered(sweep.counts, ranks), facing = gathered(faces, ranks);
+    words[d / 32] |= bits_of((count == 0) & facing) << d % 32;
+    below_zero |= bits_of((count < 0) & facing);
   }
-  return is_right;
+  return below_zero == 0;
 }
 
 void finish(Tile &tile, const Sample &sample, Sweep &sweep, std::uint32_t *words) {
   const SilhouetteBoard &board = tile.board;
+  const bool turns_away = !board.all_facing && may_turn_away(sample, board);
+  const int hidden = count_hidden(board.hidden, tile.hidden, tile.hidden_blocks, sample, board),
+            base = sweep.base + hidden;
+  if (!sweep.is_touched && !sweep.is_unclear && !turns_away && base == 0)
+    return;
   alignas(64) std::int32_t faces[most_diodes];
   std::memset(faces, -1, sizeof(faces));
-  if (!board.all_facing && may_turn_away(sample, board))
+  if (turns_away)
     find_facing(sample, board, faces);
-  const int hidden = count_hidden(board.hidden, tile.hidden, tile.hidden_blocks, sample, board);
-  if (const int base = sweep.base + hidden; base != 0)
+  touch(sweep);
+  if (base != 0)
     for (std::int32_t &count : sweep.counts)
       count += base;
   if (!sweep.is_unclear && find_bits(sweep, faces, board, words))
@@ -863,7 +905,7 @@ void decide_block(Tile &tile, const Sample *samples, const int (&within)[block_s
   Pair pairs[segment];
   for (std::uint32_t first = 0; first < tile.edge_blocks && !board.exact_only; first = tile.gathered_end) {
     gather_segment(tile, first);
-    narrow(tile.items, ways, list);
+    narrow(tile.items, ways, may_matter, list);
     for (int k = 0; k < block_samples; ++k)
       if (samples[within[k]].sees && !sweeps[k].is_unclear)
         sweep_over(list, samples[within[k]], board, pairs, sweeps[k]);
@@ -873,12 +915,15 @@ void decide_block(Tile &tile, const Sample *samples, const int (&within)[block_s
       finish(tile, samples[within[k]], sweeps[k], bits.words[within[k]]);
 }
 
-bool is_any_blocked(const SilhouetteBoard &board, const Sample *samples, const TileBits &bits) {
-  std::uint32_t missing = 0;
-  for (std::uint32_t i = 0; i < shader::tile_samples; ++i)
+void count_missing(const SilhouetteBoard &board, const Sample *samples, TileBits &bits) {
+  std::uint32_t any = 0;
+  for (std::uint32_t i = 0; i < shader::tile_samples; ++i) {
+    bits.missing[i] = 0;
     for (std::uint32_t w = 0; samples[i].sees && w < board.bundles; ++w)
-      missing |= board.shining[w] & ~bits.words[i][w];
-  return missing != 0;
+      bits.missing[i] += static_cast<std::uint32_t>(std::popcount(board.shining[w] & ~bits.words[i][w]));
+    any |= bits.missing[i];
+  }
+  bits.is_shaded = any != 0;
 }
 
 void decide_tile(const SilhouetteBoard &board, const SampleSource &source, std::uint32_t number,
@@ -912,7 +957,7 @@ void decide_tile(const SilhouetteBoard &board, const SampleSource &source, std::
         within[i] = (y + i / block_wide) * tile_side + x + i % block_wide;
       decide_block(tile, samples, within, bits);
     }
-  bits.is_shaded = is_any_blocked(board, samples, bits);
+  count_missing(board, samples, bits);
 }
 
 } // namespace
