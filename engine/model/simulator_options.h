@@ -36,6 +36,7 @@ struct SimulatorOptions {
   bool validate = false; // run under the Khronos validation layer; a message is a std::logic_error
   SamplePrecision precision = SamplePrecision::automatic;
   DiodeLoop loop = DiodeLoop::automatic;
+  std::uint32_t host_vector_bits = 512; // of the host's loops, at most
   PathForms allowed{};
 };
 

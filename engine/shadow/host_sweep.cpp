@@ -32,13 +32,14 @@ extern const DecideTile decide_silhouettes;
 
 namespace {
 
-DecideTile widest_decide_tile() {
+DecideTile widest_decide_tile(std::uint32_t most_bits) {
 #ifdef __x86_64__
   const bool avx2_and_fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2_and_fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+  if (most_bits >= 512 && avx2_and_fma && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl"))
     return avx512::decide_silhouettes;
-  if (avx2_and_fma)
+  if (most_bits >= 256 && avx2_and_fma)
     return avx2::decide_silhouettes;
 #endif
   return baseline::decide_silhouettes;
@@ -127,7 +128,7 @@ struct HostSweep::State {
   bool has_fp64, tiled, all_facing, fills_all;
   std::uint32_t shining = 0; // diodes of all windows
   std::size_t most_blocks = 1;
-  DecideTile decide_tile = widest_decide_tile();
+  DecideTile decide_tile;
   std::vector<std::unique_ptr<OnBoard>> boards;
   std::vector<OfWindow> windows;
   vulkan::Buffer shaded; // shader::TileList
@@ -228,6 +229,7 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                                            .tiled = is_tiled(on.sensor),
                                            .all_facing = on.model.backscatter == shader::backscatter_flat,
                                            .fills_all = fills_all,
+                                           .decide_tile = widest_decide_tile(on.options.host_vector_bits),
                                            .boards = {},
                                            .windows = {},
                                            .shaded = {}})) {

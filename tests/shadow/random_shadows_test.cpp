@@ -30,7 +30,9 @@ SimulatorOptions options_of(const Variant &variant) {
           .keep_sample_ids = true,
           .keep_visibility = true,
           .precision = variant.precision,
-          .loop = variant.loop};
+          .loop = variant.loop,
+          // The second variant does all as a GPU does.
+          .allowed = {.host_sweep = variant.precision != SamplePrecision::double_float}};
 }
 
 Setup shipped(const std::string &name) { return load_setup(PMDSIM_SCENES "/" + name + ".json"); }
@@ -95,6 +97,7 @@ SimulatorOptions random_options(Random &random) {
   SimulatorOptions options = options_of(variants[random.flip() ? 0 : 1]);
   options.keep_taps = true;
   options.allowed.polynomial_moments = random.flip();
+  options.allowed.host_sweep = random.flip();
   options.max_strip_samples = random.flip() ? 0 : static_cast<std::uint32_t>(random.uniform(1, 9'000));
   return options;
 }

@@ -108,26 +108,47 @@ Sensor camera(std::uint32_t seed, std::uint32_t pixels) {
   return sensor;
 }
 
+// What all boards are tried on.
+struct BoardScene {
+  Sensor sensor;
+  Scene scene;
+};
+
+BoardScene board_scene(std::uint32_t seed, std::uint32_t pixels) {
+  const Sensor sensor = camera(seed, pixels);
+  Random random(seed + 1);
+  return {sensor, random_triangles(random, 300, sensor.world_from_camera)};
+}
+
+Measurement measure(const BoardScene &on, const std::vector<Illuminator> &illuminators, bool on_host,
+                    std::uint32_t host_vector_bits = 512) {
+  Simulator simulator = make_simulator({.device = {},
+                                        .keep_sample_ids = true,
+                                        .keep_visibility = true,
+                                        .host_vector_bits = host_vector_bits,
+                                        .allowed = {.host_sweep = on_host}});
+  simulator.prepare(on.scene, on.sensor, illuminators, Backscatter::lambert, Shadows::automatic);
+  return simulator.measure();
+}
+
 void check_boards(std::uint32_t seed, std::uint32_t pixels) {
   fmt::print("{}", reached_heading());
+  const BoardScene on = board_scene(seed, pixels);
   for (const BoardCase &board_case : board_cases()) {
     INFO(board_case.name);
-    const Sensor sensor = camera(seed, pixels);
-    Random random(seed + 1);
-    const Scene scene = random_triangles(random, 300, sensor.world_from_camera);
-    const auto illuminators = illuminators_of(board_case, sensor);
-    Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
-    simulator.prepare(scene, sensor, illuminators, Backscatter::lambert, Shadows::automatic);
-    const ReachedComparison reached = compare_reached(
-        simulator.measure(),
-        reference::simulate(scene, sensor, illuminators, Backscatter::lambert, {Shadows::automatic, true}),
-        scene, sensor, illuminators);
-    fmt::print("{}", reached_row(board_case.name, reached));
-    CHECK(reached.clear_of_all == 0);
-    CHECK(reached.differing_fraction() <= 1e-4);
-    CHECK(reached.lit_error <= 1e-6);
-    CHECK(reached.pairs > 0);
-    CHECK(reached.reached < reached.pairs);
+    const auto illuminators = illuminators_of(board_case, on.sensor);
+    const auto expected = reference::simulate(on.scene, on.sensor, illuminators, Backscatter::lambert,
+                                              {Shadows::automatic, true});
+    for (const bool on_host : {true, false}) {
+      const ReachedComparison reached =
+          compare_reached(measure(on, illuminators, on_host), expected, on.scene, on.sensor, illuminators);
+      fmt::print("{}", reached_row(board_case.name + (on_host ? ", host" : ", device"), reached));
+      CHECK(reached.clear_of_all == 0);
+      CHECK(reached.differing_fraction() <= 1e-4);
+      CHECK(reached.lit_error <= 1e-6);
+      CHECK(reached.pairs > 0);
+      CHECK(reached.reached < reached.pairs);
+    }
   }
 }
 
@@ -155,6 +176,17 @@ TEST_CASE("every kind of board agrees with the reference", "[smoke]") { check_bo
 TEST_CASE("every kind of board agrees with the reference, more samples", "[long]") {
   for (std::uint32_t seed = 42; seed < 46; ++seed)
     check_boards(seed, 96);
+}
+
+TEST_CASE("vectors of every width leave the same bits") {
+  const BoardScene on = board_scene(47, 24);
+  for (const BoardCase &board_case : board_cases()) {
+    INFO(board_case.name);
+    const auto illuminators = illuminators_of(board_case, on.sensor);
+    const Measurement widest = measure(on, illuminators, true);
+    for (const std::uint32_t bits : {256u, 128u})
+      CHECK(measure(on, illuminators, true, bits).sample_visibility == widest.sample_visibility);
+  }
 }
 
 TEST_CASE("a wall between lens and diodes shades all that the lens sees") {
