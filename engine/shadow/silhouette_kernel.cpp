@@ -630,8 +630,8 @@ void count_base(const Rows &items, int i, const Crossings &found, const Floats3 
   }
 }
 
-Crossings find_crossings(const Rows &items, int i, const Sample &sample, const SilhouetteBoard &board,
-                         Sweep &sweep) {
+Crossings find_crossings(const Rows &items, int i, int count, const Sample &sample,
+                         const SilhouetteBoard &board, Sweep &sweep) {
   const float *p = sample.point, *rest = sample.rest, depth = sweep.depth, reach = sweep.reach;
   const Floats3 a{(items.floats(row_ax, i) - p[0]) + (items.floats(row_rest_ax, i) - rest[0]),
                   (items.floats(row_ay, i) - p[1]) + (items.floats(row_rest_ay, i) - rest[1]),
@@ -644,8 +644,9 @@ Crossings find_crossings(const Rows &items, int i, const Sample &sample, const S
   find_weights(items, i, a, size_a, found);
   const Ints own = all(static_cast<std::int32_t>(sample.own));
   const Floats highest = larger(a.z, b.z);
-  found.counted = (items.ints(row_first, i) != own) & (items.ints(row_second, i) != own) & (highest > 0.0f) &
-                  (smaller(a.z, b.z) < depth) & ((found.weight != 0) | found.is_unsure);
+  found.counted = (lane_numbers() < count - i) & (items.ints(row_first, i) != own) &
+                  (items.ints(row_second, i) != own) & (highest > 0.0f) & (smaller(a.z, b.z) < depth) &
+                  ((found.weight != 0) | found.is_unsure);
   // The ends, as far as the edge lies between the depths of sample and board, projected on the board.
   const Floats3 way = minus(b, a);
   const Floats per_height = 1.0f / (absolute(way.z) < 1e-30f ? all(1e-30f) : way.z);
@@ -713,10 +714,8 @@ Crossings find_crossings(const Rows &items, int i, const Sample &sample, const S
   return found;
 }
 
-void add_pairs(const Crossings &found, int i, int end, Pair *pairs, int &count) {
-  std::uint32_t bits = bits_of(found.counted);
-  bits &= end - i < lanes ? (1u << (end - i)) - 1u : ~0u;
-  for (; bits != 0; bits &= bits - 1) {
+void add_pairs(const Crossings &found, int i, Pair *pairs, int &count) {
+  for (std::uint32_t bits = bits_of(found.counted); bits != 0; bits &= bits - 1) {
     const int k = std::countr_zero(bits);
     pairs[count++] = {
         found.line_x[k],        found.line_y[k], found.offset[k], found.near_line[k], i + k,
@@ -774,7 +773,7 @@ void sweep_over(const ItemList &list, const Sample &sample, const SilhouetteBoar
   const Rows items = list.all();
   int count = 0;
   for (int i = 0; i < list.count; i += lanes)
-    add_pairs(find_crossings(items, i, sample, board, sweep), i, list.count, pairs, count);
+    add_pairs(find_crossings(items, i, list.count, sample, board, sweep), i, pairs, count);
   if (count > 0)
     touch(sweep);
   for (int y = 0; y < count; ++y) {
