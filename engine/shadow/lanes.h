@@ -102,24 +102,39 @@ inline std::uint32_t bits_of(const Ints &comparison) {
 #endif
 }
 
-// Lanes of `order` beside each other: lane i of the result is lane order[i] of `v`.
-inline Ints reordered(const Ints &v, const Ints &order) {
-#ifdef __clang__
-  Ints result;
-  for (int i = 0; i < lanes; ++i)
-    result[i] = v[order[i]];
-  return result;
-#else
-  return __builtin_shuffle(v, order);
+// Moves some lanes beside each other, to the first ones.
+class Packing {
+public:
+  explicit Packing(std::uint32_t bits) : bits_(bits) {
+#ifndef __AVX512F__
+    for (int i = 0; bits != 0; bits &= bits - 1)
+      order_[i++] = __builtin_ctz(bits);
 #endif
-}
+  }
+  int count() const { return __builtin_popcount(bits_); }
 
-// The numbers of the lanes whose bits are set, from the first lane on.
-inline Ints order_of(std::uint32_t bits) {
-  Ints order{};
-  for (int i = 0; bits != 0; bits &= bits - 1)
-    order[i++] = __builtin_ctz(bits);
-  return order;
-}
+  Ints operator()(const Ints &v) const {
+#if defined(__AVX512F__)
+    return reinterpret_cast<Ints>(
+        _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits_), reinterpret_cast<__m512i>(v)));
+#elif defined(__clang__)
+    Ints result;
+    for (int i = 0; i < lanes; ++i)
+      result[i] = v[order_[i]];
+    return result;
+#else
+    return __builtin_shuffle(v, order_);
+#endif
+  }
+  Floats operator()(const Floats &v) const {
+    return reinterpret_cast<Floats>((*this)(reinterpret_cast<Ints>(v)));
+  }
+
+private:
+  std::uint32_t bits_;
+#ifndef __AVX512F__
+  Ints order_{};
+#endif
+};
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

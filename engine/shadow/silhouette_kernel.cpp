@@ -367,10 +367,10 @@ struct ItemList {
   void add(const Rows &from, int i, std::uint32_t bits) {
     if (bits == 0)
       return;
-    const Ints order = order_of(bits);
+    const Packing packed(bits);
     for (int row = 0; row < static_cast<int>(item_rows); ++row)
-      store(rows[row] + count, reordered(from.ints(row, i), order));
-    count += std::popcount(bits);
+      store(rows[row] + count, packed(from.ints(row, i)));
+    count += packed.count();
   }
 };
 
@@ -521,14 +521,17 @@ void cross_triangles(const Exact3 &a, const Exact3 &b, const Exact3 &lens, int w
 
 // ---- The sweep
 
-// An edge's part of the diodes' angles about the board's centre, for one sample: of those in the angle, the
-// ones with line . L + offset < 0 are beyond it.
-struct Pair {
-  float line_x, line_y, offset, near_line;
-  std::int32_t item;
-  std::int32_t from, to, wraps; // ranks
-  std::int32_t turned, weight;
-  bool is_unsure; // of its weight
+// Edges' parts of the diodes' angles about the board's centre, for one sample: of those in the angle, the
+// ones with line . L + offset < 0 are beyond the edge.
+struct Pairs {
+  alignas(64) float line_x[segment + lanes], line_y[segment + lanes], offset[segment + lanes],
+      near_line[segment + lanes];
+  alignas(64) std::int32_t item[segment + lanes];
+  alignas(64) std::int32_t from[segment + lanes], to[segment + lanes], wraps[segment + lanes]; // ranks
+  alignas(64) std::int32_t turned[segment + lanes]; // the edge runs clockwise as seen from the sample
+  alignas(64) std::int32_t amount[segment + lanes]; // what it adds to the counts, unless that is unsure
+  alignas(64) std::int32_t is_unsure[segment + lanes];
+  int count;
 };
 
 // A sample on its way, and what is found of it.
@@ -714,73 +717,83 @@ Crossings find_crossings(const Rows &items, int i, int count, const Sample &samp
   return found;
 }
 
-void add_pairs(const Crossings &found, int i, Pair *pairs, int &count) {
-  for (std::uint32_t bits = bits_of(found.counted); bits != 0; bits &= bits - 1) {
-    const int k = std::countr_zero(bits);
-    pairs[count++] = {
-        found.line_x[k],        found.line_y[k], found.offset[k], found.near_line[k], i + k,
-        found.from[k],          found.to[k],     found.wraps[k],  found.turned[k],    found.weight[k],
-        found.is_unsure[k] != 0};
-  }
+void add_pairs(const Crossings &found, int i, Pairs &pairs) {
+  const std::uint32_t bits = bits_of(found.counted);
+  if (bits == 0)
+    return;
+  const Packing packed(bits);
+  const int at = pairs.count;
+  const auto turned = [&](const auto &v) { return found.turned ? -v : v; };
+  store(pairs.line_x + at, packed(turned(found.line_x)));
+  store(pairs.line_y + at, packed(turned(found.line_y)));
+  store(pairs.offset + at, packed(turned(found.offset)));
+  store(pairs.near_line + at, packed(found.near_line));
+  store(pairs.item + at, packed(lane_numbers() + i));
+  store(pairs.from + at, packed(found.from));
+  store(pairs.to + at, packed(found.to));
+  store(pairs.wraps + at, packed(found.wraps));
+  store(pairs.turned + at, packed(found.turned));
+  store(pairs.amount + at, packed(-turned(found.weight)));
+  store(pairs.is_unsure + at, packed(found.is_unsure));
+  pairs.count += packed.count();
 }
 
 // Which of the diodes that are too close to the line for floats lie beyond it.
-Ints decide_close(const Pair &pair, std::uint32_t first, std::uint32_t bits, Ints beyond, const Rows &items,
-                  const Sample &sample, const SilhouetteBoard &board) {
-  const Exact3 a = exact_place(items, row_ax, row_rest_ax, pair.item, sample),
-               b = exact_place(items, row_bx, row_rest_bx, pair.item, sample), edge = cross(a, b);
+Ints decide_close(const Pairs &pairs, int pair, std::uint32_t first, std::uint32_t bits, Ints beyond,
+                  const Rows &items, const Sample &sample, const SilhouetteBoard &board) {
+  const Exact3 a = exact_place(items, row_ax, row_rest_ax, pairs.item[pair], sample),
+               b = exact_place(items, row_bx, row_rest_bx, pairs.item[pair], sample), edge = cross(a, b);
   for (; bits != 0; bits &= bits - 1) {
     const int k = std::countr_zero(bits);
     const std::uint32_t d = first + static_cast<std::uint32_t>(k);
     const Exact3 diode{board.exact_m[0][d] - sample.exact[0], board.exact_m[1][d] - sample.exact[1],
                        board.exact_m[2][d] - sample.exact[2]};
     const double volume = dot(edge, diode);
-    beyond[k] = (pair.turned != 0 ? volume > 0.0 : volume < 0.0) ? -1 : 0;
+    beyond[k] = (pairs.turned[pair] != 0 ? volume > 0.0 : volume < 0.0) ? -1 : 0;
   }
   return beyond;
 }
 
-// Counts the pair for the diodes of its angle that lie beyond its line.
-void count_pair(const Pair &pair, int weight, const Rows &items, const Sample &sample,
+// Adds to the counts of the diodes of a pair's angle that lie beyond its line.
+void count_pair(const Pairs &pairs, int pair, int amount, const Rows &items, const Sample &sample,
                 const SilhouetteBoard &board, std::int32_t *counts) {
-  const float sign = pair.turned != 0 ? -1.0f : 1.0f;
-  const Floats line_x = all(sign * pair.line_x), line_y = all(sign * pair.line_y),
-               offset = all(sign * pair.offset);
-  const Ints amount = all(pair.turned != 0 ? weight : -weight), numbers = lane_numbers();
+  const Floats line_x = all(pairs.line_x[pair]), line_y = all(pairs.line_y[pair]),
+               offset = all(pairs.offset[pair]), near_line = all(pairs.near_line[pair]);
+  const Ints amounts = all(amount), numbers = lane_numbers();
   // Of ranks from `first` on up to `end`.
   const auto count = [&](std::int32_t first, std::int32_t end) {
-    for (std::int32_t d = first / lanes * lanes; d < end; d += lanes) {
+    for (std::int32_t d = first & ~(lanes - 1); d < end; d += lanes) {
       const auto at = static_cast<std::uint32_t>(d);
       const Floats f = line_x * load<Floats>(board.x_m + at) + line_y * load<Floats>(board.y_m + at) + offset;
       const Ints in_angle = (numbers >= first - d) & (numbers < end - d);
       Ints beyond = f < 0.0f;
-      const std::uint32_t close = bits_of(in_angle & (absolute(f) < pair.near_line));
-      if (close != 0)
-        beyond = decide_close(pair, at, close, beyond, items, sample, board);
-      store(counts + at, load<Ints>(counts + at) + (beyond & in_angle & amount));
+      if (const std::uint32_t close = bits_of(in_angle & (absolute(f) < near_line)); close != 0) [[unlikely]]
+        beyond = decide_close(pairs, pair, at, close, beyond, items, sample, board);
+      store(counts + at, load<Ints>(counts + at) + (beyond & in_angle & amounts));
     }
   };
-  if (pair.wraps != 0) {
-    count(pair.from, static_cast<std::int32_t>(board.diodes));
-    count(0, pair.to);
-  } else {
-    count(pair.from, pair.to);
-  }
+  const std::int32_t from = pairs.from[pair], to = pairs.to[pair];
+  count(from, pairs.wraps[pair] != 0 ? static_cast<std::int32_t>(board.diodes) : to);
+  if (pairs.wraps[pair] != 0)
+    count(0, to);
 }
 
-void sweep_over(const ItemList &list, const Sample &sample, const SilhouetteBoard &board, Pair *pairs,
+void sweep_over(const ItemList &list, const Sample &sample, const SilhouetteBoard &board, Pairs &pairs,
                 Sweep &sweep) {
   const Rows items = list.all();
-  int count = 0;
+  pairs.count = 0;
   for (int i = 0; i < list.count; i += lanes)
-    add_pairs(find_crossings(items, i, list.count, sample, board, sweep), i, pairs, count);
-  if (count > 0)
+    add_pairs(find_crossings(items, i, list.count, sample, board, sweep), i, pairs);
+  if (pairs.count > 0)
     touch(sweep);
-  for (int y = 0; y < count; ++y) {
-    const Pair &pair = pairs[y];
-    const int weight = pair.is_unsure ? exact_weight(items, pair.item, sample, board) : pair.weight;
-    if (weight != 0)
-      count_pair(pair, weight, items, sample, board, sweep.counts);
+  for (int pair = 0; pair < pairs.count; ++pair) {
+    int amount = pairs.amount[pair];
+    if (pairs.is_unsure[pair] != 0) {
+      const int weight = exact_weight(items, pairs.item[pair], sample, board);
+      amount = pairs.turned[pair] != 0 ? weight : -weight;
+    }
+    if (amount != 0)
+      count_pair(pairs, pair, amount, items, sample, board, sweep.counts);
   }
 }
 
@@ -901,7 +914,7 @@ void decide_block(Tile &tile, const Sample *samples, const int (&within)[block_s
     if (samples[within[k]].sees)
       begin_sweep(samples[within[k]], board, sweeps[k]);
   ItemList list;
-  Pair pairs[segment];
+  Pairs pairs;
   for (std::uint32_t first = 0; first < tile.edge_blocks && !board.exact_only; first = tile.gathered_end) {
     gather_segment(tile, first);
     narrow(tile.items, ways, may_matter, list);
