@@ -1,9 +1,10 @@
 #include "engine/frame/frame_passes.h"
 
 #include "engine/frame/uniform_pixels_pass.h"
+#include "engine/model/error.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/shadow/holes_pass.h"
 #include "engine/shadow/sweep_pass.h"
-#include "engine/shadow/tile_shadow_pass.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
@@ -98,31 +99,40 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
     graph.add_before(points_of(on, on.plan.precision));
 }
 
-// Which sources reach which sample. The spot check finds the frame's tiles.
+// Which sources reach which sample.
 struct ShadowPasses {
-  std::shared_ptr<const TileShadowPass> tiles;
   std::shared_ptr<const SweepPass> sweep;
-  explicit operator bool() const { return tiles || sweep; }
+  std::shared_ptr<const HolesPass> holes;
+  explicit operator bool() const { return sweep != nullptr; }
 };
 
-Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) {
+ShadowPasses make_shadow_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
+                                const std::vector<SourceWindow> &windows, const std::optional<ChipGrid> &grid) {
+  ShadowPasses shadow;
+  if (on.path.windows > 0)
+    shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
+                                                     on.request.scene, on.plan.all, windows, strips, grid);
+  if (on.path.holes)
+    shadow.holes = std::make_shared<const HolesPass>(on, on.facts.occluders.with_holes, on.plan.all, windows,
+                                                     strips, grid, shadow.sweep->shadowed_tiles());
+  return shadow;
+}
+
+Pass shadow_pass(const Basis &on, const ShadowPasses &shadow) {
   return {.name = "lit",
           .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
           .writes = visibility_bits | visibility_counts,
           .record =
-              [=, &buffers = on.buffers](const Recording &at) {
-                if (shadow.sweep) {
-                  shadow.sweep->record(at.commands, at.of_strip(), at.window);
-                  return;
-                }
-                if (at.window == 0 && makes_tiles)
-                  shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
-                shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
+              [=](const Recording &at) {
+                shadow.sweep->record(at.commands, at.of_strip(), at.window);
+                if (shadow.holes)
+                  shadow.holes->record(at.commands, at.of_strip(), at.window);
               },
-          .store = shadow.sweep && shadow.sweep->may_lose()
+          .store = shadow.sweep->may_lose()
                        ? [sweep = shadow.sweep](const Recording &, Measurement &) {
                            if (sweep->has_lost())
-                             throw TooDense();
+                             throw Error(ExitCode::out_of_memory,
+                                         "shadows: expected fewer edges in the light of a sample");
                          }
                        : std::function<void(const Recording &, Measurement &)>()};
 }
@@ -203,7 +213,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
   if (shadow && windows.size() > 1)
-    graph.add_to_window(shadow_pass(on, shadow, false));
+    graph.add_to_window(shadow_pass(on, shadow));
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(demodulation_pass(setup, groups, scope));
@@ -241,20 +251,12 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
     edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
                                                  on.request.scene, on.facts.projection.blocks, grid);
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
-  ShadowPasses shadow;
-  if (on.path.sweeps)
-    shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
-                                                     on.request.scene, on.plan.all, windows, strips, grid);
-  else if (on.path.windows > 0)
-    shadow.tiles =
-        std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,
-                                               strips, is_tiled(on.sensor), on.options.precision);
+  const ShadowPasses shadow = make_shadow_passes(on, strips, windows, grid);
   std::optional<TruthOfRecords> truth;
   if (on.path.host_reads_truth)
     truth = truth_of_records(on.device, on.options, on.request.scene);
 
   FramePasses made{on.path,
-                   shadow.sweep && shadow.sweep->may_lose(),
                    on.sensor,
                    on.modulation,
                    strips,
@@ -267,7 +269,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   FrameGraph &graph = made.graph;
   list_view(on, raster, edges, graph);
   if (shadow)
-    graph.add_to_window(shadow_pass(on, shadow, true));
+    graph.add_to_window(shadow_pass(on, shadow));
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;

@@ -2,6 +2,7 @@
 
 #include "engine/shadow/sweep_items.h"
 #include "engine/shadow/sweep_tables.h"
+#include "engine/shadow/tiles.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/float_pair.h"
@@ -20,21 +21,6 @@ namespace pmdsim {
 namespace {
 
 using vulkan::Buffer;
-
-std::uint32_t tiles_across(std::uint32_t pixels) {
-  return (pixels + shader::tile_side - 1) / shader::tile_side;
-}
-
-std::uint32_t tile_count(const shader::Strip &strip) {
-  return tiles_across(strip.columns) * tiles_across(strip.rows) * strip.samples * strip.samples;
-}
-
-std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
-  std::uint32_t most = 0;
-  for (const PlannedStrip &planned : strips)
-    most = std::max(most, tile_count(planned.strip));
-  return most;
-}
 
 constexpr std::uint32_t texel_buffers = 7; // of sweep.glsl
 
@@ -138,8 +124,6 @@ struct SweepPass::State {
 
   shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
                                    std::uint32_t round = 0) const;
-  // The strip as tiles are cut: depth records lie row by row.
-  shader::Strip sample_strip(const shader::Strip &strip) const;
   // Nothing is decided yet; of a board's first window nothing is listed, either.
   void record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     std::size_t window) const;
@@ -152,24 +136,10 @@ struct SweepPass::State {
                     std::uint32_t round) const;
 };
 
-shader::Strip SweepPass::State::sample_strip(const shader::Strip &strip) const {
-  if (!records)
-    return strip;
-  const std::uint32_t s = strip.samples;
-  return {s * strip.column,
-          s * strip.row,
-          s * strip.columns,
-          s * strip.rows,
-          s * strip.resolution_x,
-          s * strip.resolution_y,
-          1,
-          sample_count(strip)};
-}
-
 shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, std::size_t window,
                                                    std::uint32_t round) const {
   const WindowBuffers &of = of_window[window];
-  const shader::Strip of_samples = sample_strip(strip);
+  const shader::Strip of_samples = sample_strip(strip, records.has_value());
   return {of_samples,
           buffers.position.words(),
           buffers.ids.words(),
@@ -194,7 +164,7 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
-  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip));
+  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip, records.has_value()));
   commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * word * sample_count(strip), ~0u);
   if (window == 0)
     commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);
