@@ -107,7 +107,8 @@ struct ShadowPasses {
 };
 
 ShadowPasses make_shadow_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
-                                const std::vector<SourceWindow> &windows, const std::optional<ChipGrid> &grid) {
+                                const std::vector<SourceWindow> &windows,
+                                const std::optional<ChipGrid> &grid) {
   ShadowPasses shadow;
   if (on.path.windows > 0)
     shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
@@ -256,16 +257,8 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   if (on.path.host_reads_truth)
     truth = truth_of_records(on.device, on.options, on.request.scene);
 
-  FramePasses made{on.path,
-                   on.sensor,
-                   on.modulation,
-                   strips,
-                   windows.size(),
-                   sources,
-                   std::move(memory),
-                   raster,
-                   {},
-                   report_of(on.plan, on.path)};
+  FramePasses made{on.path, on.sensor,         on.modulation, strips, windows.size(),
+                   sources, std::move(memory), raster,        {},     report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, edges, graph);
   if (shadow)

@@ -5,8 +5,8 @@
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/texel_buffers.h"
-#include "shaders/shared/constants.h"
 #include "shaders/shadow/holes_interface.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +71,8 @@ HoleBoxes boxes_over(const std::vector<shader::Occluder> &shapes) {
 
 template <class T>
 vulkan::Buffer upload_hole_texels(const vulkan::Device &device, const std::vector<T> &texels) {
-  return vulkan::upload(device, std::as_bytes(std::span(texels)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+  return vulkan::upload(device, std::as_bytes(std::span(texels)),
+                        vk::BufferUsageFlagBits::eUniformTexelBuffer);
 }
 
 } // namespace
@@ -103,7 +104,8 @@ struct HolesPass::State {
   vulkan::ComputePipeline find_tiles, mark_known, list_tiles;
   std::vector<Window> windows;
 
-  vulkan::ComputePipeline pipeline(const PassSetup &on, std::string_view name, std::uint32_t subgroup = 0) const;
+  vulkan::ComputePipeline pipeline(const PassSetup &on, std::string_view name,
+                                   std::uint32_t subgroup = 0) const;
   void upload_shapes(const PassSetup &on, const std::vector<shader::Occluder> &unordered);
   void make_lists(const PassSetup &on, vk::DeviceSize tiles);
   void add_window(const PassSetup &on, const SourceWindow &window, const SourceGroups &groups);
@@ -153,7 +155,8 @@ void HolesPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
   list_tiles = pipeline(on, "holes_lists");
 }
 
-void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &window, const SourceGroups &groups) {
+void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &window,
+                                  const SourceGroups &groups) {
   const WindowDiodes diodes = diodes_of(window, groups);
   std::vector<shader::vec4> places;
   for (const shader::BundleDiodes &bundle : diodes.bundles)
@@ -168,14 +171,16 @@ void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &windo
     of_window.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = diodes.bits[bundle];
   made.record = vulkan::upload(on.device, std::as_bytes(std::span(&of_window, 1)));
   constexpr vk::Format words = vk::Format::eR32G32B32A32Uint, floats = vk::Format::eR32G32B32A32Sfloat;
-  made.texels = vulkan::TexelBuffers(on.device, {{shapes, words}, {shape_boxes, floats}, {made.places, floats}});
+  made.texels =
+      vulkan::TexelBuffers(on.device, {{shapes, words}, {shape_boxes, floats}, {made.places, floats}});
   specialization.set(shader::constant_bundles, window.bundles);
   made.holes = pipeline(on, "holes", lanes);
 }
 
-HolesPass::HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes, const SourceGroups &groups,
-                     const std::vector<SourceWindow> &windows, std::span<const PlannedStrip> strips,
-                     const std::optional<ChipGrid> &records, const SampleTiles &shaded)
+HolesPass::HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes,
+                     const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records,
+                     const SampleTiles &shaded)
     : state_(std::make_unique<State>(on, records, shaded)) {
   state_->upload_shapes(on, shapes);
   state_->make_lists(on, largest_tile_count(strips));
@@ -202,23 +207,25 @@ shader::HolesConstants HolesPass::State::constants(const shader::Strip &strip, s
           sample_count(strip)};
 }
 
-void HolesPass::State::record_tiles(const vk::raii::CommandBuffer &commands, const shader::HolesConstants &plain,
-                                    std::size_t window) const {
+void HolesPass::State::record_tiles(const vk::raii::CommandBuffer &commands,
+                                    const shader::HolesConstants &plain, std::size_t window) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   if (records) {
     vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                            Access::eTransferWrite);
-    commands.fillBuffer(work.get(), sizeof(shader::HolesWork), vk::DeviceSize{plain.tiles} * sizeof(std::uint32_t), 0);
+    commands.fillBuffer(work.get(), sizeof(shader::HolesWork),
+                        vk::DeviceSize{plain.tiles} * sizeof(std::uint32_t), 0);
     vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                            Access::eShaderStorageRead | Access::eShaderStorageWrite);
-    mark_known.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &windows[window].texels);
+    mark_known.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size,
+                        &windows[window].texels);
   }
   find_tiles.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &windows[window].texels);
 }
 
-void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands, const shader::HolesConstants &plain,
-                                    std::size_t window) const {
+void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
+                                    const shader::HolesConstants &plain, std::size_t window) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
@@ -233,11 +240,13 @@ void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands, con
   shader::HolesConstants of_range = plain;
   for (; of_range.range < std::min(shader::hole_batch, ranges - plain.first_range); ++of_range.range) {
     vulkan::compute_barrier(commands);
-    of.holes.dispatch_indirect(commands, of_range, work, of_range.range * sizeof(shader::TileList), &of.texels);
+    of.holes.dispatch_indirect(commands, of_range, work, of_range.range * sizeof(shader::TileList),
+                               &of.texels);
   }
 }
 
-void HolesPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window) const {
+void HolesPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
+                       std::size_t window) const {
   shader::HolesConstants plain = state_->constants(strip, window);
   state_->record_tiles(commands, plain, window);
   for (; plain.first_range < state_->ranges; plain.first_range += shader::hole_batch)

@@ -164,7 +164,8 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
-  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip, records.has_value()));
+  const vk::DeviceSize word = sizeof(std::uint32_t),
+                       tiles = tile_count(sample_strip(strip, records.has_value()));
   commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * word * sample_count(strip), ~0u);
   if (window == 0)
     commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);

@@ -68,29 +68,39 @@ bool may_be_inside(vec4 f) {
   return f.w + spread + 1e-6 * (abs(f.w) + spread) >= 0.0;
 }
 
-// Whether the shape is there where the way from the sample to a diode meets it.
-bool is_there(Occluder shape, vec3 diode, vec3 centre) {
+// Where the way from the sample to a diode meets the shape.
+Real3 meeting_point(Occluder shape, vec3 diode, vec3 centre) {
   Real3 from = real3(point.hi, point.lo), normal = real3(shape.plane_hi.xyz, shape.plane_lo.xyz);
   Real3 way = subtract3(add3(real3(diode, vec3(0.0)), real3(centre, vec3(0.0))), from);
   Real offset = real(shape.plane_hi.w, shape.plane_lo.w);
-  Real along = divide(add(offset, negate(dot3(normal, from))), dot3(normal, way));
-  return look_of(window.paints, window.surfaces, shape.id, add3(from, scale3(way, along))).is_there;
+  return add3(from, scale3(way, divide(add(offset, negate(dot3(normal, from))), dot3(normal, way))));
 }
 
-// Of a bundle's open diodes those that the shape keeps off.
-uint blocked_of(uint bundle, Occluder shape, Cone cone, uint of_bundle, vec3 centre) {
-  uint blocked = 0u;
+vec3 place_of(uint bundle, uint d) { return texelFetch(place_texels, int(bundle * diodes_per_bundle + d)).xyz; }
+
+// Of a bundle's diodes those that the shape would keep off if it had no holes.
+uint diodes_behind(uint bundle, Cone cone) {
+  uint behind = 0u;
+  for (uint first = 0; first < diodes_per_bundle; first += lanes)
+    behind |= subgroupBallot(depth_in(cone, place_of(bundle, first + lane())) >= 0.0).x << first;
+  return behind;
+}
+
+// Of these those that it does keep off.
+uint diodes_kept_off(uint bundle, uint behind, Occluder shape, vec3 centre) {
+  ShapePaint paint = ShapePaints(window.paints).at[shape.id];
+  SurfacePaint surface = SurfacePaints(window.surfaces).at[paint.surface];
+  uint kept_off = 0u;
   for (uint first = 0; first < diodes_per_bundle; first += lanes) {
     uint d = first + lane();
-    vec3 diode = texelFetch(place_texels, int(bundle * diodes_per_bundle + d)).xyz;
-    bool between = (of_bundle >> d & 1u) != 0u && depth_in(cone, diode) >= 0.0, there = false, asked = between;
-    while (subgroupAny(asked)) { // a loop, because lavapipe takes both sides of a branch
-      there = is_there(shape, diode, centre);
+    bool asked = (behind >> d & 1u) != 0u, is_there = false;
+    while (subgroupAny(asked)) { // as a branch
+      is_there = asked && look_of(paint, surface, meeting_point(shape, place_of(bundle, d), centre)).is_there;
       asked = false;
     }
-    blocked |= subgroupBallot(between && there).x << first;
+    kept_off |= subgroupBallot(is_there).x << first;
   }
-  return blocked;
+  return kept_off;
 }
 
 void try_shape(uint i) {
@@ -101,8 +111,12 @@ void try_shape(uint i) {
     uint bundle = findLSB(left);
     Cone of_bundle = Cone(subgroupShuffle(cone.ab, bundle), subgroupShuffle(cone.bc, bundle), subgroupShuffle(cone.ca, bundle),
                           subgroupShuffle(cone.beyond, bundle));
-    uint blocked = blocked_of(bundle, shape, of_bundle, subgroupShuffle(open, bundle), subgroupShuffle(frame.centre, bundle));
-    open &= lane() == bundle ? ~blocked : ~0u;
+    vec3 centre = subgroupShuffle(frame.centre, bundle);
+    uint behind = diodes_behind(bundle, of_bundle) & subgroupShuffle(open, bundle);
+    for (; behind != 0u; behind = 0u) { // as a branch: lavapipe takes both sides of one
+      uint kept_off = diodes_kept_off(bundle, behind, shape, centre);
+      open &= lane() == bundle ? ~kept_off : ~0u;
+    }
   }
 }
 

@@ -11,7 +11,7 @@ namespace pmdsim::shader {
 
 // Shapes lie along a curve, so that those that follow each other lie close together: `hole_width` shapes to a
 // box, as many boxes to a block, and `hole_blocks` blocks to a range. A dispatch is over one range: lavapipe
-// ends all loops of an invocation after 65,535 turns together, silently, and a shape takes 115 at most.
+// ends all loops of an invocation after 65,535 turns together, silently, and a shape takes 175 at most.
 PMDSIM_CONSTANT hole_width = 8;
 PMDSIM_CONSTANT hole_blocks = 4;
 PMDSIM_CONSTANT hole_range = hole_width * hole_width * hole_blocks; // shapes of a range
@@ -60,7 +60,7 @@ struct HolesConstants {
 };
 
 #ifdef __cplusplus
-static_assert(115 * hole_range < 60000);
+static_assert(175 * hole_range < 60000);
 static_assert(sizeof(HolesWindow) == 128 && sizeof(HolesConstants) == 112);
 } // namespace pmdsim::shader
 #endif
