@@ -1,8 +1,10 @@
 #include "engine/shadow/place_order.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
-#include <utility>
+#include <numeric>
 
 namespace pmdsim {
 namespace {
@@ -14,6 +16,24 @@ std::uint32_t spread_bits(std::uint32_t v) {
   return (v | v << 2) & 0x09249249u;
 }
 
+struct Coded {
+  std::uint32_t code, place;
+};
+
+constexpr std::uint32_t digit_bits = 10;
+
+// What has the same digit stays in its order.
+void sort_by_digit(const std::vector<Coded> &codes, std::uint32_t shift, std::vector<Coded> &sorted) {
+  constexpr std::uint32_t digits = 1u << digit_bits;
+  const auto digit_of = [&](const Coded &coded) { return coded.code >> shift & (digits - 1); };
+  std::array<std::size_t, digits + 1> next{};
+  for (const Coded &coded : codes)
+    ++next[digit_of(coded) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (const Coded &coded : codes)
+    sorted[next[digit_of(coded)]++] = coded;
+}
+
 } // namespace
 
 std::vector<std::uint32_t> order_by_place(const std::vector<glm::dvec3> &places_m) {
@@ -23,15 +43,17 @@ std::vector<std::uint32_t> order_by_place(const std::vector<glm::dvec3> &places_
     high_m = glm::max(high_m, place_m);
   }
   const glm::dvec3 scale = 1023.0 / glm::max(high_m - low_m, glm::dvec3(1e-9));
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
+  std::vector<Coded> codes(places_m.size()), sorted(places_m.size());
   for (std::uint32_t i = 0; i < places_m.size(); ++i) {
     const glm::uvec3 at((places_m[i] - low_m) * scale);
-    codes.emplace_back(spread_bits(at.x) | spread_bits(at.y) << 1 | spread_bits(at.z) << 2, i);
+    codes[i] = {spread_bits(at.x) | spread_bits(at.y) << 1 | spread_bits(at.z) << 2, i};
   }
-  std::ranges::sort(codes);
-  std::vector<std::uint32_t> order;
-  for (const auto &[code, i] : codes)
-    order.push_back(i);
+  for (std::uint32_t shift = 0; shift < 30; shift += digit_bits) {
+    sort_by_digit(codes, shift, sorted);
+    codes.swap(sorted);
+  }
+  std::vector<std::uint32_t> order(codes.size());
+  std::ranges::transform(codes, order.begin(), &Coded::place);
   return order;
 }
 

@@ -73,6 +73,7 @@ struct SweepPass::State {
         lanes(on.device.limits().subgroup),
         specialization{{shader::constant_tiled, is_tiled(on.sensor)},
                        {shader::constant_lanes, lanes},
+                       {shader::constant_most_steps, on.device.is_cpu() ? shader::most_sweep_steps : ~0u},
                        {shader::constant_all_facing, on.model.backscatter == shader::backscatter_flat},
                        {shader::constant_depth_records, records.has_value()},
                        {shader::constant_general_chip, records && !records->is_nominal()}},
@@ -326,7 +327,7 @@ void SweepPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
   const vk::DeviceSize words = (5 + shader::sweep_rounds + shader::tile_samples) * tiles;
   work = sweep_storage(on.device, sizeof(shader::SweepWork) + words * sizeof(std::uint32_t),
                        Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc);
-  may_lose = most_items > fewest_to_lose ||
+  may_lose = (on.device.is_cpu() && most_items > fewest_to_lose) ||
              most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round;
   spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
   entries = sweep_storage(on.device, (vk::DeviceSize{spare_entry} + 1) * sizeof(std::uint32_t));

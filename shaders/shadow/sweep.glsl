@@ -12,6 +12,7 @@
 
 layout(push_constant, std430) uniform Constants { SweepConstants constants; };
 layout(constant_id = constant_lanes) const uint lanes = 8; // of a subgroup
+layout(constant_id = constant_most_steps) const uint most_steps = most_sweep_steps;
 
 // Texel buffers: lavapipe fetches the 16 bytes of a texel in a fourth of the time of as many words.
 layout(set = 0, binding = 0) uniform usamplerBuffer item_texels; // four of each item

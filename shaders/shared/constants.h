@@ -46,6 +46,7 @@ PMDSIM_CONSTANT constant_surface_vectors = 33; // a sample that the sum asks for
 PMDSIM_CONSTANT constant_quadrature_points = 34; // at which a pixel of several samples is evaluated: 1, its centre; 4, pixels of list_refined; 0: none
 PMDSIM_CONSTANT constant_lists_pixels = 35; // one of lists_*
 PMDSIM_CONSTANT constant_lanes = 36; // of a subgroup
+PMDSIM_CONSTANT constant_most_steps = 37; // of all loops of an invocation
 PMDSIM_CONSTANT constant_bundles = 38; // of the window
 PMDSIM_CONSTANT constant_half_viewport = 39; // float, fragments: a power of two
 PMDSIM_CONSTANT constant_depth_records = 40; // 1: samples are records; 0: they have ids alone
