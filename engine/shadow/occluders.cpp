@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -13,12 +15,20 @@ namespace {
 // What rotations and dot products in double leave, relative to the coordinates.
 constexpr double relative_rounding = 1e-14;
 
-// The corners of all that the lens sees.
-PlaceSet seen_corners(const CameraScene &camera) {
+// The corners of all that the lens sees, each of the scene's vertices once.
+PlaceSet seen_corners(const CameraScene &camera, const Scene &scene) {
   std::vector<glm::dvec3> corners_m;
-  for (const CameraTriangle &triangle : camera.triangles)
-    corners_m.insert(corners_m.end(), triangle.corners_m.begin(), triangle.corners_m.end());
-  return PlaceSet(corners_m);
+  std::vector<bool> is_there(scene.positions_m.size());
+  for (const auto &[corners_of_m, id] : camera.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_vertex = id < scene.triangles.size(); // a disc's corners are its own
+      if (is_vertex && is_there[scene.triangles[id].vertices[k]])
+        continue;
+      if (is_vertex)
+        is_there[scene.triangles[id].vertices[k]] = true;
+      corners_m.push_back(corners_of_m[k]);
+    }
+  return PlaceSet(std::move(corners_m));
 }
 
 std::vector<glm::dvec3> all_diodes_m(const std::vector<CameraIlluminator> &illuminators) {
@@ -58,7 +68,7 @@ shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane)
 
 Occluders find_occluders(const CameraScene &camera, const Scene &scene,
                          const std::vector<CameraIlluminator> &illuminators) {
-  PlaceSet seen = seen_corners(camera), diodes(all_diodes_m(illuminators));
+  PlaceSet seen = seen_corners(camera, scene), diodes(all_diodes_m(illuminators));
   Occluders occluders;
   const auto add = [&](const CameraTriangle &triangle) {
     const auto plane = front_plane(triangle.corners_m);

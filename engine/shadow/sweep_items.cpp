@@ -150,7 +150,8 @@ void build_boxes(SweepTree &to) {
   }
 }
 
-// Where a neighbour is no occluder, or has holes, an edge is that of one triangle alone.
+// Those that may be silhouettes. Where a neighbour is no occluder, or has holes, an edge is that of one
+// triangle alone.
 std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders,
                            const Scene &scene) {
   std::vector<std::uint32_t> ids, index(scene.triangles.size(), no_id);
@@ -175,7 +176,8 @@ std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Oc
       edge.same_way = start_of(sides[i + 1]) == start_of(side);
       ++i;
     }
-    edges.push_back(edge);
+    if (!is_never_silhouette(edge, triangles))
+      edges.push_back(edge);
   }
   return edges;
 }
@@ -268,11 +270,13 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
   made.rest_step = static_cast<float>(step);
   const ItemMaker maker{triangles, occluders, step};
 
-  std::vector<Edge> edges = edges_of(triangles, occluders, scene);
-  std::erase_if(edges, [&](const Edge &edge) { return is_never_silhouette(edge, triangles); });
+  const std::vector<Edge> edges = edges_of(triangles, occluders, scene);
   std::vector<glm::dvec3> middles_m;
+  middles_m.reserve(edges.size());
   for (const Edge &edge : edges)
     middles_m.push_back(0.5 * (edge.a_m + edge.b_m));
+  made.edges.items.reserve(edges.size() + width);
+  made.planes.reserve(edges.size() + width);
   for (const std::uint32_t i : order_by_place(middles_m))
     maker.add_edge(edges[i], made);
   build_boxes(made.edges);
