@@ -70,6 +70,7 @@ Occluders find_occluders(const CameraScene &camera, const Scene &scene,
                          const std::vector<CameraIlluminator> &illuminators) {
   PlaceSet seen = seen_corners(camera, scene), diodes(all_diodes_m(illuminators));
   Occluders occluders;
+  occluders.shapes.reserve(camera.triangles.size() + camera.hidden.size());
   const auto add = [&](const CameraTriangle &triangle) {
     const auto plane = front_plane(triangle.corners_m);
     if (!plane)

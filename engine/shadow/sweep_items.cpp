@@ -155,6 +155,7 @@ void build_boxes(SweepTree &to) {
 std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders,
                            const Scene &scene) {
   std::vector<std::uint32_t> ids, index(scene.triangles.size(), no_id);
+  ids.reserve(occluders.shapes.size());
   for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i) {
     ids.push_back(occluders.shapes[i].id);
     index[ids.back()] = i;

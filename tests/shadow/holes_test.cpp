@@ -180,16 +180,17 @@ void check_scene(const std::string &name, const Scene &scene, const Sensor &sens
   Simulator simulator = make_simulator(options);
   simulator.prepare(scene, sensor, illuminators, Backscatter::lambert, Shadows::automatic);
   CHECK(visibility_of(simulator) == "silhouettes, holes");
-  const ReachedComparison reached = compare_reached(
-      simulator.measure(),
-      reference::simulate(scene, sensor, illuminators, Backscatter::lambert, {Shadows::automatic, true}),
-      scene, sensor, illuminators);
+  const Measurement measured = simulator.measure();
+  const reference::Frame expected =
+      reference::simulate(scene, sensor, illuminators, Backscatter::lambert, {Shadows::automatic, true});
+  const ReachedComparison reached = compare_reached(measured, expected, scene, sensor, illuminators);
   fmt::print("{}", reached_row(name, reached));
   CHECK(reached.clear_of_all == 0);
   CHECK(reached.differing_fraction() <= 1e-4);
   CHECK(reached.lit_error <= 1e-6);
   CHECK(reached.reached > 0);
   CHECK(reached.reached < reached.pairs);
+  CHECK(share_of_pixels_agreeing(measured, expected) >= 0.99);
 }
 
 Scene leaves_before_wall(std::uint32_t seed, std::size_t count, double size_m,
