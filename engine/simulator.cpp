@@ -20,7 +20,6 @@ struct Simulator::State {
 
   void prepare();
   void refine(const std::string &violation);
-  Measurement measure(const Progress &progress, const ExposureNumber &number);
   Measurement spare_memory();
 
   SimulatorOptions options;
@@ -29,7 +28,6 @@ struct Simulator::State {
   vulkan::Device device;
   vulkan::PassRecorder recorder;
   TextureCache textures;
-  std::optional<Scene> scene; // a copy of one that may have to be prepared again
   std::optional<FrameRequest> requested;
   std::uint32_t attempt = 0; // of frame_plans; made again where one does not keep the error asked for
   std::optional<Frame> frame;
@@ -62,17 +60,6 @@ void Simulator::State::prepare() {
   frame->warm_up(recorder);
 }
 
-Measurement Simulator::State::measure(const Progress &progress, const ExposureNumber &number) {
-  try {
-    return frame->measure(recorder, spare_memory(), progress, number);
-  } catch (const TooDense &) {
-    const bool sweep = std::exchange(options.allowed.sweep, false);
-    prepare();
-    options.allowed.sweep = sweep;
-    return frame->measure(recorder, spare_memory(), progress, number);
-  }
-}
-
 // The next plan. Throws Error (accuracy) where there is none.
 void Simulator::State::refine(const std::string &violation) {
   if (requested->accuracy.mode != Mode::automatic || attempt + 1 == frame_plans)
@@ -97,11 +84,6 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   state_->requested.emplace(FrameRequest{scene, sensor, illuminators, backscatter, shadows, accuracy});
   state_->attempt = 0;
   state_->prepare();
-  if (state_->frame->may_be_too_dense()) {
-    state_->scene = scene;
-    state_->requested.emplace(
-        FrameRequest{*state_->scene, sensor, illuminators, backscatter, shadows, accuracy});
-  }
 }
 
 std::vector<std::pair<std::string, std::string>> Simulator::path() const {
@@ -120,11 +102,14 @@ void Simulator::reuse(Measurement &&frame) {
 Measurement Simulator::measure(const Progress &progress, const ExposureNumber &number) {
   if (!state_->frame)
     throw std::logic_error("measure() before prepare()");
-  Measurement measured = state_->measure(progress, number);
+  const auto measure_once = [&] {
+    return state_->frame->measure(state_->recorder, state_->spare_memory(), progress, number);
+  };
+  Measurement measured = measure_once();
   while (const auto violation = state_->frame->violation(measured)) {
     state_->refine(*violation);
     reuse(std::move(measured));
-    measured = state_->measure(progress, number);
+    measured = measure_once();
   }
   return measured;
 }

@@ -16,14 +16,12 @@ public:
         std::uint32_t attempt, TextureCache &textures, SpareMemory &&spare);
 
   const FramePath &path() const { return on_.path; }
-  // Whether measure() may throw TooDense.
-  bool may_be_too_dense() const { return on_.may_be_too_dense; }
 
   // Compiles what the driver leaves to a first dispatch.
   void warm_up(vulkan::PassRecorder &recorder) const;
   // Into `memory`, whatever that holds; the same bits at every call. `progress` hears how much is done, 0 to
   // 1, and may throw. Throws Error: out_of_memory, device_lost, input (more light returns than a float
-  // holds); and TooDense.
+  // holds).
   Measurement measure(vulkan::PassRecorder &recorder, Measurement &&memory,
                       const std::function<void(double)> &progress, const ExposureNumber &number) const;
   // Why the last frame, `measured`, does not keep the error that was asked for, if so.

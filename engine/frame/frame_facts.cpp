@@ -36,10 +36,11 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   if (shaded)
     facts.occluders = find_occluders(facts.camera, request.scene, facts.lights);
   facts.modulation = modulation_of(request.sensor, options);
-  facts.modulation.lit = shaded && (!facts.occluders.shapes.empty() || !facing);
+  facts.modulation.lit = shaded && (!facts.occluders.empty() || !facing);
   facts.modulation.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   facts.model = sum_model(facts.lights, request.backscatter, facing);
   facts.paint = paint_use(facts.camera, request.scene);
+  facts.host_is_device = device.is_cpu();
   facts.largest_strip = largest_strip(device, facts.modulation, request.sensor);
   facts.projection = project_blocks(device, facts.camera, request.sensor, facts.largest_strip);
   return facts;

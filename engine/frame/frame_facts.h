@@ -33,6 +33,7 @@ struct FrameFacts {
   Projection projection;
   PaintUse paint;
   std::uint32_t largest_strip; // samples
+  bool host_is_device;         // the device is the processor that the program runs on
 };
 
 FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request);

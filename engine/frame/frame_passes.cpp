@@ -1,10 +1,11 @@
 #include "engine/frame/frame_passes.h"
 
 #include "engine/frame/uniform_pixels_pass.h"
+#include "engine/model/error.h"
 #include "engine/sampling/raster_blocks.h"
+#include "engine/shadow/holes_pass.h"
 #include "engine/shadow/host_sweep.h"
 #include "engine/shadow/sweep_pass.h"
-#include "engine/shadow/tile_shadow_pass.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
@@ -99,44 +100,68 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
     graph.add_before(points_of(on, on.plan.precision));
 }
 
-// Which sources reach which sample. The spot check finds the frame's tiles.
+// Which sources reach which sample.
 struct ShadowPasses {
-  std::shared_ptr<const TileShadowPass> tiles;
   std::shared_ptr<const SweepPass> sweep;
-  std::shared_ptr<const HostSweep> host;
-  explicit operator bool() const { return tiles || sweep || host; }
+  std::shared_ptr<const HostSweep> host; // in its place
+  std::shared_ptr<const HolesPass> holes;
+
+  explicit operator bool() const { return sweep || host; }
+  SampleTiles shadowed_tiles() const { return host ? host->shadowed_tiles() : sweep->shadowed_tiles(); }
 };
 
-Pass host_shadow_pass(const Basis &on, const std::shared_ptr<const HostSweep> &sweep) {
+ShadowPasses make_shadow_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
+                                const std::vector<SourceWindow> &windows,
+                                const std::optional<ChipGrid> &grid) {
+  ShadowPasses shadow;
+  const FrameFacts &facts = on.facts;
+  if (on.path.windows == 0)
+    return shadow;
+  if (on.path.host_sweep)
+    shadow.host = std::make_shared<const HostSweep>(
+        on, facts.occluders, facts.camera, on.request.scene, on.plan.all, windows, strips, grid,
+        !grid || on.path.holes || on.path.check || on.options.keep_visibility);
+  else
+    shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
+                                                     on.plan.all, windows, strips, grid);
+  if (on.path.holes)
+    shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, windows,
+                                                     strips, grid, shadow.shadowed_tiles());
+  return shadow;
+}
+
+Pass sweep_pass(Resources samples, const std::shared_ptr<const SweepPass> &sweep) {
+  Pass pass{.name = "lit",
+            .reads = samples,
+            .writes = visibility_bits | visibility_counts,
+            .record = [=](const Recording &at) { sweep->record(at.commands, at.of_strip(), at.window); }};
+  if (sweep->may_lose())
+    pass.store = [=](const Recording &, Measurement &) {
+      if (sweep->has_lost())
+        throw Error(ExitCode::out_of_memory, "shadows: expected fewer edges in the light of a sample");
+    };
+  return pass;
+}
+
+Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &sweep) {
   return {.name = "lit",
-          .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
+          .reads = samples,
           .writes = visibility_bits | visibility_counts,
           .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
           .store = [=](const Recording &at, Measurement &) { sweep->decide(at.of_strip(), at.window); }};
 }
 
-Pass shadow_pass(const Basis &on, const ShadowPasses &shadow, bool makes_tiles) {
-  if (shadow.host)
-    return host_shadow_pass(on, shadow.host);
-  return {.name = "lit",
-          .reads = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points,
-          .writes = visibility_bits | visibility_counts,
-          .record =
-              [=, &buffers = on.buffers](const Recording &at) {
-                if (shadow.sweep) {
-                  shadow.sweep->record(at.commands, at.of_strip(), at.window);
-                  return;
-                }
-                if (at.window == 0 && makes_tiles)
-                  shadow.tiles->record_tiles(at.commands, at.of_strip(), buffers);
-                shadow.tiles->record(at.commands, at.of_strip(), buffers, at.window);
-              },
-          .store = shadow.sweep && shadow.sweep->may_lose()
-                       ? [sweep = shadow.sweep](const Recording &, Measurement &) {
-                           if (sweep->has_lost())
-                             throw TooDense();
-                         }
-                       : std::function<void(const Recording &, Measurement &)>()};
+void list_shadow(const Basis &on, const ShadowPasses &shadow, FrameGraph &graph) {
+  const Resources samples = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points;
+  graph.add_to_window(shadow.host ? host_sweep_pass(samples, shadow.host)
+                                  : sweep_pass(samples, shadow.sweep));
+  if (shadow.holes)
+    graph.add_to_window({.name = "lit",
+                         .reads = samples | visibility_bits,
+                         .writes = visibility_bits | visibility_counts,
+                         .record = [holes = shadow.holes](const Recording &at) {
+                           holes->record(at.commands, at.of_strip(), at.window);
+                         }});
 }
 
 // The bits for the host.
@@ -215,7 +240,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
   if (shadow && windows.size() > 1)
-    graph.add_to_window(shadow_pass(on, shadow, false));
+    list_shadow(on, shadow, graph);
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(demodulation_pass(setup, groups, scope));
@@ -253,42 +278,22 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
     edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
                                                  on.request.scene, on.facts.projection.blocks, grid);
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
-  ShadowPasses shadow;
-  if (on.path.sweeps && on.options.allowed.host_sweep && HostSweep::is_possible(on.device, on.buffers))
-    shadow.host = std::make_shared<const HostSweep>(on, on.facts.occluders, on.facts.camera, on.request.scene,
-                                                    on.plan.all, windows, strips, grid,
-                                                    !grid || on.options.keep_visibility || on.path.check);
-  else if (on.path.sweeps)
-    shadow.sweep = std::make_shared<const SweepPass>(on, on.facts.occluders, on.facts.camera,
-                                                     on.request.scene, on.plan.all, windows, strips, grid);
-  else if (on.path.windows > 0)
-    shadow.tiles =
-        std::make_shared<const TileShadowPass>(on.device, on.facts.occluders, on.plan.all, windows, on.scene,
-                                               strips, is_tiled(on.sensor), on.options.precision);
+  const ShadowPasses shadow = make_shadow_passes(on, strips, windows, grid);
   std::optional<TruthOfRecords> truth;
   if (on.path.host_reads_truth)
     truth = truth_of_records(on.device, on.options, on.request.scene);
 
-  FramePasses made{on.path,
-                   shadow.sweep && shadow.sweep->may_lose(),
-                   on.sensor,
-                   on.modulation,
-                   strips,
-                   windows.size(),
-                   sources,
-                   std::move(memory),
-                   raster,
-                   {},
-                   report_of(on.plan, on.path)};
+  FramePasses made{on.path, on.sensor,         on.modulation, strips, windows.size(),
+                   sources, std::move(memory), raster,        {},     report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, edges, graph);
   if (shadow)
-    graph.add_to_window(shadow_pass(on, shadow, true));
+    list_shadow(on, shadow, graph);
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;
-  if ((shadow.sweep || shadow.host) && grid)
-    shadowed_tiles.emplace(shadow.host ? shadow.host->shadowed_tiles() : shadow.sweep->shadowed_tiles());
+  if (shadow && grid)
+    shadowed_tiles.emplace(shadow.shadowed_tiles());
   list_class(on, PixelsOf::all, windows, nullptr, graph, shadowed_tiles);
   if (on.path.is_sorted()) {
     const auto lists = std::make_shared<const PixelLists>(on.device, strips);

@@ -19,13 +19,8 @@ struct FrameMemory {
   SceneBuffers scene;
 };
 
-// Thrown by a frame's passes where a scene has so many edges in the light that its silhouettes are beyond
-// what the shaders' loops can do. The frame has to be made again with rays.
-struct TooDense {};
-
 struct FramePasses {
   FramePath path;
-  bool may_be_too_dense;
   Sensor sensor;
   Modulation modulation;
   std::vector<PlannedStrip> strips;

@@ -91,13 +91,6 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
            facts.modulation.lit, reduced ? plan.bound : plan.bound_of_all}};
 }
 
-// Whether all that stands in the light has edges, and no holes.
-bool can_sweep(const FrameFacts &facts, const PathForms &allowed) {
-  return allowed.sweep && std::ranges::none_of(facts.occluders.shapes, [](const shader::Occluder &shape) {
-           return shape.may_be_absent != 0;
-         });
-}
-
 // Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
 // of the pixel is filled.
 bool is_even(SampleGrid grid, const Sensor &sensor) {
@@ -106,7 +99,7 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
 
 bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                       const Sensor &sensor, const PathForms &allowed) {
-  const bool reads_depths = path.windows == 0 || (path.sweeps && path.single_run);
+  const bool reads_depths = path.windows == 0 || path.single_run;
   return allowed.depth_records && !path.is_sorted() && !plan.is_reduced() && reads_depths &&
          !facts.modulation.keeps_terms && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
@@ -155,6 +148,13 @@ std::string record_text(const FramePath &path) {
                                             : "depth";
 }
 
+std::string visibility_text(const FramePath &path) {
+  if (path.windows == 0)
+    return "not asked";
+  return fmt::format("silhouettes on the {}{}", path.host_sweep ? "host" : "device",
+                     path.holes ? ", holes" : "");
+}
+
 } // namespace
 
 const PixelClass *FramePath::of(PixelsOf who) const {
@@ -168,7 +168,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   FramePath path{};
   path.grid = grid_of(sensor);
   path.windows = facts.modulation.lit ? static_cast<std::uint32_t>(windows) : 0;
-  path.sweeps = path.windows > 0 && can_sweep(facts, allowed);
+  path.host_sweep = path.windows > 0 && facts.host_is_device && allowed.host_sweep;
+  path.holes = path.windows > 0 && !facts.occluders.with_holes.empty();
   path.backscatter = facts.model.backscatter;
   path.pattern = facts.model.pattern;
   path.summation = summation_of(facts, plan.all);
@@ -195,9 +196,7 @@ std::vector<std::pair<std::string, std::string>> description(const FramePath &pa
   return {{"grid", name_among(grid_names, path.grid)},
           {"record", record_text(path)},
           {"visibility_windows", fmt::format("{}", path.windows)},
-          {"visibility", path.sweeps        ? "silhouettes"
-                         : path.windows > 0 ? "rays"
-                                            : "not asked"},
+          {"visibility", visibility_text(path)},
           {"surface", name_among(surface_names, path.backscatter)},
           {"radiation_law", name_among(pattern_names, path.pattern)},
           {"sum", summation_text(path)},

@@ -48,7 +48,8 @@ struct FramePath {
   SampleRecord record;
   bool points_first;         // every sample's point is made before the sum, not only those of a class
   std::uint32_t windows;     // of visibility bits; 0: every source reaches every sample
-  bool sweeps;               // visibility is found by silhouettes
+  bool host_sweep;           // what all others keep off is found by the host
+  bool holes;                // something with holes stands in the light
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
   Summation summation;

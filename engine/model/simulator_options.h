@@ -23,7 +23,6 @@ struct PathForms {
   bool uniform_pixels = true;         // from IDs to channels at once
   bool uniform_single_samples = true; // the same where pixels have one sample
   bool refined_uniform_pixels = true; // at four points of a pixel
-  bool sweep = true;                  // visibility by silhouettes, not by rays
   bool host_sweep = true;             // on the host, where the device is its processor
 };
 

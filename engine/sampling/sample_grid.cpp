@@ -41,25 +41,6 @@ vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor) {
   return vulkan::upload(device, std::as_bytes(std::span(&place, 1)));
 }
 
-shader::Strip strip_of_samples(const shader::Strip &strip) {
-  const std::uint32_t s = strip.samples;
-  return {s * strip.column,
-          s * strip.row,
-          s * strip.columns,
-          s * strip.rows,
-          s * strip.resolution_x,
-          s * strip.resolution_y,
-          1,
-          sample_count(strip)};
-}
-
-std::uint32_t tile_count(const shader::Strip &strip) {
-  const auto across = [](std::uint32_t pixels) {
-    return (pixels + shader::tile_side - 1) / shader::tile_side;
-  };
-  return across(strip.columns) * across(strip.rows) * strip.samples * strip.samples;
-}
-
 ChipGrid::ChipGrid(const vulkan::Device &device, const Sensor &sensor)
     : nominal_(sensor.chip.is_nominal()), slope_(half_sample_slope(sensor)),
       place_(chip_place(filled(sensor))), chip_(std::make_shared<const vulkan::Buffer>(

@@ -27,12 +27,6 @@ struct SampleTiles {
   vk::DeviceSize offset; // where it begins
 };
 
-// The strip of depth records: its samples as pixels of one sample each.
-shader::Strip strip_of_samples(const shader::Strip &strip);
-
-// In which the samples of a strip are taken, sub-sample by sub-sample.
-std::uint32_t tile_count(const shader::Strip &strip);
-
 class ChipGrid {
 public:
   // Of a sensor without distortion whose pixels are filled or have one sample.

@@ -2,6 +2,7 @@
 
 #include "engine/shadow/silhouette_tree.h"
 #include "engine/shadow/sweep_tables.h"
+#include "engine/shadow/tiles.h"
 #include "engine/vulkan/shader_module.h"
 #include "shaders/shared/constants.h"
 
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_access.hpp>
 #include <limits>
+#include <stdexcept>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -176,7 +178,7 @@ void HostSweep::State::add_board(const PassSetup &on, const Board &board, const 
 
 SampleSource HostSweep::State::samples_of(const shader::Strip &strip) const {
   SampleSource source{};
-  source.strip = records ? strip_of_samples(strip) : strip;
+  source.strip = sample_strip(strip, records.has_value());
   source.ids = buffers.ids.mapped().data();
   source.position = records ? nullptr : buffers.position.mapped().data();
   source.planes = host_memory<shader::TrianglePlane>(scene.planes);
@@ -233,6 +235,8 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                                            .boards = {},
                                            .windows = {},
                                            .shaded = {}})) {
+  if (!on.buffers.ids.is_mapped() || !on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
+    throw std::logic_error("the host does not share the device's memory");
   State &state = *state_;
   state.windows.resize(windows.size());
   if (records) {
@@ -244,9 +248,7 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
   }
   for (const Board &board : find_boards(groups, windows))
     state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups, windows);
-  std::uint32_t tiles = 0;
-  for (const PlannedStrip &planned : strips)
-    tiles = std::max(tiles, tile_count(records ? strip_of_samples(planned.strip) : planned.strip));
+  const std::uint32_t tiles = largest_tile_count(strips);
   using Usage = vk::BufferUsageFlagBits;
   state.shaded = {on.device, sizeof(shader::TileList) + std::size_t{tiles} * sizeof(std::uint32_t),
                   Usage::eStorageBuffer | Usage::eIndirectBuffer, vulkan::Memory::device};
@@ -254,11 +256,6 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
 }
 
 HostSweep::~HostSweep() = default;
-
-bool HostSweep::is_possible(const vulkan::Device &device, const StripBuffers &buffers) {
-  return device.is_cpu() && buffers.ids.is_mapped() && buffers.visibility.is_mapped() &&
-         buffers.lit.is_mapped();
-}
 
 void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
   const State &state = *state_;

@@ -17,14 +17,12 @@ namespace pmdsim {
 
 class HostSweep {
 public:
-  // As SweepPass. `fills_all`: bits are read of tiles, too, all of whose samples every diode reaches.
+  // As SweepPass, of a device whose memory the host reads and writes as its own. `fills_all`: bits are read
+  // of tiles, too, all of whose samples every diode reaches.
   HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
             const SourceGroups &groups, const std::vector<SourceWindow> &windows,
             std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records, bool fills_all);
   ~HostSweep();
-
-  // Whether host and device share the memory of samples and bits.
-  static bool is_possible(const vulkan::Device &device, const StripBuffers &buffers);
 
   // As SweepPass::record(), at once; the device is done with the samples.
   void decide(const shader::Strip &strip, std::size_t window) const;

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <cstddef>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -15,12 +15,20 @@ namespace {
 // What rotations and dot products in double leave, relative to the coordinates.
 constexpr double relative_rounding = 1e-14;
 
-// The corners of all that the lens sees.
-PlaceSet seen_corners(const CameraScene &camera) {
+// The corners of all that the lens sees, each of the scene's vertices once.
+PlaceSet seen_corners(const CameraScene &camera, const Scene &scene) {
   std::vector<glm::dvec3> corners_m;
-  for (const CameraTriangle &triangle : camera.triangles)
-    corners_m.insert(corners_m.end(), triangle.corners_m.begin(), triangle.corners_m.end());
-  return PlaceSet(corners_m);
+  std::vector<bool> is_there(scene.positions_m.size());
+  for (const auto &[corners_of_m, id] : camera.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_vertex = id < scene.triangles.size(); // a disc's corners are its own
+      if (is_vertex && is_there[scene.triangles[id].vertices[k]])
+        continue;
+      if (is_vertex)
+        is_there[scene.triangles[id].vertices[k]] = true;
+      corners_m.push_back(corners_of_m[k]);
+    }
+  return PlaceSet(std::move(corners_m));
 }
 
 std::vector<glm::dvec3> all_diodes_m(const std::vector<CameraIlluminator> &illuminators) {
@@ -31,47 +39,12 @@ std::vector<glm::dvec3> all_diodes_m(const std::vector<CameraIlluminator> &illum
   return positions_m;
 }
 
-struct Box {
-  glm::dvec3 low_m{std::numeric_limits<double>::infinity()}, high_m{-low_m};
-
-  void add(const glm::dvec3 &p) {
-    low_m = glm::min(low_m, p);
-    high_m = glm::max(high_m, p);
-  }
-  bool meets(const Box &other) const {
-    return glm::all(glm::lessThanEqual(low_m, other.high_m)) &&
-           glm::all(glm::lessThanEqual(other.low_m, high_m));
-  }
-};
-
-// Those that the lens and all diodes are outside of.
-std::vector<std::uint32_t> bodies_from_outside(const CameraScene &camera, const Scene &scene,
-                                               const std::vector<glm::dvec3> &diodes_m) {
-  std::vector<std::uint32_t> bodies = convex_bodies(scene);
-  bodies.resize(scene.shape_count(), no_id);
-  std::map<std::uint32_t, Box> boxes;
-  for (const auto *triangles : {&camera.triangles, &camera.hidden})
-    for (const CameraTriangle &triangle : *triangles)
-      if (const std::uint32_t body = bodies[triangle.id]; body != no_id)
-        for (const glm::dvec3 &corner_m : triangle.corners_m)
-          boxes[body].add(corner_m);
-  Box inside; // around the lens and all diodes
-  inside.add(glm::dvec3(0.0));
-  for (const glm::dvec3 &diode_m : diodes_m)
-    inside.add(diode_m);
-  for (std::uint32_t &body : bodies)
-    if (body != no_id && boxes[body].meets(inside))
-      body = no_id;
-  return bodies;
-}
-
 bool may_have_holes(const Scene &scene, std::uint32_t id) {
   const auto &paint = scene.surfaces[scene.surface_of(id)].paint;
   return id >= scene.triangles.size() || (paint && paint->alpha_cutoff > 0.0);
 }
 
-shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane, const Scene &scene,
-                             std::uint32_t body) {
+shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane) {
   const auto &[a, b, c] = triangle.corners_m;
   const DoublePair4 plane_pair(plane.normal, plane.offset_m), a_pair(a, 0.0), b_pair(b, 0.0), c_pair(c, 0.0);
   const auto turned = [](const glm::dvec3 &from, const glm::dvec3 &to) {
@@ -87,17 +60,17 @@ shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane,
           c_pair.lo,
           triangle.id,
           turned(a, b) | turned(b, c) << 1 | turned(c, a) << 2,
-          may_have_holes(scene, triangle.id) ? 1u : 0u,
-          body};
+          0,
+          0};
 }
 
 } // namespace
 
 Occluders find_occluders(const CameraScene &camera, const Scene &scene,
                          const std::vector<CameraIlluminator> &illuminators) {
-  const std::vector<glm::dvec3> diodes_m = all_diodes_m(illuminators);
-  PlaceSet seen = seen_corners(camera), diodes(diodes_m);
-  Occluders occluders{{}, bodies_from_outside(camera, scene, diodes_m)};
+  PlaceSet seen = seen_corners(camera, scene), diodes(all_diodes_m(illuminators));
+  Occluders occluders;
+  occluders.shapes.reserve(camera.triangles.size() + camera.hidden.size());
   const auto add = [&](const CameraTriangle &triangle) {
     const auto plane = front_plane(triangle.corners_m);
     if (!plane)
@@ -107,7 +80,8 @@ Occluders find_occluders(const CameraScene &camera, const Scene &scene,
         relative_rounding * (std::abs(plane->offset_m) + std::max(seen.size_m(), diodes.size_m()));
     if ((diodes.any_above(*plane, margin_m) && seen.any_below(*plane, margin_m)) ||
         (diodes.any_below(*plane, margin_m) && seen.any_above(*plane, margin_m)))
-      occluders.shapes.push_back(occluder_of(triangle, *plane, scene, occluders.bodies[triangle.id]));
+      (may_have_holes(scene, triangle.id) ? occluders.with_holes : occluders.shapes)
+          .push_back(occluder_of(triangle, *plane));
   };
   std::ranges::for_each(camera.triangles, add);
   std::ranges::for_each(camera.hidden, add);

@@ -1,5 +1,6 @@
 #include "engine/shadow/sweep_items.h"
 
+#include "engine/shadow/place_order.h"
 #include "engine/view/mesh_edges.h"
 #include "engine/vulkan/float_pair.h"
 
@@ -58,33 +59,6 @@ bool is_never_silhouette(const Edge &edge, const std::vector<BoardTriangle> &tri
     return false;
   const int first = triangles[edge.first].side, second = triangles[edge.second].side;
   return first != 0 && first == (edge.same_way ? -second : second);
-}
-
-std::uint32_t spread_bits(std::uint32_t v) {
-  v = (v | v << 16) & 0x030000ffu;
-  v = (v | v << 8) & 0x0300f00fu;
-  v = (v | v << 4) & 0x030c30c3u;
-  return (v | v << 2) & 0x09249249u;
-}
-
-// The order of some places along a Morton curve.
-std::vector<std::uint32_t> order_by_place(const std::vector<glm::dvec3> &places_m) {
-  glm::dvec3 low_m(std::numeric_limits<double>::infinity()), high_m = -low_m;
-  for (const glm::dvec3 &place_m : places_m) {
-    low_m = glm::min(low_m, place_m);
-    high_m = glm::max(high_m, place_m);
-  }
-  const glm::dvec3 scale = 1023.0 / glm::max(high_m - low_m, glm::dvec3(1e-9));
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
-  for (std::uint32_t i = 0; i < places_m.size(); ++i) {
-    const glm::uvec3 at((places_m[i] - low_m) * scale);
-    codes.emplace_back(spread_bits(at.x) | spread_bits(at.y) << 1 | spread_bits(at.z) << 2, i);
-  }
-  std::ranges::sort(codes);
-  std::vector<std::uint32_t> order;
-  for (const auto &[code, i] : codes)
-    order.push_back(i);
-  return order;
 }
 
 std::uint32_t packed_rest(const glm::dvec3 &place_m, double step) {
@@ -176,15 +150,16 @@ void build_boxes(SweepTree &to) {
   }
 }
 
-// The edges of all shapes but those that may have holes.
+// Those that may be silhouettes. Where a neighbour is no occluder, or has holes, an edge is that of one
+// triangle alone.
 std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders,
                            const Scene &scene) {
   std::vector<std::uint32_t> ids, index(scene.triangles.size(), no_id);
-  for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i)
-    if (const std::uint32_t id = occluders.shapes[i].id; occluders.shapes[i].may_be_absent == 0) {
-      ids.push_back(id);
-      index[id] = i;
-    }
+  ids.reserve(occluders.shapes.size());
+  for (std::uint32_t i = 0; i < occluders.shapes.size(); ++i) {
+    ids.push_back(occluders.shapes[i].id);
+    index[ids.back()] = i;
+  }
   const auto first_at = first_at_same_place(scene.positions_m);
   const std::vector<WeldedEdge> sides = welded_edges(scene, ids, first_at);
   const auto start_of = [&](const WeldedEdge &side) {
@@ -202,7 +177,8 @@ std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Oc
       edge.same_way = start_of(sides[i + 1]) == start_of(side);
       ++i;
     }
-    edges.push_back(edge);
+    if (!is_never_silhouette(edge, triangles))
+      edges.push_back(edge);
   }
   return edges;
 }
@@ -295,11 +271,13 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
   made.rest_step = static_cast<float>(step);
   const ItemMaker maker{triangles, occluders, step};
 
-  std::vector<Edge> edges = edges_of(triangles, occluders, scene);
-  std::erase_if(edges, [&](const Edge &edge) { return is_never_silhouette(edge, triangles); });
+  const std::vector<Edge> edges = edges_of(triangles, occluders, scene);
   std::vector<glm::dvec3> middles_m;
+  middles_m.reserve(edges.size());
   for (const Edge &edge : edges)
     middles_m.push_back(0.5 * (edge.a_m + edge.b_m));
+  made.edges.items.reserve(edges.size() + width);
+  made.planes.reserve(edges.size() + width);
   for (const std::uint32_t i : order_by_place(middles_m))
     maker.add_edge(edges[i], made);
   build_boxes(made.edges);

@@ -2,6 +2,7 @@
 
 #include "engine/shadow/sweep_items.h"
 #include "engine/shadow/sweep_tables.h"
+#include "engine/shadow/tiles.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/compute_pipeline.h"
 #include "engine/vulkan/float_pair.h"
@@ -20,17 +21,6 @@ namespace pmdsim {
 namespace {
 
 using vulkan::Buffer;
-
-std::uint32_t tiles_across(std::uint32_t pixels) {
-  return (pixels + shader::tile_side - 1) / shader::tile_side;
-}
-
-std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
-  std::uint32_t most = 0;
-  for (const PlannedStrip &planned : strips)
-    most = std::max(most, tile_count(planned.strip));
-  return most;
-}
 
 constexpr std::uint32_t texel_buffers = 7; // of sweep.glsl
 
@@ -82,6 +72,7 @@ struct SweepPass::State {
         lanes(on.device.limits().subgroup),
         specialization{{shader::constant_tiled, is_tiled(on.sensor)},
                        {shader::constant_lanes, lanes},
+                       {shader::constant_most_steps, on.device.is_cpu() ? shader::most_sweep_steps : ~0u},
                        {shader::constant_all_facing, on.model.backscatter == shader::backscatter_flat},
                        {shader::constant_depth_records, records.has_value()},
                        {shader::constant_general_chip, records && !records->is_nominal()}},
@@ -133,8 +124,6 @@ struct SweepPass::State {
 
   shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
                                    std::uint32_t round = 0) const;
-  // The strip as tiles are cut: depth records lie row by row.
-  shader::Strip sample_strip(const shader::Strip &strip) const;
   // Nothing is decided yet; of a board's first window nothing is listed, either.
   void record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     std::size_t window) const;
@@ -147,14 +136,10 @@ struct SweepPass::State {
                     std::uint32_t round) const;
 };
 
-shader::Strip SweepPass::State::sample_strip(const shader::Strip &strip) const {
-  return records ? strip_of_samples(strip) : strip;
-}
-
 shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, std::size_t window,
                                                    std::uint32_t round) const {
   const WindowBuffers &of = of_window[window];
-  const shader::Strip of_samples = sample_strip(strip);
+  const shader::Strip of_samples = sample_strip(strip, records.has_value());
   return {of_samples,
           buffers.position.words(),
           buffers.ids.words(),
@@ -179,7 +164,8 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
   using Access = vk::AccessFlagBits2;
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
                          Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
-  const vk::DeviceSize word = sizeof(std::uint32_t), tiles = tile_count(sample_strip(strip));
+  const vk::DeviceSize word = sizeof(std::uint32_t),
+                       tiles = tile_count(sample_strip(strip, records.has_value()));
   commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * word * sample_count(strip), ~0u);
   if (window == 0)
     commands.fillBuffer(buffers.lit.get(), 0, sample_count(strip) * word, shining);
@@ -340,7 +326,7 @@ void SweepPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
   const vk::DeviceSize words = (5 + shader::sweep_rounds + shader::tile_samples) * tiles;
   work = sweep_storage(on.device, sizeof(shader::SweepWork) + words * sizeof(std::uint32_t),
                        Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc);
-  may_lose = most_items > fewest_to_lose ||
+  may_lose = (on.device.is_cpu() && most_items > fewest_to_lose) ||
              most_items * tiles > std::uint64_t{shader::sweep_rounds} * shader::entries_per_round;
   spare_entry = static_cast<std::uint32_t>(shader::entries_per_round + most_items);
   entries = sweep_storage(on.device, (vk::DeviceSize{spare_entry} + 1) * sizeof(std::uint32_t));

@@ -3,6 +3,8 @@
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <numeric>
 
 namespace pmdsim {
@@ -16,31 +18,57 @@ std::vector<std::uint32_t> visible_triangles(const CameraScene &camera, const Sc
   return ids;
 }
 
+// The same of 0 and -0.
+std::uint64_t hash_of(const glm::dvec3 &place_m) {
+  std::uint64_t hash = 0;
+  for (glm::length_t k = 0; k < 3; ++k) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(place_m[k] + 0.0)) * 0x9e3779b97f4a7c15ull;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
 } // namespace
 
+// A table of places by their hashes, twice as large as they are many; a place is looked for from its hash's
+// slot on.
 std::vector<std::uint32_t> first_at_same_place(const std::vector<glm::dvec3> &positions_m) {
-  std::vector<std::uint32_t> order(positions_m.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, comes_before, [&](std::uint32_t v) { return positions_m[v]; });
-  std::vector<std::uint32_t> first(positions_m.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] =
-        i > 0 && positions_m[order[i]] == positions_m[order[i - 1]] ? first[order[i - 1]] : order[i];
+  const std::size_t mask = std::bit_ceil(2 * positions_m.size() + 1) - 1;
+  std::vector<std::uint32_t> slots(mask + 1, no_id), first(positions_m.size());
+  for (std::uint32_t i = 0; i < positions_m.size(); ++i) {
+    std::size_t slot = hash_of(positions_m[i]) & mask;
+    while (slots[slot] != no_id && positions_m[slots[slot]] != positions_m[i])
+      slot = (slot + 1) & mask;
+    if (slots[slot] == no_id)
+      slots[slot] = i;
+    first[i] = slots[slot];
+  }
   return first;
 }
 
+// Counted by their lower ends, as many of which there are as vertices, and then sorted among the few of one
+// end.
 std::vector<WeldedEdge> welded_edges(const Scene &scene, std::span<const std::uint32_t> ids,
                                      const std::vector<std::uint32_t> &first) {
-  std::vector<WeldedEdge> edges;
-  edges.reserve(3 * ids.size());
-  for (const std::uint32_t id : ids) {
+  const auto edge_of = [&](std::uint32_t id, std::uint32_t side) {
     const auto &vertices = scene.triangles[id].vertices;
+    const auto [low, high] = std::minmax(first[vertices[side]], first[vertices[(side + 1) % 3]]);
+    return WeldedEdge{low, high, id, side};
+  };
+  std::vector<std::size_t> begin(first.size() + 1);
+  for (const std::uint32_t id : ids)
+    for (std::uint32_t side = 0; side < 3; ++side)
+      ++begin[edge_of(id, side).low + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<WeldedEdge> edges(3 * ids.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const std::uint32_t id : ids)
     for (std::uint32_t side = 0; side < 3; ++side) {
-      const auto [low, high] = std::minmax(first[vertices[side]], first[vertices[(side + 1) % 3]]);
-      edges.push_back({low, high, id, side});
+      const WeldedEdge edge = edge_of(id, side);
+      edges[next[edge.low]++] = edge;
     }
-  }
-  std::ranges::sort(edges);
+  for (std::size_t low = 0; low < first.size(); ++low)
+    std::ranges::sort(std::span(edges).subspan(begin[low], begin[low + 1] - begin[low]));
   return edges;
 }
 

@@ -1,19 +1,16 @@
 // Whether an occluder stands between a point and a diode. The point makes a cone of the occluder, in which a diode lies or does
-// not: three planes through the point and an edge each, and the occluder's own plane, beyond which the diode must be. One set
-// of functions for all who ask, and nothing in them may be fused: so they all get the same answer, to the last bit.
+// not: three planes through the point and an edge each, and the occluder's own plane, beyond which the diode must be. Nothing
+// in them may be fused: so two triangles that share an edge get the same answer about it, to the last bit.
 #ifndef PMDSIM_OCCLUSION_GLSL
 #define PMDSIM_OCCLUSION_GLSL
 
-#include "shaders/shared/buffers.glsl"
-#include "shaders/shadow/lit_interface.h"
+#include "shaders/shadow/occluder.h"
 #include "shaders/shared/real.glsl"
 
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Occluders { Occluder at[]; };
-
-// A sample's point; the shape that it lies on, and the convex body whose part that is, which do not stand in its own light.
+// A sample's point, and the shape that it lies on, which does not stand in its own light.
 struct LitPoint {
   vec3 hi, lo;
-  uint own, body;
+  uint own;
 };
 
 // Where diodes are measured from: a place among them, and how far they stand from it at most, along each axis, m.
@@ -28,14 +25,8 @@ struct Cone {
   vec4 ab, bc, ca, beyond;
 };
 
-// `flat_z`: d.z is 0; the sum is the same, to the last bit.
-float affine_at(vec4 f, vec3 d, bool flat_z) {
-  precise float x = f.x * d.x, y = f.y * d.y;
-  if (flat_z) {
-    precise float flat_sum = x + y + f.w;
-    return flat_sum;
-  }
-  precise float z = f.z * d.z;
+float affine_at(vec4 f, vec3 d) {
+  precise float x = f.x * d.x, y = f.y * d.y, z = f.z * d.z;
   precise float sum = x + y + z + f.w;
   return sum;
 }
@@ -88,16 +79,13 @@ Cone cone_of(Occluder occluder, LitPoint point, DiodeFrame frame, float world_ro
   // A diode that the occluder touches is not behind it: by the rounding of `affine_at`, with some to spare.
   float offset = offset_from(occluder, frame);
   precise float beyond = -side * offset - 3e-7 * (abs(offset) + frame.reach) - world_rounding - 1e-30;
-  bool in_a_body = occluder.body != no_body;
-  bool spared = in_a_body ? occluder.body == point.body || height > 0.0 : occluder.id == point.own;
-  cone.beyond = height == 0.0 || spared ? behind_nothing : vec4(side * occluder.plane_hi.xyz, beyond);
+  cone.beyond = height == 0.0 || occluder.id == point.own ? behind_nothing : vec4(side * occluder.plane_hi.xyz, beyond);
   return cone;
 }
 
 // At least 0 where the occluder stands between the point and a diode at `d`.
-float depth_in(Cone cone, vec3 d, bool flat_z) {
-  return min(min(affine_at(cone.ab, d, flat_z), affine_at(cone.bc, d, flat_z)),
-             min(affine_at(cone.ca, d, flat_z), affine_at(cone.beyond, d, flat_z)));
+float depth_in(Cone cone, vec3 d) {
+  return min(min(affine_at(cone.ab, d), affine_at(cone.bc, d)), min(affine_at(cone.ca, d), affine_at(cone.beyond, d)));
 }
 
 #endif

@@ -278,7 +278,7 @@ void work_off_pairs() {
         }
       }
     }
-    while (subgroupAny(any_unknown != 0u) && steps < most_sweep_steps) { // diodes near the line, one by one
+    while (subgroupAny(any_unknown != 0u) && steps < most_steps) { // diodes near the line, one by one
       uint bit, word = next_bit(unknown, bit), d = bit != 0u ? word * 32u + findLSB(bit) : 0u;
       vec2 diode = texelFetch(diode_texels, int(2u * d)).xy;
       float f = line.x * diode.x + line.y * diode.y + offset;
@@ -413,7 +413,7 @@ void main() {
   for (uint segment = 0; segment < length; segment += most_items) {
     uint end = min(length - segment, most_items), count = keep_items(ways, first + segment, end);
     steps += end / lanes + 2u * count + 8u;
-    if (steps > most_sweep_steps) {
+    if (steps > most_steps) {
       unclear = sees;
       break;
     }

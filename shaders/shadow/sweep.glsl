@@ -7,16 +7,12 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#include "shaders/sampling/grid.glsl"
-#include "shaders/shadow/lit.glsl"
-#include "shaders/view/meet.glsl"
 #include "shaders/shadow/sweep_interface.h"
+#include "shaders/shadow/tiles.glsl"
 
 layout(push_constant, std430) uniform Constants { SweepConstants constants; };
 layout(constant_id = constant_lanes) const uint lanes = 8; // of a subgroup
-layout(constant_id = constant_tiled) const uint tiled = 0;
-layout(constant_id = constant_depth_records) const uint depth_records = 0; // samples are these, row by row, and `strip` counts them
-layout(constant_id = constant_general_chip) const uint general_chip = 0;
+layout(constant_id = constant_most_steps) const uint most_steps = most_sweep_steps;
 
 // Texel buffers: lavapipe fetches the 16 bytes of a texel in a fourth of the time of as many words.
 layout(set = 0, binding = 0) uniform usamplerBuffer item_texels; // four of each item
@@ -52,17 +48,11 @@ Real3 in_board_frame(Real3 p, SweepBoard board) {
 
 // Where the sample lies, camera frame; the lens itself where it sees nothing.
 Real3 point_of(TileSample at, SweepBoard board) {
-  if (depth_records == 0)
-    return load_position(constants.position, at.i);
-  Strip strip = constants.strip;
-  vec2 place = vec2(2 * ivec2(uvec2(strip.column, strip.row) + at.pixel) + 1 - ivec2(strip.resolution_x, strip.resolution_y));
-  return point_at_depth(grid_ray(board.slope, board.chip, place, general_chip != 0), load_record_depth(constants.ids, at.i));
+  return point_of(at, constants.strip, constants.position, constants.ids, board.slope, board.chip);
 }
 
 // What it sees.
-uint shape_seen(TileSample at) {
-  return depth_records == 0 ? shape_of(at, constants.strip, constants.ids, tiled != 0) : load_record_ids(constants.ids, at.i).y;
-}
+uint shape_seen(TileSample at) { return shape_of(at, constants.strip, constants.ids); }
 
 // The normal of the shape that a sample lies on, turned to the lens.
 vec3 normal_in_board_frame(uint id, SweepBoard board) {
@@ -221,8 +211,5 @@ uint round_of(uint place) { return min(place / entries_per_round, sweep_rounds);
 uint list_begin(SweepLists lists, uint kind, uint tile) {
   return lists.list[place_at(kind, tile)] - constants.round * entries_per_round;
 }
-
-// The entry of this workgroup in a list over whose entries workgroups go along y and then z.
-uint entry_of_workgroup() { return gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y; }
 
 #endif

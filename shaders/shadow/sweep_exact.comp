@@ -123,7 +123,7 @@ void main() {
   uint begin = is_long ? diodes_per_bundle * gl_WorkGroupID.x : 0u, end = is_long ? begin + diodes_per_bundle : constants.diodes;
   // Of all loops, asked before any: one that is too long takes the others' turns.
   uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * ((end - begin) / lanes + 2u);
-  if (steps > most_sweep_steps) {
+  if (steps > most_steps) {
     atomicMax(lists.at.lost, 1u);
     return;
   }
@@ -148,7 +148,7 @@ void main() {
   for (uint segment = 0; segment < length; segment += most_items) {
     uint count = keep_items(first + segment, min(length - segment, most_items), own, ways, point, board);
     steps += most_items / 4u + 4u + count * (2u + 3u * (end - begin) / lanes);
-    if (steps > most_sweep_steps) {
+    if (steps > most_steps) {
       atomicMax(lists.at.lost, 1u);
       break;
     }

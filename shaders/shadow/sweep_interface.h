@@ -2,7 +2,7 @@
 #ifndef PMDSIM_SWEEP_INTERFACE_H
 #define PMDSIM_SWEEP_INTERFACE_H
 
-#include "shaders/shadow/lit_interface.h"
+#include "shaders/light/source_windows.h"
 
 #ifdef __cplusplus
 namespace pmdsim::shader {

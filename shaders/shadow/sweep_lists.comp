@@ -120,7 +120,7 @@ void main() {
     return;
 
   uint steps = 0u;
-  for (uint root = 0; root < board.level_count[2] && steps < most_sweep_steps; root += boxes_of_root) {
+  for (uint root = 0; root < board.level_count[2] && steps < most_steps; root += boxes_of_root) {
     steps += 16u;
     uint hits = subgroupBallot(lane() < boxes_of_root && root + lane() < board.level_count[2] && meets_box(all, board.level_first[2], root + lane())).x;
     uint count_1 = 0u, count_0 = 0u, count = 0u;
@@ -152,7 +152,7 @@ void main() {
       }
     }
   }
-  if (is_first != 0 && steps >= most_sweep_steps)
+  if (is_first != 0 && steps >= most_steps)
     atomicMax(lists.at.lost, 1u);
   if (is_first == 0 || !is_there)
     return;

@@ -10,8 +10,9 @@ layout(constant_id = constant_all_facing) const uint all_facing = 0;
 bool may_turn_away(TileSample at, vec3 p, SweepBoard board) {
   uint own = shape_seen(at);
   vec3 normal = normal_in_board_frame(own, board);
-  float lowest = -dot(normal, p) - 1.00001 * board.radius * length(normal.xy);
-  return lowest < 1e-6 * (length(p) + board.radius);
+  float of_depths = min(normal.z * board.diodes_low, normal.z * board.diodes_high);
+  float lowest = of_depths - dot(normal, p) - 1.00001 * board.radius * length(normal.xy);
+  return lowest < 1e-6 * (length(p) + board.radius + max(abs(board.diodes_low), abs(board.diodes_high)));
 }
 
 void main() {

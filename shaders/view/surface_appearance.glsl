@@ -64,9 +64,7 @@ struct Look {
   float backscatter; // as in TrianglePlane
 };
 
-Look look_of(uvec2 shape_paints, uvec2 surface_paints, uint id, Real3 point) {
-  ShapePaint shape = ShapePaints(shape_paints).at[id];
-  SurfacePaint surface = SurfacePaints(surface_paints).at[shape.surface];
+Look look_of(ShapePaint shape, SurfacePaint surface, Real3 point) {
   Real3 offset = subtract3(point, real3(shape.origin_hi.xyz, shape.origin_lo.xyz));
   vec4 d = vec4(high3(offset), 1.0);
   vec4 vertex_colour = vec4(dot(shape.red, d), dot(shape.green, d), dot(shape.blue, d), dot(shape.alpha, d));
@@ -76,6 +74,11 @@ Look look_of(uvec2 shape_paints, uvec2 surface_paints, uint id, Real3 point) {
   Real radius = real(shape.origin_hi.w, shape.origin_lo.w);
   bool inside = high(radius) == 0.0 || high(add(dot3(offset, offset), negate(multiply(radius, radius)))) <= 0.0;
   return Look(opaque && inside, max(0.0, dot(surface.backscatter.rgb, colour.rgb) + surface.backscatter.a));
+}
+
+Look look_of(uvec2 shape_paints, uvec2 surface_paints, uint id, Real3 point) {
+  ShapePaint shape = ShapePaints(shape_paints).at[id];
+  return look_of(shape, SurfacePaints(surface_paints).at[shape.surface], point);
 }
 
 // Whether the shape may have holes or is less than its triangle.

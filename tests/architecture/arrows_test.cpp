@@ -154,5 +154,4 @@ TEST_CASE("an arrow against the architecture is noticed") {
   CHECK_FALSE(is_allowed("engine/light/accumulate_pass.h", "engine/error_budget/plan.h"));
   CHECK_FALSE(is_allowed("shaders/sampling/chip.glsl", "shaders/light/sum.glsl"));
   CHECK(is_allowed("engine/frame/frame_passes.cpp", "engine/view/points_pass.h"));
-  CHECK(is_allowed("engine/shadow/occluder_tree.cpp", "embree3/rtcore.h"));
 }

@@ -2,7 +2,7 @@
 // every struct that a compiled shader carries is compared with the compiler's.
 
 #include "engine/vulkan/shader_module.h"
-#include "shaders/shadow/lit_interface.h"
+#include "shaders/shadow/holes_interface.h"
 #include "shaders/shadow/sweep_interface.h"
 #include "tests/architecture/spirv_layout.h"
 
@@ -72,21 +72,14 @@ const std::map<std::string, HostLayout> host_layouts{
            surfaces, list),
     STRUCT(LensSearchConstants, strip, lens, view, fragments, planes, corners, candidates, ids, position, surface,
            backscatter, shapes, surfaces),
-    STRUCT(Occluder, plane_hi, plane_lo, a_hi, b_hi, c_hi, a_lo, b_lo, c_lo, id, edges, may_be_absent,
-           body),
-    STRUCT(TreeNode, low_x, low_y, low_z, skip, high_x, high_y, high_z, occluder),
     STRUCT(DiodeBox, low, high),
     STRUCT(BundleDiodes, centre, extent, places),
-    STRUCT(TilePart, low, high, nearest_m, farthest_m, own, body, own_ids),
-    STRUCT(Dispatch, x, y, z, count),
-    STRUCT(LitWork, list),
-    STRUCT(LitScene, planes, occluders, tree, bodies, shapes, surfaces, nodes, world_rounding),
-    STRUCT(LitTilesConstants, strip, position, ids, scene, parts),
-    STRUCT(LitGatherConstants, strip, position, ids, parts, scene, boxes, work, candidates, part_count,
-           bundle, slots),
-    STRUCT(LitDecideConstants, strip, position, ids, parts, scene, diodes, work, candidates, visibility,
-           bundle, part_count, slots, first_node, last_node),
-    STRUCT(LitCountConstants, visibility, diodes, lit, plane),
+    STRUCT(HolesWindow, box, slope, shining, chip, paints, surfaces, bundles, shapes, first_block, first_range,
+           world_rounding),
+    STRUCT(TileBox, low, high),
+    STRUCT(HolesWork, ranges),
+    STRUCT(HolesConstants, strip, position, ids, window, boxes, work, shaded, visibility, lit, first_range, range, tiles,
+           plane),
     STRUCT(TileList, groups_x, groups_y, groups_z, count),
     STRUCT(SweepBoard, rows_hi, rows_lo, slope, shining, supports_a, supports_b, lens_z, radius, rest_step, highest,
            diodes_low, diodes_high, leaves_none, padding_1, level_first, level_count, chip, lit, piercers,

@@ -35,6 +35,7 @@ const std::vector<Form> forms{
     {"uniform pixels", &PathForms::uniform_pixels, 2, Mode::automatic, "pixels"},
     {"uniform pixels of one sample", &PathForms::uniform_single_samples, 1, Mode::automatic, "pixels"},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels, 2, Mode::automatic, "pixels"},
+    {"the sweep on the host", &PathForms::host_sweep, 1, Mode::exact, "visibility"},
 };
 
 struct Taken {
@@ -49,12 +50,17 @@ Taken take(const Form &form, bool allowed) {
   Accuracy accuracy;
   accuracy.mode = form.mode;
   accuracy.max_error_m = asked_for_m;
-  const Scene scene = wall_at(2.0);
+  const bool shaded = form.of == "visibility";
+  SceneBuilder builder;
+  builder.add_wall({2.0});
+  if (shaded)
+    builder.add_wall({1.0, {}, {0.2, -0.1}, {0.4, 0.1}});
+  const Scene scene = builder.scene();
   Sensor sensor = wide_sensor();
   sensor.samples = form.samples;
   Simulator simulator = make_simulator(options);
-  simulator.prepare(scene, sensor, {light_at(ring(48, 0.1), 0.0)}, Backscatter::constant, Shadows::off,
-                    accuracy);
+  simulator.prepare(scene, sensor, {light_at(ring(48, 0.1), 0.0)}, Backscatter::constant,
+                    shaded ? Shadows::automatic : Shadows::off, accuracy);
   const auto path = simulator.path();
   const auto of = std::ranges::find(path, form.of, &std::pair<std::string, std::string>::first);
   REQUIRE(of != path.end());

@@ -174,10 +174,12 @@ TEST_CASE("discs and shapes with holes are known as such") {
   Scene scene = builder.scene();
   scene.discs.push_back({static_cast<std::uint32_t>(scene.positions_m.size()), 0.05, 0, 0});
   scene.positions_m.push_back(node_from_camera().point({0, 0, 1.2}));
-  const auto occluders = find_occluders(to_camera(scene, Sensor()), scene, ring_light()).shapes;
-  REQUIRE(occluders.size() == 3);
-  for (const shader::Occluder &occluder : occluders)
-    CHECK(occluder.may_be_absent == (occluder.id == 3 ? 0u : 1u));
+  const Occluders occluders = find_occluders(to_camera(scene, Sensor()), scene, ring_light());
+  REQUIRE(occluders.shapes.size() == 1);
+  CHECK(occluders.shapes[0].id == 3);
+  REQUIRE(occluders.with_holes.size() == 2);
+  CHECK(occluders.with_holes[0].id == 2);
+  CHECK(occluders.with_holes[1].id == 4);
 }
 
 TEST_CASE("an occluder is its triangle, to 48 bits, and its plane holds it") {
@@ -265,27 +267,4 @@ TEST_CASE("nothing that blocks any light is left out") {
   }
   CHECK(blocked > 1000);
   CHECK(left_out > 40);
-}
-
-TEST_CASE("a convex body counts as one where the lens and the diodes are outside") {
-  SceneBuilder builder;
-  builder.add_wall({3.0});
-  add_box(builder, {-0.2, -0.2, 1.0}, {0.2, 0.2, 1.2});
-  const CameraScene camera = to_camera(builder.scene(), Sensor());
-  const auto body = [&](const std::vector<CameraIlluminator> &lights) {
-    const Occluders occluders = find_occluders(camera, builder.scene(), lights);
-    REQUIRE(occluders.bodies.size() == builder.scene().shape_count());
-    CHECK(occluders.bodies[0] == no_id);
-    CHECK(std::set(occluders.bodies.begin() + 2, occluders.bodies.end()).size() == 1);
-    for (const shader::Occluder &occluder : occluders.shapes)
-      CHECK(occluder.body == occluders.bodies[occluder.id]);
-    return occluders.bodies[2];
-  };
-  CHECK(body(ring_light()) != no_id);
-  CHECK(body(ring_light(0.1, 1.1)) == no_id); // the diodes stand in the box
-  SceneBuilder around;
-  add_box(around, glm::dvec3(-1), glm::dvec3(1));
-  const auto of_lens =
-      find_occluders(to_camera(around.scene(), Sensor()), around.scene(), ring_light(0.1, 5));
-  CHECK(of_lens.bodies == std::vector<std::uint32_t>(12, no_id));
 }

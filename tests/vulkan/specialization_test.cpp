@@ -1,9 +1,8 @@
 // A pipeline gets all constants that its shader declares and no others.
 
 #include "engine/vulkan/compute_pipeline.h"
-#include "shaders/light/source_windows.h"
-#include "shaders/shadow/lit_interface.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/interface.h"
 
 #include <catch2/catch.hpp>
 
@@ -44,16 +43,16 @@ TEST_CASE("a pipeline refuses a constant that was forgotten, by its shader's nam
     if (!what_is_lacking(physical).empty())
       continue;
     const Device device(instance, physical);
-    const ShaderModule &module = module_of("lit_count");
+    const ShaderModule &module = shader_module(device, SamplePrecision::automatic, "settle_edges");
     const auto make = [&](const Specialization &constants) {
-      return ComputePipeline(device, module, sizeof(shader::LitCountConstants), constants);
+      return ComputePipeline(device, module, sizeof(shader::SettleEdgesConstants), constants);
     };
     CHECK_NOTHROW(make(all_of(module)));
     CHECK_THROWS_AS(make({}), std::logic_error);
-    CHECK_THROWS_WITH(make(all_but(module, shader::constant_is_first)),
-                      Contains("lit_count") && Contains("is_first"));
-    CHECK_THROWS_WITH(make(all_but(module, shader::constant_bundles)),
-                      Contains("lit_count") && Contains("bundles"));
+    CHECK_THROWS_WITH(make(all_but(module, shader::constant_tiled)),
+                      Contains("settle_edges") && Contains("tiled"));
+    CHECK_THROWS_WITH(make(all_but(module, shader::constant_general_chip)),
+                      Contains("settle_edges") && Contains("general_chip"));
   }
 }
 
@@ -72,7 +71,7 @@ TEST_CASE("a vertex shader's constant may be a float") {
 }
 
 TEST_CASE("constants that a module does not declare stay outside") {
-  const ShaderModule &module = module_of("lit_count");
+  const ShaderModule &module = module_of("settle_edges");
   Specialization constants = all_of(module);
   constants.set(shader::constant_taps, 4);
   CHECK(declared_part(module, constants) == all_of(module));

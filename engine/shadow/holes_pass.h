@@ -1,0 +1,35 @@
+#pragma once
+// The shadow pass behind the sweep: what triangles with holes and discs keep off. They have no silhouettes
+// that the mesh knows, so the light's way is tested with each of them that it may meet.
+
+#include "engine/light/accumulate_pass.h"
+#include "engine/light/source_windows.h"
+#include "engine/sampling/sample_grid.h"
+#include "shaders/shadow/occluder.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+class HolesPass {
+public:
+  // `records`: where samples are these; then `shaded` are those of their tiles that not every diode may
+  // reach, as the passes before have them. Throws Error (out_of_memory).
+  HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes, const SourceGroups &groups,
+            const std::vector<SourceWindow> &windows, std::span<const PlannedStrip> strips,
+            const std::optional<ChipGrid> &records, const SampleTiles &shaded);
+  ~HolesPass();
+
+  // Clears bits in the strip's visibility, takes their diodes off `lit`, and adds tiles to those that are
+  // shaded.
+  void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window) const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,22 @@
+#pragma once
+// A strip's samples as the shadow passes take them: in tiles.
+
+#include "engine/sampling/raster_blocks.h"
+#include "engine/sampling/sample_grid.h"
+#include "shaders/shared/interface.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace pmdsim {
+
+std::uint32_t tiles_across(std::uint32_t pixels);
+std::uint32_t tile_count(const shader::Strip &strip);
+// Of any of the strips.
+std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips);
+
+// The strip as tiles are cut: depth records lie row by row.
+shader::Strip sample_strip(const shader::Strip &strip, bool depth_records);
+
+} // namespace pmdsim
