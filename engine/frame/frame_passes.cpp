@@ -4,7 +4,7 @@
 #include "engine/model/error.h"
 #include "engine/sampling/raster_blocks.h"
 #include "engine/shadow/holes_pass.h"
-#include "engine/shadow/host_sweep.h"
+#include "engine/shadow/host/host_sweep.h"
 #include "engine/shadow/sweep_pass.h"
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"

@@ -1,4 +1,4 @@
-#include "engine/shadow/silhouette_tree.h"
+#include "engine/shadow/host/silhouette_tree.h"
 
 #include <array>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 // The tree over a board's items as the host's sweep walks it.
 
-#include "engine/shadow/silhouettes.h"
+#include "engine/shadow/host/silhouettes.h"
 #include "engine/shadow/sweep_items.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-#include "engine/shadow/host_sweep.h"
+#include "engine/shadow/host/host_sweep.h"
 
-#include "engine/shadow/silhouette_tree.h"
+#include "engine/shadow/host/silhouette_tree.h"
 #include "engine/shadow/sweep_tables.h"
 #include "engine/shadow/tiles.h"
 #include "engine/vulkan/shader_module.h"

@@ -1,7 +1,7 @@
 // The loops of the host's sweep. Compiled once for each instruction set, PMDSIM_INSTRUCTION_SET its name; see
-// engine/CMakeLists.txt. They do what shaders/shadow/sweep*.comp do, a lane an edge in place of a sample.
-#include "engine/shadow/lanes.h"
-#include "engine/shadow/silhouettes.h"
+// engine/CMakeLists.txt. They do what the shaders of the sweep do, a lane an edge in place of a sample.
+#include "engine/shadow/host/lanes.h"
+#include "engine/shadow/host/silhouettes.h"
 
 #include <bit>
 #include <cmath>
