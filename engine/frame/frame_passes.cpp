@@ -169,7 +169,11 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   if (!pixels)
     return;
   const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
-  SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
+  SumScope scope{.shadowed = pixels->shadowed,
+                 .beforehand = on.path.point_dimensions > 0 && !pixels->shadowed,
+                 .precision = pixels->precision,
+                 .list = list,
+                 .bound = pixels->bound};
   if (on.path.record == SampleRecord::depth)
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && !on.path.points_first)
@@ -178,6 +182,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
     SumScope unshadowed = scope;
     unshadowed.shadowed = false;
+    unshadowed.beforehand = on.path.point_dimensions > 0;
     graph.add_to_window(accumulate_pass(on, groups, of_windows, unshadowed));
     scope.tiles.emplace(*shadowed_tiles);
   }
@@ -198,7 +203,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
                                 modulation.largest_wavenumber_rad_m(), precision);
   const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
-  const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
+  const SumScope scope{.shadowed = modulation.lit, .precision = precision, .list = &check.list()};
   graph.add_before(check.list_pass());
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));

@@ -1,5 +1,6 @@
 #include "engine/light/accumulate_pass.h"
 
+#include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
 #include "engine/sampling/pixel_lists.h"
 #include "engine/vulkan/commands.h"
@@ -71,6 +72,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_powers, groups.polynomials.powers},
           {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
           {shader::constant_coplanar, groups.polynomials.coplanar},
+          {shader::constant_point_dimensions, scope.beforehand ? groups.polynomials.point_dimensions : 0},
           {shader::constant_backscatter_model, on.model.backscatter},
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},
@@ -145,10 +147,17 @@ private:
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
   std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_, diodes_, diagrams_;
-  vk::DeviceSize diode_bytes_;    // of each
+  vk::DeviceSize run_bytes_;      // of the diodes of each run
   vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
+
+// What a run's diodes are summed from.
+vulkan::Buffer upload_sum(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  return scope.beforehand ? vulkan::upload(on.device, point_polynomials(groups, on.model,
+                                                                        groups.polynomials.point_dimensions))
+                          : upload_diodes(on.device, groups, scope);
+}
 
 Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
@@ -158,8 +167,8 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
       planes_(on.modulation.planes), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
-      diodes_(upload_diodes(on.device, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
-      diode_bytes_(diodes_.bytes() / groups.diodes.size()), first_(make_pipeline(on, groups, scope, true)) {
+      diodes_(upload_sum(on, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
+      run_bytes_(diodes_.bytes() / groups.runs.size()), first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)
     later_ = make_pipeline(on, groups, scope, false);
 }
@@ -196,7 +205,7 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
         buffers_.backscatter.words(),
         buffers_.sum.words(vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
         light_runs_.words(run * sizeof(shader::LightRun)),
-        diodes_.words(runs_[run].first * diode_bytes_),
+        diodes_.words(run * run_bytes_),
         tones_.words(d * sizeof(shader::Tone)),
         diagrams_.words(),
         buffers_.visibility.words(bundle * plane * sizeof(std::uint32_t)),
@@ -219,7 +228,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             scene_.planes.words(),
                                             buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),
-                                            diodes_.words(runs_[run].first * diode_bytes_),
+                                            diodes_.words(run * run_bytes_),
                                             tones_.words(),
                                             diagrams_.words(),
                                             blocks_per_run_,

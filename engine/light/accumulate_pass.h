@@ -34,6 +34,7 @@ struct PassSetup {
 // Which samples are summed, and how exactly.
 struct SumScope {
   bool shadowed = false;                   // not every diode reaches every sample
+  bool beforehand = false;                 // the diodes are summed beforehand (point_polynomials.h)
   Precision precision = Precision::fp32;   // of the groups and of the surfaces' vectors
   const vulkan::Buffer *list = nullptr;    // of pixels; else all
   std::optional<ErrorBound> bound{};       // what the sum's error is to be held against

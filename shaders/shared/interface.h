@@ -192,6 +192,16 @@ struct LightRun {
 PMDSIM_CONSTANT largest_powers = 12; // of q
 PMDSIM_CONSTANT largest_moments = 9;
 
+// The sums of powers of q of a run as polynomials of the point (engine/light/point_polynomials.h). Behind it the
+// coefficients, of S_0 first: term by term, of each the components.
+struct PointPolynomials {
+  vec4 axis;        // as in GroupSource, of all diodes
+  float per_metre;  // 1 / unit
+  float unit_m;     // that the coefficients have for lengths, a power of two
+  float unit_m2;    // its square
+  float unused;
+};
+
 // A harmonic of a modulation frequency.
 struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
