@@ -7,6 +7,7 @@
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
+#include "engine/signal/direct_pixels.h"
 #include "engine/signal/read_back.h"
 #include "engine/view/edge_settling.h"
 #include "engine/view/lens_search_pass.h"
@@ -178,6 +179,8 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && !on.path.points_first)
     graph.add_after(points_of(on, pixels->precision, list));
+  if (on.path.direct)
+    scope.output = direct_pixels(on, groups, scope);
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : windows;
   if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
     SumScope unshadowed = scope;
@@ -188,7 +191,8 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   }
   Pass sum = accumulate_pass(on, groups, of_windows, scope);
   list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
-  graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  if (!on.path.direct)
+    graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.

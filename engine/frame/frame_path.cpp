@@ -1,6 +1,7 @@
 #include "engine/frame/frame_path.h"
 
 #include "engine/sampling/sample_grid.h"
+#include "engine/signal/direct_pixels.h"
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
@@ -160,9 +161,10 @@ std::string summation_text(const FramePath &path) {
 }
 
 std::string record_text(const FramePath &path) {
-  return path.record == SampleRecord::point ? "point"
-         : path.one_backscatter             ? "depth, one backscatter"
-                                            : "depth";
+  return path.record == SampleRecord::point
+             ? "point"
+             : fmt::format("depth{}{}", path.one_backscatter ? ", one backscatter" : "",
+                           path.direct ? ", to channels at once" : "");
 }
 
 } // namespace
@@ -195,6 +197,9 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
+  path.direct = allowed.direct_pixels && path.host_reads_truth && path.single_run &&
+                facts.modulation.waveform == shader::waveform_sine && !facts.modulation.keep_taps &&
+                facts.modulation.frequencies() <= most_direct_frequencies;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);
   return path;

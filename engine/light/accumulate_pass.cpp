@@ -21,7 +21,8 @@ namespace {
 constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
-  return scope.depth_records                  ? "accumulate_depths"
+  return scope.output                         ? scope.output->module
+         : scope.depth_records                ? "accumulate_depths"
          : !modulation.by_moments()           ? "accumulate_per_diode"
          : scope.precision == Precision::fp64 ? "accumulate_precise"
                                               : "accumulate";
@@ -141,6 +142,7 @@ private:
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
   std::optional<SampleTiles> tiles_;
+  std::shared_ptr<const SumOutput> output_;
   std::vector<SourceRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_, bundles_per_run_;
@@ -162,7 +164,7 @@ vulkan::Buffer upload_sum(const PassSetup &on, const SourceGroups &groups, const
 Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
-      depth_records_(scope.depth_records), tiles_(scope.tiles), runs_(groups.runs),
+      depth_records_(scope.depth_records), tiles_(scope.tiles), output_(scope.output), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
@@ -177,6 +179,8 @@ vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGrou
                                            const SumScope &scope, bool first) const {
   vulkan::Specialization constants = sum_constants(on, groups, scope);
   constants.set(shader::constant_is_first, first).set(shader::constant_is_only, runs_.size() == 1);
+  if (scope.output)
+    constants.merge(scope.output->constants);
   if (depth_records_)
     constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
   return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.modulation, scope)),
@@ -226,7 +230,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             depth_records_->chip(),
                                             buffers_.ids.words(),
                                             scene_.planes.words(),
-                                            buffers_.sum.words(),
+                                            output_ ? output_->record.words() : buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),
                                             diodes_.words(run * run_bytes_),
                                             tones_.words(),
@@ -250,8 +254,9 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.list ? pixel_lists : no_resource),
-          .writes = sums | terms,
+                   (scope.list ? pixel_lists : no_resource) |
+                   (scope.output && on.modulation.lit ? visibility_counts : no_resource),
+          .writes = scope.output ? channels : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },
           .parts =
               [windows](std::size_t of) {

@@ -21,6 +21,7 @@ struct PathForms {
   bool point_polynomials = true;      // sums over the diodes, beforehand, as polynomials of the point
   bool depth_records = true;          // a sample's ID and depth in place of its point
   bool one_backscatter = true;        // of all that is seen, not looked up
+  bool direct_pixels = true;          // from depth records to channels at once
   bool uniform_pixels = true;         // from IDs to channels at once
   bool uniform_single_samples = true; // the same where pixels have one sample
   bool refined_uniform_pixels = true; // at four points of a pixel
