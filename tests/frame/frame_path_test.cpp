@@ -47,6 +47,9 @@ struct Taken {
 Taken take(const Form &form, bool allowed) {
   SimulatorOptions options;
   options.loop = DiodeLoop::looped; // compiles faster
+  // What is summed beforehand has no loop over the diodes, whose forms these are.
+  options.allowed.point_polynomials =
+      form.allowed != &PathForms::equal_weights && form.allowed != &PathForms::coplanar;
   options.allowed.*form.allowed = allowed;
   Accuracy accuracy;
   accuracy.mode = form.mode;
