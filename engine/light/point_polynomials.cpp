@@ -13,7 +13,7 @@ namespace {
 // What a diode costs the loop, in coefficients: its record's loads, and some products for each power.
 constexpr std::size_t coefficients_per_diode = 6;
 // Of diodes that stand in no plane. Beyond it the code grows faster than it saves.
-constexpr std::uint32_t most_spatial_powers = 6;
+constexpr std::uint32_t most_spatial_powers = 7;
 // How much the distances of a run's diodes along their axis may differ, over their radius: what rounding to
 // float makes of such a distance.
 constexpr double same_distance = 0x1p-24;
