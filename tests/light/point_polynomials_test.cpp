@@ -4,7 +4,6 @@
 #include "tests/support/random_scenes.h"
 #include "tests/support/units.h"
 
-#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -68,8 +67,8 @@ double beforehand(const std::vector<float> &words, std::uint32_t dimensions, con
       for (std::uint32_t l = 0; l <= (dimensions == 3 ? of_y_and_z : 0); ++l, ++term)
         for (std::size_t component = 0; component < components; ++component)
           sum += static_cast<double>(words[first + term * components + component]) *
-                 factors[static_cast<int>((component + 3) % 4 == 3 ? 0 : component)] *
-                 std::pow(at.x, n - of_y_and_z) * std::pow(at.y, of_y_and_z - l) * std::pow(at.z, l);
+                 factors[static_cast<int>(component)] * std::pow(at.x, n - of_y_and_z) *
+                 std::pow(at.y, of_y_and_z - l) * std::pow(at.z, l);
   return sum * std::pow(unit_m, 2.0 * power);
 }
 
