@@ -9,6 +9,7 @@
 #include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
+#include "engine/signal/direct_pixels.h"
 #include "engine/signal/read_back.h"
 #include "engine/view/edge_settling.h"
 #include "engine/view/lens_search_pass.h"
@@ -206,21 +207,29 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   if (!pixels)
     return;
   const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
-  SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
+  SumScope scope{.shadowed = pixels->shadowed,
+                 .beforehand = on.path.point_dimensions > 0 && !pixels->shadowed,
+                 .precision = pixels->precision,
+                 .list = list,
+                 .bound = pixels->bound};
   if (on.path.record == SampleRecord::depth)
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && !on.path.points_first)
     graph.add_after(points_of(on, pixels->precision, list));
+  if (on.path.direct)
+    scope.output = direct_pixels(on, groups, scope);
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : windows;
   if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
     SumScope unshadowed = scope;
     unshadowed.shadowed = false;
+    unshadowed.beforehand = on.path.point_dimensions > 0;
     graph.add_to_window(accumulate_pass(on, groups, of_windows, unshadowed));
     scope.tiles.emplace(*shadowed_tiles);
   }
   Pass sum = accumulate_pass(on, groups, of_windows, scope);
   list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
-  graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  if (!on.path.direct)
+    graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
@@ -235,7 +244,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
                                 modulation.largest_wavenumber_rad_m(), precision);
   const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
-  const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
+  const SumScope scope{.shadowed = modulation.lit, .precision = precision, .list = &check.list()};
   graph.add_before(check.list_pass());
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));

@@ -1,6 +1,7 @@
 #include "engine/frame/frame_path.h"
 
 #include "engine/sampling/sample_grid.h"
+#include "engine/signal/direct_pixels.h"
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
@@ -105,6 +106,15 @@ bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const Fram
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 
+// Where samples that a source does not light or does not face are summed apart or are not there, and where no
+// error is claimed for the loop over the sources.
+std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
+  const bool takes_all = path.windows > 0 ? path.record == SampleRecord::depth : facts.model.all_facing;
+  const bool is_plain = !path.is_sorted() && !plan.is_reduced() && !facts.modulation.keeps_terms &&
+                        plan.precision == Precision::fp32 && path.summation == Summation::polynomial_moments;
+  return takes_all && is_plain ? plan.all.polynomials.point_dimensions : 0;
+}
+
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
@@ -132,8 +142,9 @@ std::string text_of(const PixelClass &pixels) {
 std::string summation_text(const FramePath &path) {
   switch (path.summation) {
   case Summation::polynomial_moments:
-    return fmt::format("{} moments from {} powers{}{}", path.moments, path.powers,
-                       path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "");
+    return fmt::format("{} moments from {} powers{}{}{}", path.moments, path.powers,
+                       path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "",
+                       path.point_dimensions > 0 ? ", summed beforehand" : "");
   case Summation::moments:
     return fmt::format("{} moments", path.moments);
   case Summation::per_diode:
@@ -143,9 +154,10 @@ std::string summation_text(const FramePath &path) {
 }
 
 std::string record_text(const FramePath &path) {
-  return path.record == SampleRecord::point ? "point"
-         : path.one_backscatter             ? "depth, one backscatter"
-                                            : "depth";
+  return path.record == SampleRecord::point
+             ? "point"
+             : fmt::format("depth{}{}", path.one_backscatter ? ", one backscatter" : "",
+                           path.direct ? ", to channels at once" : "");
 }
 
 std::string visibility_text(const FramePath &path) {
@@ -182,9 +194,13 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.classes = classes_of(facts, plan, request, windows, allowed);
   path.record =
       keeps_depth_only(path, facts, plan, sensor, allowed) ? SampleRecord::depth : SampleRecord::point;
+  path.point_dimensions = point_dimensions(path, facts, plan);
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
+  path.direct = allowed.direct_pixels && path.host_reads_truth && path.single_run &&
+                facts.modulation.waveform == shader::waveform_sine && !facts.modulation.keep_taps &&
+                facts.modulation.frequencies() <= most_direct_frequencies;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);
   return path;

@@ -55,8 +55,11 @@ struct FramePath {
   Summation summation;
   std::uint32_t powers, moments; // of the sum over all sources
   bool equal_weights, coplanar;
+  std::uint32_t
+      point_dimensions;  // of the polynomials that unshadowed samples' sums are; 0: loops over sources
   bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
+  bool direct;           // from depth records to channels at once
   bool host_reads_truth; // coverage, depth and IDs come off the records
   // In the order in which they are summed. One class of all pixels, or classes that pixels are sorted into:
   // those that the first ones leave are listed for those that follow.

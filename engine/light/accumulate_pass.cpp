@@ -1,5 +1,6 @@
 #include "engine/light/accumulate_pass.h"
 
+#include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
 #include "engine/sampling/pixel_lists.h"
 #include "engine/vulkan/commands.h"
@@ -20,7 +21,8 @@ namespace {
 constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
-  return scope.depth_records                  ? "accumulate_depths"
+  return scope.output                         ? scope.output->module
+         : scope.depth_records                ? "accumulate_depths"
          : !modulation.by_moments()           ? "accumulate_per_diode"
          : scope.precision == Precision::fp64 ? "accumulate_precise"
                                               : "accumulate";
@@ -71,6 +73,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_powers, groups.polynomials.powers},
           {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
           {shader::constant_coplanar, groups.polynomials.coplanar},
+          {shader::constant_point_dimensions, scope.beforehand ? groups.polynomials.point_dimensions : 0},
           {shader::constant_backscatter_model, on.model.backscatter},
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},
@@ -139,27 +142,35 @@ private:
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
   std::optional<SampleTiles> tiles_;
+  std::shared_ptr<const SumOutput> output_;
   std::vector<SourceRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
   std::uint32_t blocks_per_run_, bundles_per_run_;
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
   std::uint32_t planes_;     // of the sum, of each frequency
   vulkan::Buffer tones_, diodes_, diagrams_;
-  vk::DeviceSize diode_bytes_;    // of each
+  vk::DeviceSize run_bytes_;      // of the diodes of each run
   vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
+// What a run's diodes are summed from.
+vulkan::Buffer upload_sum(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  return scope.beforehand ? vulkan::upload(on.device, point_polynomials(groups, on.model,
+                                                                        groups.polynomials.point_dimensions))
+                          : upload_diodes(on.device, groups, scope);
+}
+
 Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
-      depth_records_(scope.depth_records), tiles_(scope.tiles), runs_(groups.runs),
+      depth_records_(scope.depth_records), tiles_(scope.tiles), output_(scope.output), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
       planes_(on.modulation.planes), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
-      diodes_(upload_diodes(on.device, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
-      diode_bytes_(diodes_.bytes() / groups.diodes.size()), first_(make_pipeline(on, groups, scope, true)) {
+      diodes_(upload_sum(on, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
+      run_bytes_(diodes_.bytes() / groups.runs.size()), first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)
     later_ = make_pipeline(on, groups, scope, false);
 }
@@ -168,6 +179,8 @@ vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGrou
                                            const SumScope &scope, bool first) const {
   vulkan::Specialization constants = sum_constants(on, groups, scope);
   constants.set(shader::constant_is_first, first).set(shader::constant_is_only, runs_.size() == 1);
+  if (scope.output)
+    constants.merge(scope.output->constants);
   if (depth_records_)
     constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
   return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.modulation, scope)),
@@ -196,7 +209,7 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
         buffers_.backscatter.words(),
         buffers_.sum.words(vk::DeviceSize{d} * planes_ * plane * sizeof(shader::vec4)),
         light_runs_.words(run * sizeof(shader::LightRun)),
-        diodes_.words(runs_[run].first * diode_bytes_),
+        diodes_.words(run * run_bytes_),
         tones_.words(d * sizeof(shader::Tone)),
         diagrams_.words(),
         buffers_.visibility.words(bundle * plane * sizeof(std::uint32_t)),
@@ -217,9 +230,9 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             depth_records_->chip(),
                                             buffers_.ids.words(),
                                             scene_.planes.words(),
-                                            buffers_.sum.words(),
+                                            output_ ? output_->record.words() : buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),
-                                            diodes_.words(runs_[run].first * diode_bytes_),
+                                            diodes_.words(run * run_bytes_),
                                             tones_.words(),
                                             diagrams_.words(),
                                             blocks_per_run_,
@@ -241,8 +254,9 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.list ? pixel_lists : no_resource),
-          .writes = sums | terms,
+                   (scope.list ? pixel_lists : no_resource) |
+                   (scope.output && on.modulation.lit ? visibility_counts : no_resource),
+          .writes = scope.output ? channels : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },
           .parts =
               [windows](std::size_t of) {

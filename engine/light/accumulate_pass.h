@@ -14,7 +14,9 @@
 #include "engine/view/surface_appearance.h"
 #include "engine/vulkan/shader_module.h"
 
+#include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
@@ -31,14 +33,23 @@ struct PassSetup {
   const SceneBuffers &scene;
 };
 
+// Where the sum goes instead of its planes: a shader of its own, which makes channels of it at once.
+struct SumOutput {
+  std::string_view module;
+  vulkan::Specialization constants; // beside the sum's
+  vulkan::Buffer record;            // what DepthSumConstants::sum leads to
+};
+
 // Which samples are summed, and how exactly.
 struct SumScope {
-  bool shadowed = false;                   // not every diode reaches every sample
-  Precision precision = Precision::fp32;   // of the groups and of the surfaces' vectors
-  const vulkan::Buffer *list = nullptr;    // of pixels; else all
-  std::optional<ErrorBound> bound{};       // what the sum's error is to be held against
-  std::optional<ChipGrid> depth_records{}; // where these are all that is known of the samples
-  std::optional<SampleTiles> tiles{};      // of depth records, which are summed anew, now shadowed
+  bool shadowed = false;                     // not every diode reaches every sample
+  bool beforehand = false;                   // the diodes are summed beforehand (point_polynomials.h)
+  Precision precision = Precision::fp32;     // of the groups and of the surfaces' vectors
+  const vulkan::Buffer *list = nullptr;      // of pixels; else all
+  std::optional<ErrorBound> bound{};         // what the sum's error is to be held against
+  std::optional<ChipGrid> depth_records{};   // where these are all that is known of the samples
+  std::optional<SampleTiles> tiles{};        // of depth records, which are summed anew, now shadowed
+  std::shared_ptr<const SumOutput> output{}; // of depth records
 };
 
 // `windows` hold the runs of `groups`, and where `shadowed` their visibility bits.

@@ -28,6 +28,9 @@ struct MomentPolynomials {
   // Where no shadow falls, the diodes' weights differ by their distances only; those that pad a run have
   // none.
   bool equal_weights = false;
+  // Of the coordinates in which sums over the diodes of any run are polynomials of the point
+  // (point_polynomials.h); 0 where the loop over the diodes is shorter.
+  std::uint32_t point_dimensions = 0;
   // At most, of any run. What the polynomials are off by, of the sum of the weights: by itself, and as an
   // angle at the highest frequency; and what rounding grows by, as the terms of a moment's sum over i, all
   // taken as positive, may come to more than the weights times the largest |e|^k.

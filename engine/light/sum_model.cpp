@@ -1,5 +1,6 @@
 #include "engine/light/sum_model.h"
 
+#include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatt
                    bool all_face_the_light) {
   const LawForm form = form_of(illuminators);
   SumModel model{shader::backscatter_lambert, form.pattern, form.range_powers.value_or(0),
-                 form.range_powers.has_value()};
+                 form.range_powers.has_value(), all_face_the_light};
   if (backscatter == Backscatter::constant)
     model.backscatter = all_face_the_light ? shader::backscatter_flat : shader::backscatter_facing;
   return model;
@@ -57,6 +58,8 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
       allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupSource &diode) {
         return diode.position.z == 0.0f;
       });
+  if (allowed.point_polynomials)
+    groups.polynomials.point_dimensions = point_dimensions(groups, model);
 }
 
 Precision sum_precision(const Modulation &modulation, Precision wanted) {

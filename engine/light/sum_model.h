@@ -20,6 +20,7 @@ struct SumModel {
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
   bool of_lengths = true;    // a diode's weight is a product of lengths and of a power of 1 / r
+  bool all_facing = false;   // every surface faces every diode
 
   // Of normals and heights a sample: none, one, or, to double precision, two.
   std::uint32_t surface_vectors(Precision precision) const {

@@ -18,8 +18,10 @@ struct PathForms {
   bool polynomial_moments = true;     // moments from powers of r_nm^2 - rho^2
   bool equal_weights = true;          // sources of one weight, which are there as positions alone
   bool coplanar = true;               // sources in a plane across the view
+  bool point_polynomials = true;      // sums over the diodes, beforehand, as polynomials of the point
   bool depth_records = true;          // a sample's ID and depth in place of its point
   bool one_backscatter = true;        // of all that is seen, not looked up
+  bool direct_pixels = true;          // from depth records to channels at once
   bool uniform_pixels = true;         // from IDs to channels at once
   bool uniform_single_samples = true; // the same where pixels have one sample
   bool refined_uniform_pixels = true; // at four points of a pixel

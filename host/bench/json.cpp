@@ -160,6 +160,9 @@ ordered_json bench_json(const BenchReport &report) {
       {"results", results_json(report)},
       {"ratios", ratios},
       {"ratios_of_rounds", spreads},
+      {"accumulate_looped_interactions_per_s", report.setup.looped_per_s.empty()
+                                                   ? ordered_json()
+                                                   : spread_json(spread_of(report.setup.looped_per_s))},
       {"native", report.setup.native ? native_json(*report.setup.native) : nullptr},
       {"peak_memory_bytes", or_null(report.setup.peak_memory_bytes)}};
   if (const std::optional<SequenceRate> &rate = report.sequence)

@@ -33,6 +33,9 @@ struct SetupBench {
   std::vector<ModeBench> modes; // the first is exact unless another one was asked for
   // Where there is something to be compared with it: mode exact of a device with the same samples everywhere.
   std::optional<NativeBench> native;
+  // And what is compared: interactions per second of the accumulate pass over the first sensor's samples, one
+  // a round, with each diode in the loop at each sample, as in the native kernel.
+  std::vector<double> looped_per_s;
   std::optional<std::int64_t> peak_memory_bytes; // of the process
 };
 
@@ -50,8 +53,8 @@ struct Ratio {
   Spread of_rounds; // of the ratios within each round
 };
 
-// accumulate_over_native, accumulate_over_native_series and exact_frame_over_MODE_frame, as far as both are
-// there.
+// Of the sum in the loop over the diodes accumulate_over_native, accumulate_over_native_series and
+// exact_frame_over_MODE_frame, as far as both are there.
 std::vector<Ratio> ratios_of(const SetupBench &bench);
 
 } // namespace pmdsim

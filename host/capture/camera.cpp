@@ -26,6 +26,8 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.keep_sample_ids = extras.sample_triangles;
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
+  if (extras.diodes_in_a_loop)
+    options.allowed.point_polynomials = options.allowed.direct_pixels = false;
   // The program never changes its environment any more.
   const char *validate = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
   options.validate = validate && std::string_view(validate) == "1";

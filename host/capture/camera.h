@@ -16,6 +16,7 @@ struct Extras {
   bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
   bool reached = false;          // Measurement::sample_visibility, not from the reference
   bool taps = false;             // Return::taps
+  bool diodes_in_a_loop = false; // nothing is summed beforehand, and the sum is a pass of its own
 };
 
 // Whether a device's name, in any case, is the one of the reference.

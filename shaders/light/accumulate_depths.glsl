@@ -42,10 +42,11 @@ uint visibility_of_block(uint i, uint block) {
   return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
-ReferencePath load_point(uint i, LightRun run, out Point point) {
+// `ray` leads to the point, at its depth.
+ReferencePath load_point(uint i, LightRun run, out Point point, out Real3 ray, out Real3 position) {
   uvec2 at = row_by_row(i, constants.grid.columns, constants.grid.inverse_columns);
-  Real3 ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
-  Real3 position = point_at_depth(ray, load_record_depth(constants.records, i));
+  ray = ray_of(at, constants.grid, constants.chip, general_chip != 0);
+  position = point_at_depth(ray, load_record_depth(constants.records, i));
   vec4 surface = vec4(0.0);
   if (backscatter_model != backscatter_flat) {
     // What only pads has no record.
@@ -53,6 +54,11 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
     surface = load_vec4(constants.planes, 3 * triangle) * vec4(1.0, 1.0, 1.0, -1.0);
   }
   return see_point(position, surface, run, point);
+}
+
+ReferencePath load_point(uint i, LightRun run, out Point point) {
+  Real3 ray, position;
+  return load_point(i, run, point, ray, position);
 }
 
 float load_backscatter(uint i) { return 1.0; }

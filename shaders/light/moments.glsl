@@ -15,6 +15,9 @@ const uint sums = powers > 0 ? powers : moments;
 // Of equal weights S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
 const bool linear_known = equal_weights != 0 && powers > 2;
 
+// Of a run, the diodes summed beforehand (engine/light/point_polynomials.h).
+layout(constant_id = constant_point_dimensions) const uint point_dimensions = 0;
+
 // Of equal weights only the places are there.
 GroupSource load_diode(uvec2 diodes, uint i) {
   if (equal_weights == 0)
@@ -47,15 +50,16 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
 
 // With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
-void find_moments(float total[sums], Point point, LightRun run, out float moment[moments]) {
-  float inverse_rho2 = 1.0 / (point.rho * point.rho), scale = inverse_rho2;
+// `unit_m2`: of the sums, by their power of q.
+void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments]) {
+  float scale = 1.0 / (point.rho * point.rho), inverse_rho2 = unit_m2 * scale;
   uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
-  if (equal_weights != 0)
+  if (equal_weights != 0 && point_dimensions == 0)
     total[0] = run.intensity; // those that pad a run have none, and q = 0
-  if (linear_known)
+  if (linear_known && point_dimensions == 0)
     [[unroll]] for (uint k = 1; k < min(2, sums); ++k)
       total[k] = dot(run.detours.xyz, point.position) + run.detours.w;
   [[unroll]] for (uint k = 0; k < moments; ++k) {
@@ -66,6 +70,56 @@ void find_moments(float total[sums], Point point, LightRun run, out float moment
     }
     moment[k] = powers > 0 ? scale * sum : total[k];
     scale *= point.rho;
+  }
+}
+
+// The sums of powers of q from polynomials of the point. Loops have constant ends and are cut by constant conditions: a loop whose
+// end another one's counter tells is not unrolled.
+const uint components = backscatter_model == backscatter_lambert ? point_dimensions + 1 : 1;
+
+uint triangular(uint n) { return n * (n + 1) / 2; }
+uint tetrahedral(uint n) { return n * (n + 1) * (n + 2) / 6; }
+
+// Of S_degree, by Horner's rule; `first` is the degree's first coefficient.
+float polynomial_of(Floats from, uint first, uint degree, uint component, vec3 at) {
+  float in_z = 0.0;
+  [[unroll]] for (uint l_down = 0; l_down < (point_dimensions == 3 ? powers : 1); ++l_down) {
+    uint l = (point_dimensions == 3 ? powers - 1 : 0) - l_down;
+    float in_y = 0.0;
+    [[unroll]] for (uint k_down = 0; k_down < powers; ++k_down) {
+      uint k = powers - 1 - k_down;
+      float in_x = 0.0;
+      [[unroll]] for (uint j_down = 0; j_down < powers; ++j_down) {
+        uint j = powers - 1 - j_down, n = j + k + l;
+        uint place = point_dimensions == 3 ? tetrahedral(n) + triangular(k + l) + l : triangular(n) + k;
+        if (n <= degree)
+          in_x = in_x * at.x + from.at[first + place * components + component];
+      }
+      in_y = in_y * at.y + in_x;
+    }
+    in_z = in_z * at.z + in_y;
+  }
+  return in_z;
+}
+
+void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out float unit_m2) {
+  PointPolynomials head = PointPolynomialsOf(polynomials).at;
+  Floats from = Floats(polynomials);
+  unit_m2 = head.unit_m2;
+  float shared_cosines = 1.0;
+  if (pattern_model == pattern_power)
+    shared_cosines = whole_power(max(0.0, dot(head.axis.xyz, point.position) - head.axis.w));
+  vec3 at = head.per_metre * point.position;
+  [[unroll]] for (uint i = 0; i < sums; ++i) {
+    uint before = point_dimensions == 3 ? i * (i + 1) * (i + 2) * (i + 3) / 24 : tetrahedral(i);
+    uint first = 8 + before * components;
+    float sum = polynomial_of(from, first, i, 0, at);
+    if (backscatter_model == backscatter_lambert) {
+      sum *= point.height;
+      [[unroll]] for (uint axis = 0; axis < point_dimensions; ++axis)
+        sum += head.unit_m * point.normal[axis] * polynomial_of(from, first, i, axis + 1, at);
+    }
+    total[i] = shared_cosines * sum;
   }
 }
 
@@ -89,6 +143,12 @@ void add_block_of_run(inout float total[sums], inout float stretch[sums], Point 
 // summed stretch by stretch, so that rounding is no worse than of short ones.
 void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments]) {
   float total[sums], stretch[sums];
+  if (point_dimensions > 0) {
+    float unit_m2;
+    sum_beforehand(point, diodes, total, unit_m2);
+    find_moments(total, unit_m2, point, run, moment);
+    return;
+  }
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] = stretch[k] = 0.0;
   if (straight != 0) {
@@ -100,7 +160,7 @@ void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint b
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] += stretch[k];
-  find_moments(total, point, run, moment);
+  find_moments(total, 1.0, point, run, moment);
 }
 
 // sum_k (j kappa)^k / k! * moment[k], by Horner's rule.

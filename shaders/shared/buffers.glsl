@@ -20,6 +20,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Vi
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Diodes { GroupSource at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tones { Tone at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRuns { LightRun at; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PointPolynomialsOf { PointPolynomials at; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Frequencies { Frequency at[]; };
 
 // Where the IDs of a pixel's sample are, in a strip of `extent` pixels (interface.h).

@@ -55,6 +55,7 @@ PMDSIM_CONSTANT constant_lens_apart = 41; // 1: the lens does not lie in the pla
 PMDSIM_CONSTANT constant_all_facing = 42; // 1: every surface faces every diode
 PMDSIM_CONSTANT constant_lists_hidden = 43; // 1: of triangles that the lens does not see
 PMDSIM_CONSTANT constant_exact_only = 44; // 1: nothing is decided in float
+PMDSIM_CONSTANT constant_point_dimensions = 45; // by powers: 2 or 3: their sums are polynomials of the point in so many coordinates; 0: loops over the diodes
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

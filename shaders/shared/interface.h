@@ -192,6 +192,16 @@ struct LightRun {
 PMDSIM_CONSTANT largest_powers = 12; // of q
 PMDSIM_CONSTANT largest_moments = 9;
 
+// The sums of powers of q of a run as polynomials of the point (engine/light/point_polynomials.h). Behind it the
+// coefficients, of S_0 first: term by term, of each the components.
+struct PointPolynomials {
+  vec4 axis;       // as in GroupSource, of all diodes
+  float per_metre; // 1 / unit
+  float unit_m;    // that the coefficients have for lengths, a power of two
+  float unit_m2;   // its square
+  float padding;
+};
+
 // A harmonic of a modulation frequency.
 struct Tone {
   vec2 turns_per_m; // of path, frequency / c: hi, lo
@@ -403,6 +413,14 @@ struct DepthSumConstants {
   uint is_first; // of the frame's runs: nothing is in the sum yet
   uvec2 visibility; // in, where shadowed: as in AccumulateConstants
   uvec2 tiles;      // in, where shadowed: TileList of the samples that are summed, in place of what is there
+};
+
+// What becomes of a sum that goes to a pixel's channels at once. DepthSumConstants::sum leads here.
+// Behind it each Frequency.
+struct DirectPixels {
+  uvec2 channels, shapes, surfaces, lit; // as in DepthDemodulationConstants
+  float backscatter;
+  uint padding_1, padding_2, padding_3;
 };
 
 struct DepthDemodulationConstants {

@@ -96,6 +96,8 @@ const std::map<std::string, HostLayout> host_layouts{
            terms, list, blocks, plane, padded_pixels, adds_terms),
     STRUCT(DepthSumConstants, grid, chip, records, planes, sum, run, diodes, tones, diagrams, blocks,
            plane, samples, is_first, visibility, tiles),
+    STRUCT(PointPolynomials, axis, per_metre, unit_m, unit_m2, padding),
+    STRUCT(DirectPixels, channels, shapes, surfaces, lit, backscatter, padding_1, padding_2, padding_3),
     STRUCT(DepthDemodulationConstants, grid, chip, records, planes, sum, channels, harmonics, frequency, shapes,
            surfaces, lit, pixels, padded_pixels, plane, backscatter),
     STRUCT(DemodulationConstants, position, sum, ids, planes, channels, harmonics, frequency, lit, terms,

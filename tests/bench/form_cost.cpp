@@ -27,6 +27,8 @@ const std::vector<Form> forms{
     {"polynomial moments", &PathForms::polynomial_moments},
     {"equal weights", &PathForms::equal_weights},
     {"coplanar sources", &PathForms::coplanar},
+    {"sums over the diodes beforehand", &PathForms::point_polynomials},
+    {"direct pixels", &PathForms::direct_pixels},
     {"uniform pixels", &PathForms::uniform_pixels},
     {"uniform pixels of one sample", &PathForms::uniform_single_samples},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels},

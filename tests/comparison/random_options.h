@@ -13,6 +13,8 @@ inline SimulatorOptions random_options(Random &random) {
   options.precision = random.flip() ? SamplePrecision::automatic : SamplePrecision::double_float;
   options.loop = random.flip() ? DiodeLoop::straight_line : DiodeLoop::looped;
   options.allowed.polynomial_moments = random.flip();
+  options.allowed.point_polynomials = random.flip();
+  options.allowed.direct_pixels = random.flip();
   return options;
 }
 

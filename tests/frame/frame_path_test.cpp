@@ -30,6 +30,8 @@ const std::vector<Form> forms{
     {"polynomial moments", &PathForms::polynomial_moments, 1, Mode::exact, "sum"},
     {"equal weights", &PathForms::equal_weights, 1, Mode::exact, "sum"},
     {"coplanar sources", &PathForms::coplanar, 1, Mode::exact, "sum"},
+    {"sums over the diodes beforehand", &PathForms::point_polynomials, 1, Mode::exact, "sum"},
+    {"direct pixels", &PathForms::direct_pixels, 1, Mode::exact, "record"},
     {"depth records", &PathForms::depth_records, 1, Mode::exact, "record"},
     {"one backscatter", &PathForms::one_backscatter, 1, Mode::exact, "record"},
     {"uniform pixels", &PathForms::uniform_pixels, 2, Mode::automatic, "pixels"},
@@ -46,6 +48,9 @@ struct Taken {
 Taken take(const Form &form, bool allowed) {
   SimulatorOptions options;
   options.loop = DiodeLoop::looped; // compiles faster
+  // What is summed beforehand has no loop over the diodes, whose forms these are.
+  options.allowed.point_polynomials =
+      form.allowed != &PathForms::equal_weights && form.allowed != &PathForms::coplanar;
   options.allowed.*form.allowed = allowed;
   Accuracy accuracy;
   accuracy.mode = form.mode;

@@ -1,5 +1,6 @@
 // Exact frames of one sample a pixel against the reference, over what decides how their diodes are summed: by
-// powers of q or by e, with weights that are all alike or not, in one run or several.
+// powers of q or by e, beforehand or in a loop, with weights that are all alike or not, in one run or
+// several.
 
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/light_formula.h"
@@ -20,7 +21,21 @@ struct Case {
   std::vector<Illuminator> lights;
   Backscatter backscatter = Backscatter::constant;
   Distortion distortion{}; // with one the points are kept
+  double slope = 0.0;      // of the wall, along both axes
 };
+
+// Before the camera at z_m on its axis.
+Scene slanted_wall(double z_m, double slope) {
+  SceneBuilder scene;
+  const auto corner = [&](double x_m, double y_m) {
+    return glm::dvec3(x_m, y_m, z_m + slope * (x_m - 0.5 * y_m));
+  };
+  const double side_m = z_m;
+  scene.add_mesh(
+      {corner(-side_m, -side_m), corner(side_m, -side_m), corner(side_m, side_m), corner(-side_m, side_m)},
+      {{0, 2, 1}, {0, 3, 2}});
+  return scene.scene();
+}
 
 Illuminator ring_light(double radius_m, int count, const Pattern &pattern = {}, double z_m = 0.0) {
   std::vector<glm::dvec3> places_m = ring(count, radius_m);
@@ -44,26 +59,43 @@ Illuminator raised(Illuminator light) {
 std::vector<Case> cases() {
   const Pattern cubed{Pattern::Kind::cosine, 3.0, {}}, broad{Pattern::Kind::cosine, 1.5, {}};
   const Backscatter lambert = Backscatter::lambert;
-  return {{"alike, in a plane", 2.0, {ring_light(0.166, 48)}},
-          {"alike, padded", 2.0, {ring_light(0.166, 37)}},
-          {"alike, not in a plane", 2.0, {raised(ring_light(0.166, 48))}},
-          {"alike, one long run", 2.0, {ring_light(0.166, 500)}},
-          {"alike, two long runs, padded", 2.0, {ring_light(0.166, 1030)}},
-          {"alike, two lights of long runs", 2.0, {ring_light(0.166, 300), ring_light(0.05, 500, {}, -3.0)}},
-          {"alike, two long runs, points",
-           2.0,
-           {ring_light(0.166, 1030)},
-           Backscatter::constant,
-           BrownConrady{.k1 = -0.1}},
-          {"unequal", 2.0, {unequal(ring_light(0.166, 48))}},
-          {"Lambert", 2.0, {ring_light(0.166, 48)}, lambert},
-          {"Lambert, cos^3, unequal", 2.0, {unequal(ring_light(0.166, 48, cubed))}, lambert},
-          {"cos^1.5, by e", 2.0, {ring_light(0.166, 48, broad)}, lambert},
-          {"alike, near, by e", 0.3, {ring_light(0.14, 48)}},
-          {"Lambert, near, by e", 0.3, {ring_light(0.14, 48)}, lambert},
-          {"a ring and a diode in the lens", 2.0, {ring_light(0.166, 48), ring_light(0.0, 1)}},
-          {"two rings, one far off", 2.0, {ring_light(0.166, 48), ring_light(0.05, 20, {}, -3.0)}},
-          {"farther away", 9.0, {unequal(ring_light(0.166, 48, cubed))}, lambert}};
+  return {
+      {"alike, in a plane", 2.0, {ring_light(0.166, 48)}},
+      {"alike, padded", 2.0, {ring_light(0.166, 37)}},
+      {"alike, not in a plane", 2.0, {raised(ring_light(0.166, 48))}},
+      {"alike, one long run", 2.0, {ring_light(0.166, 500)}},
+      {"alike, two long runs, padded", 2.0, {ring_light(0.166, 1030)}},
+      {"alike, two lights of long runs", 2.0, {ring_light(0.166, 300), ring_light(0.05, 500, {}, -3.0)}},
+      {"alike, two long runs, points",
+       2.0,
+       {ring_light(0.166, 1030)},
+       Backscatter::constant,
+       BrownConrady{.k1 = -0.1}},
+      {"unequal", 2.0, {unequal(ring_light(0.166, 48))}},
+      {"Lambert", 2.0, {ring_light(0.166, 48)}, lambert},
+      {"Lambert, cos^3, unequal", 2.0, {unequal(ring_light(0.166, 48, cubed))}, lambert},
+      {"cos^1.5, by e", 2.0, {ring_light(0.166, 48, broad)}, lambert},
+      {"alike, near, by e", 0.3, {ring_light(0.14, 48)}},
+      {"Lambert, near, by e", 0.3, {ring_light(0.14, 48)}, lambert},
+      {"a ring and a diode in the lens", 2.0, {ring_light(0.166, 48), ring_light(0.0, 1)}},
+      {"two rings, one far off", 2.0, {ring_light(0.166, 48), ring_light(0.05, 20, {}, -3.0)}},
+      {"alike, wall at a slant", 2.0, {ring_light(0.166, 240)}, Backscatter::constant, {}, 0.9},
+      {"Lambert, wall at a slant", 2.0, {unequal(ring_light(0.166, 240))}, lambert, {}, 0.9},
+      {"Lambert, cos^3, not in a plane, slant", 2.0, {raised(ring_light(0.1, 240))}, lambert, {}, 0.9},
+      {"Lambert, cos^3, wall at a slant", 2.0, {unequal(ring_light(0.166, 240, cubed))}, lambert, {}, 0.9},
+      {"the same with points", 2.0, {ring_light(0.166, 240, cubed)}, lambert, BrownConrady{.k1 = -0.1}, 0.9},
+      {"the same nearby", 0.7, {ring_light(0.166, 240, cubed)}, lambert, {}, 0.5},
+      {"farther away", 9.0, {unequal(ring_light(0.166, 48, cubed))}, lambert}};
+}
+
+// In the forms of all devices, with all shorter ways and without any.
+std::vector<SimulatorOptions> all_forms() {
+  std::vector<SimulatorOptions> forms = all_variants();
+  for (SimulatorOptions options : all_variants()) {
+    options.allowed.point_polynomials = options.allowed.direct_pixels = false;
+    forms.push_back(options);
+  }
+  return forms;
 }
 
 } // namespace
@@ -76,12 +108,11 @@ TEST_CASE("frames of one sample a pixel, however their diodes are summed", "[lon
     sensor.pixel_pitch_m = glm::dvec2(500e-6);
     sensor.focal_length_m = 0.02;
     sensor.distortion = of.distortion;
-    const Scene scene = wall_at(of.wall_m);
+    const Scene scene = of.slope != 0.0 ? slanted_wall(of.wall_m, of.slope) : wall_at(of.wall_m);
     const auto expected = reference::simulate(scene, sensor, of.lights, of.backscatter);
-    for (const SimulatorOptions &options : all_variants()) {
-      SimulatorOptions tagged = options;
-      tagged.keep_sample_ids = true;
-      Simulator simulator = make_simulator(tagged);
+    for (SimulatorOptions options : all_forms()) {
+      options.keep_sample_ids = true;
+      Simulator simulator = make_simulator(options);
       simulator.prepare(scene, sensor, of.lights, of.backscatter);
       const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
       INFO(of.name);

@@ -1,0 +1,24 @@
+#pragma once
+// The sums of powers S_i (moment_polynomials.h) as polynomials of a sample's point: q is linear in the point
+// and a height over the surface linear in its normal, so that all that depends on the diodes are
+// coefficients. They are summed over all the diodes of a run in double beforehand, and what a sample takes
+// does not depend on how many diodes there are (docs/theory.md, "Sums over the diodes, beforehand").
+
+#include "engine/light/source_groups.h"
+#include "engine/light/sum_model.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pmdsim {
+
+// In how many dimensions the diodes of every run stand, 2 or 3, where such polynomials do for the model and
+// are shorter than the loop over the diodes; else 0.
+std::uint32_t point_dimensions(const SourceGroups &groups, const SumModel &model);
+
+// Of all runs, one after the other, as the shader reads them (PointPolynomials in shaders/shared/interface.h,
+// the coefficients behind it).
+std::vector<float> point_polynomials(const SourceGroups &groups, const SumModel &model,
+                                     std::uint32_t dimensions);
+
+} // namespace pmdsim
