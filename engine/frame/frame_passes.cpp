@@ -57,7 +57,7 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
                        const FramePath &path) {
   const bool depth_only = path.record == SampleRecord::depth;
-  const Precision of_check = path.check.value_or(plan.precision);
+  const Precision of_check = path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Modulation &modulation = facts.modulation;
@@ -154,25 +154,37 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
                                       {.points = points,
                                        .refines = refined != nullptr,
                                        .sums = uniform != nullptr,
-                                       .lists = on.path.lists_pixels()},
+                                       .lists = on.path.lists_pixels(),
+                                       .parts = on.path.of(PixelsOf::unshadowed) != nullptr},
                                       lists));
   if (refined)
     graph.add_after(uniform_pixels_pass(on, on.plan.uniform_groups, on.plan.extent, *refined->bound,
                                         {.points = refined->points}, lists));
 }
 
-// A class of pixels, sample by sample: all of them, or those of `list`.
+// The sources that pixels of a class are summed over.
+const SourceGroups &groups_of(const FramePlan &plan, const PixelClass &pixels) {
+  return pixels.who == PixelsOf::precise ? *plan.precise : pixels.reduced ? plan.reduced : plan.all;
+}
+
+// Which pixels a class sums, and which it leaves to a later one.
+struct ClassLists {
+  const vulkan::Buffer *list = nullptr, *later = nullptr;
+};
+
+// A class of pixels, sample by sample: all of them, or those of a list.
 void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
-                const vulkan::Buffer *list, FrameGraph &graph,
+                const ClassLists &lists, FrameGraph &graph,
                 const std::optional<SampleTiles> &shadowed_tiles = {}) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
-  const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
-  SumScope scope{pixels->shadowed, pixels->precision, list, pixels->bound, {}};
+  const SourceGroups &groups = groups_of(on.plan, *pixels);
+  const auto [list, later] = lists;
+  SumScope scope{pixels->shadowed, pixels->precision, list, later, who == PixelsOf::precise, pixels->bound};
   if (on.path.record == SampleRecord::depth)
     scope.depth_records.emplace(on.device, on.sensor);
-  if (list && !on.path.points_first)
+  if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : windows;
   if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
@@ -182,23 +194,72 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
     scope.tiles.emplace(*shadowed_tiles);
   }
   Pass sum = accumulate_pass(on, groups, of_windows, scope);
-  list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
+  list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+}
+
+// How much there is to do for the classes that follow, which the last one has listed pixels for.
+Pass count_pass(const std::shared_ptr<const PixelLists> &lists) {
+  return {.name = "accumulate",
+          .reads = pixel_lists,
+          .writes = pixel_lists,
+          .record = [lists](const Recording &at) {
+            const std::uint32_t side = at.of_strip().samples;
+            lists->record_count(at.commands, side * side);
+          }};
+}
+
+Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
+  return {.name = "accumulate",
+          .reads = no_resource,
+          .writes = pixel_lists,
+          .record = [lists](const Recording &at) { lists->record_clear(at.commands); }};
+}
+
+// The classes of pixels, one after the other, each with the pixels that those before it have left.
+void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
+                  const std::vector<SourceWindow> &windows,
+                  const std::optional<SampleTiles> &shadowed_tiles, FrameGraph &graph) {
+  const PixelClass *precise = on.path.of(PixelsOf::precise);
+  std::shared_ptr<const PixelLists> lists;
+  if (on.path.is_sorted() || precise)
+    lists = std::make_shared<const PixelLists>(on.device, strips);
+  const vulkan::Buffer *of_precise = precise ? &lists->of(shader::list_precise) : nullptr;
+  if (!on.path.is_sorted()) {
+    if (precise)
+      graph.add_before(clear_pass(lists));
+    list_class(on, PixelsOf::all, windows, {nullptr, of_precise}, graph, shadowed_tiles);
+  } else {
+    const vulkan::Buffer *of_rest = &lists->of(shader::list_rest);
+    list_sorting(on, lists, graph);
+    list_class(on, PixelsOf::unshadowed, windows,
+               {&lists->of(shader::list_unshadowed), precise ? of_rest : nullptr}, graph);
+    if (precise)
+      graph.add_after(count_pass(lists));
+    list_class(on, PixelsOf::rest, windows, {of_rest, of_precise}, graph);
+  }
+  if (precise) {
+    graph.add_after(count_pass(lists));
+    list_class(on, PixelsOf::precise, windows, {of_precise, nullptr}, graph);
+  }
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
                 const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
-  modulation.keeps_terms = false;
+  modulation.keeps_terms = modulation.reports_kept = false;
   const PassSetup setup{on.device, on.options, on.sensor, modulation, on.model, on.buffers, on.scene};
   const Precision precision = *on.path.check;
   SourceGroups of_precision;
-  if (precision != on.plan.precision)
+  if (precision != on.plan.precision && !on.plan.precise)
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
                                 modulation.largest_wavenumber_rad_m(), precision);
-  const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
-  const SumScope scope{modulation.lit, precision, &check.list(), {}, {}};
+  const SourceGroups &groups = precision == on.plan.precision ? on.plan.all
+                               : on.plan.precise              ? *on.plan.precise
+                                                              : of_precision;
+  SumScope scope{modulation.lit, precision, &check.list()};
+  scope.looped = on.plan.precise && precision == Precision::fp64;
   graph.add_before(check.list_pass());
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
@@ -273,13 +334,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   std::optional<SampleTiles> shadowed_tiles;
   if (shadow.sweep && grid)
     shadowed_tiles.emplace(shadow.sweep->shadowed_tiles());
-  list_class(on, PixelsOf::all, windows, nullptr, graph, shadowed_tiles);
-  if (on.path.is_sorted()) {
-    const auto lists = std::make_shared<const PixelLists>(on.device, strips);
-    list_sorting(on, lists, graph);
-    list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_unshadowed), graph);
-    list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
-  }
+  list_classes(on, strips, windows, shadowed_tiles, graph);
   graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
   if (on.path.check) {
     made.check.emplace(on, strips);
@@ -298,6 +353,8 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
+  facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
+  facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;
   const std::vector<SourceWindow> windows =
       facts.modulation.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);

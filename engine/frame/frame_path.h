@@ -31,6 +31,7 @@ enum class PixelsOf {
   uniform_refined, // the same, for which one point of the pixel is not exact enough
   unshadowed,      // every source lights them, but they need all of their samples
   rest,            // all others
+  precise,         // those for which float is not exact enough
 };
 
 // Pixels that are summed alike: who, with which sources, at how many of a pixel's points, how exactly.

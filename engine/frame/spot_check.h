@@ -19,9 +19,9 @@ public:
   // Fills it with the strip's pixels.
   Pass list_pass() const;
   // Largest difference of the measured strip from the channels that were read back, into the measurement's
-  // report.
+  // report. Returns whose bounds are kept and beyond the limit are left out.
   void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
-               Measurement &measured) const;
+               double limit_m, Measurement &measured) const;
 
 private:
   Modulation modulation_;

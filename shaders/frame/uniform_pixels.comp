@@ -157,9 +157,11 @@ Quadrature sum_points(UniformPixelsLight light, TrianglePlane plane, uint triang
   return sum;
 }
 
-// Stores a pixel's channels and returns whether what was asked for of them holds.
-bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Quadrature seen, vec4 z[tones], Errors added) {
+// Stores a pixel's channels and returns whether what was asked for of them holds; `worst` is what they may be off by.
+bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Quadrature seen, vec4 z[tones], Errors added,
+                 out Errors worst) {
   bool kept = true;
+  worst = Errors(0.0, 0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Lights(constants.light).at.frequencies[t];
     PixelSum sum;
@@ -172,7 +174,10 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
       sum.hits = sum.lit = evaluations;
     }
     float size = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
-    kept = kept && is_kept(frequency, errors_of(frequency, hits ? seen.terms : 0.0, size, added));
+    Errors errors = errors_of(frequency, hits ? seen.terms : 0.0, size, added);
+    kept = kept && is_kept(frequency, errors);
+    worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));
+    store_bound(to, frequency, pixel, size, errors);
     if (t == 0) {
       store_ground_truth(to, evaluations, pixel, sum);
       if (lit_is_kept != 0)
@@ -228,12 +233,15 @@ void main() {
     Quadrature quadrature = sum_points(light, plane, triangle, pixel, z);
     Errors added = errors_of_pixel(light, plane, pixel, hits, quadrature);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
-    bool kept = store_pixel(channels, light, to, hits, quadrature, z, added);
+    Errors worst;
+    bool kept = store_pixel(channels, light, to, hits, quadrature, z, added, worst);
     store_ids(channels, seen.ids, plane.object, to);
     done = seen.alike && seen.lit && kept && (side == 1 || quadrature_points != 0 || !hits);
+    if (done && !pads && hits)
+      report_kept(Works(constants.work).at.violations, worst);
   }
   if (lists_pixels != lists_no_pixel && !done && !pads) {
-    uint list = seen.lit ? list_unshadowed : list_rest;
+    uint list = seen.lit && lists_pixels != lists_in_rest ? list_unshadowed : list_rest;
     if (lists_pixels == lists_in_three)
       list = seen.alike && seen.lit ? list_refined : list;
     defer(list, pixel);

@@ -26,7 +26,8 @@ constexpr std::uint32_t claiming_setups = 200;
 struct Claim {
   std::string refusal; // empty where there is a frame
   std::optional<double> claimed_m;
-  double found_m = 0.0;
+  double found_m = 0.0; // of the returns that keep what was asked for
+  std::size_t returns = 0, beyond = 0, broken = 0; // with light; that may be off by more; that are beyond their bounds
 };
 
 bool sees_the_same(const Measurement &measured, const reference::Frame &expected, const Sensor &sensor,
@@ -68,7 +69,13 @@ Claim claim_of(Simulator &simulator, const RandomSetup &setup, double max_error_
       const double error_m = std::abs(std::remainder(
           static_cast<double>(measured.returns[f].distance_m[pixel]) - expected.returns[f].distance_m[pixel],
           expected.returns[f].ambiguity_m));
-      claim.found_m = std::max(claim.found_m, error_m);
+      const double bound_m = static_cast<double>(measured.returns[f].error_bound_m[pixel]);
+      ++claim.returns;
+      claim.broken += !(error_m <= bound_m);
+      if (bound_m > max_error_m)
+        ++claim.beyond;
+      else
+        claim.found_m = std::max(claim.found_m, error_m);
     }
   return claim;
 }
@@ -83,6 +90,7 @@ double median(std::vector<double> values) {
 void check_claims(double max_error_m) {
   SimulatorOptions options;
   options.keep_sample_ids = options.keep_visibility = true;
+  options.keep_error_bound = true;
   options.loop = DiodeLoop::looped;
   Simulator simulator = make_simulator(options);
   std::vector<double> ratios;
@@ -94,12 +102,14 @@ void check_claims(double max_error_m) {
     std::string kinds;
     for (const std::string &kind : setup.kinds)
       kinds += kind + "; ";
-    fmt::print("{:3} {:10.4f} {:10.4f} {:8.2f} {} {}\n", seed, 1e6 * claim.claimed_m.value_or(NAN),
-               1e6 * claim.found_m, claim.claimed_m.value_or(NAN) / claim.found_m, kinds,
-               claim.refusal);
+    fmt::print("{:3} {:10.4f} {:10.4f} {:8.2f} {:5} of {:5} {} {} {}\n", seed,
+               1e6 * claim.claimed_m.value_or(NAN), 1e6 * claim.found_m,
+               claim.claimed_m.value_or(NAN) / claim.found_m, claim.beyond, claim.returns, claim.broken,
+               kinds, claim.refusal);
     refused += !claim.refusal.empty();
     if (!claim.refusal.empty())
       continue;
+    CHECK(claim.broken == 0);
     CHECK(claim.found_m <= max_error_m);
     CHECK(claim.claimed_m);
     CHECK(claim.found_m <= claim.claimed_m.value_or(0.0));
