@@ -28,7 +28,8 @@ bool is_mostly_beyond(const Measurement &measured) {
 
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
-      : options(wanted), wants_error_bound(wanted.keep_error_bound), instance(wanted.validate), info(choose_device(instance, wanted.device)),
+      : options(wanted), wants_error_bound(wanted.keep_error_bound), instance(wanted.validate),
+        info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
@@ -97,7 +98,8 @@ bool Simulator::State::refine() {
   return true;
 }
 
-// Whether a frame may be returned; else the next one is prepared. Throws Error (accuracy) where there is none.
+// Whether a frame may be returned; else the next one is prepared. Throws Error (accuracy) where there is
+// none.
 bool Simulator::State::is_kept(const Measurement &measured) {
   if (const auto beyond_bound = frame->beyond_bound()) {
     if (!frame->is_most_exact() && refine())

@@ -66,8 +66,8 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
 // Why some pixels of a frame do not keep the error that was asked for; nothing where all pixels' bounds do.
 std::optional<std::string> beyond_bound(const shader::BudgetViolations &violations,
                                         const Accuracy &asked_for);
-// Why the pixels that were checked do not keep what their bounds promise; nothing where they do. The ambiguity range
-// is that of the distances.
+// Why the pixels that were checked do not keep what their bounds promise; nothing where they do. The
+// ambiguity range is that of the distances.
 std::optional<std::string> beyond_check(const AccuracyReport &found, const Accuracy &asked_for,
                                         double ambiguity_m);
 

@@ -26,8 +26,8 @@ public:
   // holds); and TooDense.
   Measurement measure(vulkan::PassRecorder &recorder, Measurement &&memory,
                       const std::function<void(double)> &progress, const ExposureNumber &number) const;
-  // Why some pixels of the last frame may be off by more than was asked for, if so; and why those that shall not be,
-  // are, as far as they were checked.
+  // Why some pixels of the last frame may be off by more than was asked for, if so; and why those that shall
+  // not be, are, as far as they were checked.
   std::optional<std::string> beyond_bound() const;
   std::optional<std::string> beyond_check(const Measurement &measured) const;
   // Whether a pixel that float is not exact enough for has been summed as exactly as can be.

@@ -57,7 +57,8 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
                        const FramePath &path) {
   const bool depth_only = path.record == SampleRecord::depth;
-  const Precision of_check = path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
+  const Precision of_check =
+      path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Modulation &modulation = facts.modulation;
@@ -218,8 +219,8 @@ Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
 
 // The classes of pixels, one after the other, each with the pixels that those before it have left.
 void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
-                  const std::vector<SourceWindow> &windows,
-                  const std::optional<SampleTiles> &shadowed_tiles, FrameGraph &graph) {
+                  const std::vector<SourceWindow> &windows, const std::optional<SampleTiles> &shadowed_tiles,
+                  FrameGraph &graph) {
   const PixelClass *precise = on.path.of(PixelsOf::precise);
   std::shared_ptr<const PixelLists> lists;
   if (on.path.is_sorted() || precise)

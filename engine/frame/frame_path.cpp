@@ -76,8 +76,8 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
     classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.uniform_bound});
   if (points && samples > 1 && plan.refined_bound && allowed.refined_uniform_pixels)
     classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.refined_bound});
-  // Of one sample a pixel, the uniform ones are all that every source lights; those that may not keep the bound with
-  // the reduced set go to the rest.
+  // Of one sample a pixel, the uniform ones are all that every source lights; those that may not keep the
+  // bound with the reduced set go to the rest.
   if (!points || samples > 1 || (!plan.surely_kept && !plan.precise))
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
   if (has_rest(facts) || plan.precise)

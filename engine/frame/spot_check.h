@@ -20,8 +20,8 @@ public:
   Pass list_pass() const;
   // Largest difference of the measured strip from the channels that were read back, into the measurement's
   // report. Returns whose bounds are kept and beyond the limit are left out.
-  void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
-               double limit_m, Measurement &measured) const;
+  void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers, double limit_m,
+               Measurement &measured) const;
 
 private:
   Modulation modulation_;

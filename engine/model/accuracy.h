@@ -39,7 +39,8 @@ struct AccuracyReport {
   std::optional<double> found_m, found_amplitude;
   std::size_t checked_pixels = 0;
   double check_ms = 0.0; // not part of Measurement::frame_ms
-  // Pixels' returns that may be off by more than was asked for, one for each frequency (Return::error_bound_m).
+  // Pixels' returns that may be off by more than was asked for, one for each frequency
+  // (Return::error_bound_m).
   std::size_t unpromised = 0;
 };
 

@@ -77,11 +77,11 @@ bool ChannelLayout::holds(const ChannelRow &row) const {
 std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
   const auto [area, index] = of.row.slot;
   const std::uint32_t of_frequency = first_channel(static_cast<std::uint32_t>(of.frequency));
-  const std::uint32_t first =
-      area == Area::frequency ? of_frequency
-      : area == Area::bound   ? of_frequency + whole_pairs(channels_in(Area::frequency) + taps)
-      : area == Area::shadow  ? lit_channel()
-                              : 0;
+  const std::uint32_t first = area == Area::frequency ? of_frequency
+                              : area == Area::bound
+                                  ? of_frequency + whole_pairs(channels_in(Area::frequency) + taps)
+                              : area == Area::shadow ? lit_channel()
+                                                     : 0;
   return first + index + static_cast<std::uint32_t>(of.tap);
 }
 

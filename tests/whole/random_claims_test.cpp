@@ -27,7 +27,8 @@ struct Claim {
   std::string refusal; // empty where there is a frame
   std::optional<double> claimed_m;
   double found_m = 0.0; // of the returns that keep what was asked for
-  std::size_t returns = 0, beyond = 0, broken = 0; // with light; that may be off by more; that are beyond their bounds
+  std::size_t returns = 0, beyond = 0,
+              broken = 0; // with light; that may be off by more; that are beyond their bounds
 };
 
 bool sees_the_same(const Measurement &measured, const reference::Frame &expected, const Sensor &sensor,
