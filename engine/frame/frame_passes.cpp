@@ -56,14 +56,14 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
 // What a strip keeps of its samples.
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
                        const FramePath &path) {
-  const bool depth_only = path.record == SampleRecord::depth;
+  const bool depth_only = path.keeps_depths_only();
   const Precision of_check =
       path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Modulation &modulation = facts.modulation;
   return {.host_reads_ids = path.host_reads_truth || options.keep_sample_ids || options.keep_visibility,
-          .id_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
+          .id_bytes = path.record == SampleRecord::depth ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
@@ -156,11 +156,12 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
                                        .refines = refined != nullptr,
                                        .sums = uniform != nullptr,
                                        .lists = on.path.lists_pixels(),
+                                       .leaves_truth = on.path.host_reads_truth,
                                        .parts = on.path.of(PixelsOf::unshadowed) != nullptr},
                                       lists));
   if (refined)
     graph.add_after(uniform_pixels_pass(on, on.plan.uniform_groups, on.plan.extent, *refined->bound,
-                                        {.points = refined->points}, lists));
+                                        {.points = refined->points, .leaves_truth = false}, lists));
 }
 
 // The sources that pixels of a class are summed over.
@@ -183,7 +184,7 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
   const SourceGroups &groups = groups_of(on.plan, *pixels);
   const auto [list, later] = lists;
   SumScope scope{pixels->shadowed, pixels->precision, list, later, who == PixelsOf::precise, pixels->bound};
-  if (on.path.record == SampleRecord::depth)
+  if (on.path.keeps_depths_only())
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
@@ -227,8 +228,8 @@ void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
     lists = std::make_shared<const PixelLists>(on.device, strips);
   const vulkan::Buffer *of_precise = precise ? &lists->of(shader::list_precise) : nullptr;
   if (!on.path.is_sorted()) {
-    if (precise)
-      graph.add_before(clear_pass(lists));
+    if (precise) // of one window
+      graph.add_to_window(clear_pass(lists));
     list_class(on, PixelsOf::all, windows, {nullptr, of_precise}, graph, shadowed_tiles);
   } else {
     const vulkan::Buffer *of_rest = &lists->of(shader::list_rest);
@@ -333,7 +334,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;
-  if (shadow.sweep && grid)
+  if (shadow.sweep && on.path.keeps_depths_only())
     shadowed_tiles.emplace(shadow.sweep->shadowed_tiles());
   list_classes(on, strips, windows, shadowed_tiles, graph);
   graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));

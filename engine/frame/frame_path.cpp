@@ -125,6 +125,12 @@ bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const Fram
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 
+// Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
+bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathForms &allowed) {
+  return allowed.depth_records && path.is_sorted() && sensor.samples == 1 && is_even(path.grid, sensor) &&
+         (path.windows == 0 || path.sweeps);
+}
+
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
@@ -194,7 +200,9 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   path.classes = classes_of(facts, plan, request, windows, allowed);
   path.record =
-      keeps_depth_only(path, facts, plan, sensor, allowed) ? SampleRecord::depth : SampleRecord::point;
+      keeps_depth_only(path, facts, plan, sensor, allowed) || begins_with_depths(path, sensor, allowed)
+          ? SampleRecord::depth
+          : SampleRecord::point;
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;

@@ -32,7 +32,8 @@ vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &gro
               {shader::constant_runs, pixels.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
               {shader::constant_side, on.sensor.samples},
               {shader::constant_quadrature_points, pixels.points},
-              {shader::constant_lists_pixels, lists_of(pixels)}});
+              {shader::constant_lists_pixels, lists_of(pixels)}})
+      .set(shader::constant_ground_truth, !pixels.leaves_truth);
 }
 
 shader::UniformPixelsLight light_record(const LightExtent &extent, const Modulation &modulation,

@@ -20,6 +20,7 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
           {shader::constant_tiled, is_tiled(on.sensor)},
           {shader::constant_lit_is_kept, first && on.modulation.lit},
           {shader::constant_listed, scope.list != nullptr},
+          {shader::constant_depth_records, on.buffers.id_bytes == sizeof(shader::uvec4)},
           {shader::constant_keeps_terms, on.modulation.keeps_terms},
           {shader::constant_passes_on, scope.later != nullptr},
           {shader::constant_keeps_bounds, on.modulation.keeps_bounds},

@@ -29,6 +29,7 @@ Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const 
                                     {shader::constant_general_chip, !is_nominal(sensor)},
                                     {shader::constant_tiled, is_tiled(sensor)},
                                     {shader::constant_painted, scene.paint.painted},
+                                    {shader::constant_depth_records, buffers.id_bytes == sizeof(shader::uvec4)},
                                     {shader::constant_listed, list != nullptr}});
   const auto made = std::make_shared<const Points>(
       Points{half_sample_slope(sensor), upload_chip(device, sensor), std::move(pipeline)});

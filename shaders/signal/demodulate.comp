@@ -8,6 +8,7 @@
 
 layout(push_constant, std430) uniform Constants { DemodulationConstants constants; };
 layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_depth_records) const uint depth_records = 0;
 layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 layout(constant_id = constant_passes_on) const uint passes_on = 0;
 
@@ -61,7 +62,7 @@ uvec2 central_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
   uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
-  return load_words(constants.ids, id_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
+  return load_ids(constants.ids, id_index(at, uvec2(middle), extent, constants.samples, tiled != 0), depth_records);
 }
 
 // A pixel is listed once, whichever of its frequencies comes first: its first sample's terms are turned negative then.

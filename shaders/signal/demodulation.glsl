@@ -32,7 +32,7 @@ const uint channel_phase_rad = 1;
 const uint channel_distance_m = 2;
 const uint channel_range_m = 3; // the same of each frequency: it fills a pair
 const uint channel_tap = 4;     // the first
-const uint channel_error_bound_m = channel_tap + (keep_taps != 0 ? (taps + 1) / 2 * 2 : 0); // in a pair of its own
+const uint bound_channel = channel_tap + (keep_taps != 0 ? (taps + 1) / 2 * 2 : 0); // in a pair of its own
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -251,7 +251,7 @@ void report_kept(uvec2 violations, Errors errors) {
 // Of a return; not known where there is none.
 void store_bound(Channels to, Frequency frequency, uint pixel, float size, Errors errors) {
   if (keeps_bounds != 0)
-    store(to, frequency.first_channel + channel_error_bound_m, pixel, size > 0.0 ? errors.distance_m : nan());
+    store(to, frequency.first_channel + bound_channel, pixel, size > 0.0 ? errors.distance_m : nan());
 }
 
 #endif
