@@ -64,8 +64,8 @@ struct FramePath {
   std::optional<Precision> check; // of the spot check; nothing where no error was asked for
 
   const PixelClass *of(PixelsOf who) const;
-  // Whether depths are all that is ever there of the samples; else points are made of those of a class that asks for
-  // them.
+  // Whether depths are all that is ever there of the samples; else points are made of those of a class that
+  // asks for them.
   bool keeps_depths_only() const { return record == SampleRecord::depth && !is_sorted(); }
   // Whether pixels are sorted into classes.
   bool is_sorted() const { return classes.front().who != PixelsOf::all; }

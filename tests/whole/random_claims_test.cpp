@@ -2,7 +2,7 @@
 // over all pixels.
 
 #include "engine/model/error.h"
-#include "tests/comparison/uncertain_pixels.h"
+#include "tests/whole/uncertain_pixels.h"
 #include "tests/support/random_setups.h"
 #include "tests/support/simulator.h"
 

@@ -3,7 +3,7 @@
 
 #include "engine/model/error.h"
 #include "tests/comparison/comparison.h"
-#include "tests/comparison/uncertain_pixels.h"
+#include "tests/whole/uncertain_pixels.h"
 #include "tests/support/random_setups.h"
 #include "tests/support/simulator.h"
 

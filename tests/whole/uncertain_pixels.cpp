@@ -1,4 +1,4 @@
-#include "tests/comparison/uncertain_pixels.h"
+#include "tests/whole/uncertain_pixels.h"
 
 #include "engine/reference/view/lens_model.h"
 #include "tests/comparison/seen_plane.h"
