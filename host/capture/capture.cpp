@@ -55,7 +55,7 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
   if (const std::string warning = unpromised_text(taken.measurement.accuracy, max_error_m_); !warning.empty())
-    fmt::print(stderr, "pmdsim: warning: {}{}: {}\n", at.label, label, warning);
+    fmt::print(stderr, "pmdsim: warning: {}, frame {}: {}\n", taken.sensor.name, at.frame, warning);
   return taken;
 }
 

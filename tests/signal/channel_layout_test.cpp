@@ -84,9 +84,9 @@ TEST_CASE("bounds lie behind each frequency's taps, where they are kept") {
   signal.keeps_bounds = true;
   const ChannelLayout with(signal);
   CHECK(with.holds(row_of(&Return::error_bound_m)));
-  CHECK(with.channels() == without.channels() + 4);
+  CHECK(with.channels() == without.channels() + 6);
   CHECK(with.number({row_of(&Return::error_bound_m), 0}) + 2 == with.first_channel(1));
-  CHECK(with.number({row_of(&Return::error_bound_m), 1}) + 2 == with.lit_channel());
+  CHECK(with.number({row_of(&Return::error_bound_m), 2}) + 2 == with.lit_channel());
 }
 
 TEST_CASE("a frequency's turns and its ambiguity, to double precision") {

@@ -32,6 +32,7 @@ Accuracy within_budget(const RandomSetup &setup) {
   Accuracy accuracy;
   accuracy.mode = Mode::automatic;
   accuracy.max_error_m = setup.max_error_m;
+  accuracy.strict = true;
   return accuracy;
 }
 
