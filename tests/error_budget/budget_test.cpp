@@ -24,8 +24,12 @@ AccuracyReport found(double error_m, double amplitude) {
 }
 
 shader::BudgetViolations broken(std::uint32_t returns, float worst_m, float amplitude) {
-  return {returns, std::bit_cast<decltype(shader::BudgetViolations::worst_m)>(worst_m),
-          std::bit_cast<decltype(shader::BudgetViolations::amplitude)>(amplitude), 0, 0, 0};
+  return {returns,
+          std::bit_cast<decltype(shader::BudgetViolations::worst_m)>(worst_m),
+          std::bit_cast<decltype(shader::BudgetViolations::amplitude)>(amplitude),
+          0,
+          0,
+          0};
 }
 
 constexpr double ambiguity_m = 7.5;

@@ -53,7 +53,8 @@ TEST_CASE("light in the lens is rounded at the output only") {
   CHECK(bound.per_condition_m == 0.0); // whatever its weight is off by, there is one path
   CHECK(bound.per_weight_m == 0.0);
   CHECK(bound.amplitude_fixed == Approx(25 * float_rounding));
-  CHECK(bound.amplitude_per_condition == Approx(16 * float_rounding)); // 13 the weight, 3 Horner; one diode is no sum
+  CHECK(bound.amplitude_per_condition ==
+        Approx(16 * float_rounding)); // 13 the weight, 3 Horner; one diode is no sum
 }
 
 TEST_CASE("a pair of diodes by hand") {

@@ -3,9 +3,9 @@
 
 #include "engine/model/error.h"
 #include "tests/comparison/comparison.h"
-#include "tests/whole/uncertain_pixels.h"
 #include "tests/support/random_setups.h"
 #include "tests/support/simulator.h"
+#include "tests/whole/uncertain_pixels.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
