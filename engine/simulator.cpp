@@ -13,16 +13,32 @@
 
 namespace pmdsim {
 
+namespace {
+
+// Whether more than half of all returns may be off by more than was asked for: such a frame is of no use.
+bool is_mostly_beyond(const Measurement &measured) {
+  std::size_t returns = 0;
+  for (const Return &of_frequency : measured.returns)
+    returns += static_cast<std::size_t>(
+        std::ranges::count_if(of_frequency.amplitude, [](float amplitude) { return amplitude > 0.0f; }));
+  return 2 * measured.accuracy.unpromised > returns;
+}
+
+} // namespace
+
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
-      : options(wanted), instance(wanted.validate), info(choose_device(instance, wanted.device)),
+      : options(wanted), wants_error_bound(wanted.keep_error_bound), instance(wanted.validate),
+        info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
-  void refine(const std::string &violation);
+  bool is_kept(const Measurement &measured);
+  bool refine();
   Measurement spare_memory();
 
-  SimulatorOptions options;
+  SimulatorOptions options; // keeps bounds also where a frame turned out to need them
+  bool wants_error_bound;
   vulkan::Instance instance;
   DeviceInfo info;
   vulkan::Device device;
@@ -60,12 +76,35 @@ void Simulator::State::prepare() {
   frame->warm_up(recorder);
 }
 
-// The next plan. Throws Error (accuracy) where there is none.
-void Simulator::State::refine(const std::string &violation) {
+// The next plan; false where there is none.
+bool Simulator::State::refine() {
   if (requested->accuracy.mode != Mode::automatic || attempt + 1 == frame_plans)
-    throw Error(ExitCode::accuracy, violation);
+    return false;
   ++attempt;
   prepare();
+  return true;
+}
+
+// Whether a frame may be returned; else the next one is prepared. Throws Error (accuracy) where there is
+// none.
+bool Simulator::State::is_kept(const Measurement &measured) {
+  if (const auto beyond_bound = frame->beyond_bound()) {
+    if (!frame->is_most_exact() && refine())
+      return false;
+    if (requested->accuracy.strict || is_mostly_beyond(measured))
+      throw Error(ExitCode::accuracy, *beyond_bound);
+    if (!options.keep_error_bound) { // its pixels have to tell which of them may be off, and by how much
+      options.keep_error_bound = true;
+      prepare();
+      return false;
+    }
+  }
+  const auto beyond_check = frame->beyond_check(measured);
+  if (!beyond_check)
+    return true;
+  if (!refine())
+    throw Error(ExitCode::accuracy, *beyond_check);
+  return false;
 }
 
 Simulator::Simulator(const SimulatorOptions &options) : state_(std::make_unique<State>(options)) {}
@@ -83,6 +122,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
     throw std::logic_error("no illuminator, or one without diodes");
   state_->requested.emplace(FrameRequest{scene, sensor, illuminators, backscatter, shadows, accuracy});
   state_->attempt = 0;
+  state_->options.keep_error_bound = state_->wants_error_bound;
   state_->prepare();
 }
 
@@ -106,8 +146,7 @@ Measurement Simulator::measure(const Progress &progress, const ExposureNumber &n
     return state_->frame->measure(state_->recorder, state_->spare_memory(), progress, number);
   };
   Measurement measured = measure_once();
-  while (const auto violation = state_->frame->violation(measured)) {
-    state_->refine(*violation);
+  while (!state_->is_kept(measured)) {
     reuse(std::move(measured));
     measured = measure_once();
   }

@@ -53,6 +53,8 @@ void check_exact(const WrittenAccuracy &written, const Accuracy &accuracy, bool 
     refuse(fmt::format("{}: mode exact sums every sample and diode and keeps no bound; expected --mode "
                        "reduced or auto beside it",
                        written.max_error ? "--max-error" : "--max-amplitude-error"));
+  if (accuracy.mode == Mode::exact && written.strict)
+    refuse("--strict: mode exact keeps no bound; expected --max-error, or --mode reduced or auto beside it");
   if (on_reference && accuracy.mode != Mode::exact)
     refuse(fmt::format("--device reference: expected mode exact, which is all that the reference does{}",
                        written.mode ? "" : "; an error that is bounded means mode auto"));
@@ -70,10 +72,14 @@ void add_accuracy(CLI::App &command, WrittenAccuracy &written) {
       ->check(CLI::IsMember({"exact", "reduced", "auto"}));
   command.add_option("--max-error", written.max_error,
                      fmt::format("largest distance error, m, mm or um, e.g. 0.1mm [{:g}um]; exit code 8 "
-                                 "where it cannot be kept",
+                                 "where most pixels cannot keep it",
                                  1e6 * default_max_error_m));
   command.add_option("--max-amplitude-error", written.max_amplitude_error,
                      "largest relative amplitude error, e.g. 1e-3 [any]");
+  command.add_flag(
+      "--strict", written.strict,
+      "refuse frames some of whose pixels may be off by more than was asked for, with exit code 8, "
+      "where they are else written with the channel error_bound_m");
   command
       .add_option("--precision", written.precision,
                   "of the sum over the diodes, fp32 or fp64 [fp32; auto: what the error takes]")
@@ -92,6 +98,7 @@ Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference) {
     accuracy.mode = mode_names.at(*written.mode);
   else if (written.max_error || written.max_amplitude_error)
     accuracy.mode = Mode::automatic;
+  accuracy.strict = written.strict;
   check_exact(written, accuracy, on_reference);
   return accuracy;
 }

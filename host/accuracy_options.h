@@ -16,6 +16,7 @@ namespace pmdsim {
 // As it is written, before it is checked.
 struct WrittenAccuracy {
   std::optional<std::string> mode, max_error, max_amplitude_error, precision;
+  bool strict = false;
 };
 
 void add_accuracy(CLI::App &command, WrittenAccuracy &written);

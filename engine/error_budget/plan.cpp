@@ -2,6 +2,7 @@
 
 #include "engine/error_budget/rounding_bound.h"
 #include "engine/light/radiation_laws.h"
+#include "engine/light/source_windows.h"
 #include "engine/model/error.h"
 #include "engine/reduction/reduced_set.h"
 
@@ -18,6 +19,13 @@ namespace {
 // Of what rounding leaves of the error asked for, how much the reduced set may take in each plan. The rest is
 // for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
+// A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
+// error than rounding does, or this share.
+constexpr double least_share_of_reduction = 0.02;
+
+// Pixels whose bound is so many times that of one in which nothing cancels are summed in double, wherever
+// they can be: few are, and the frame claims what the worst of the others may be off by.
+constexpr double largest_bound_in_float = 2.0;
 
 // Of paint, texture and vignetting, relative.
 constexpr double painted_backscatter_error = 0x1p-21;
@@ -191,8 +199,10 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
                           double share) {
   if (share == 0.0 || view.modulation.waveform != shader::waveform_sine)
     return whole_light(view.lights);
+  const double rounding_m = rounding.distance_m(1.0);
   return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
-                       share * (accuracy.max_error_m - rounding.distance_m(1.0)),
+                       std::min(share * (accuracy.max_error_m - rounding_m),
+                                std::max(least_share_of_reduction * accuracy.max_error_m, rounding_m)),
                        share * (accuracy.max_amplitude_error - rounding.amplitude(1.0)));
 }
 
@@ -221,6 +231,32 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
   plan.uniform_bound = bound_at(1, 0.0);
   if (plan.uniform_bound && view.sensor.samples > 1)
     plan.refined_bound = bound_at(2, point_spread_m);
+}
+
+// For the pixels that float is not exact enough for. Bits that tell who reaches a sample are in the order of
+// the plan's sources.
+void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
+  if (plan.surely_kept || plan.precision == Precision::fp64 || accuracy.precision ||
+      sum_precision(view.modulation, Precision::fp64) != Precision::fp64 || view.sensor.has_distortion() ||
+      (view.modulation.lit && plan_windows(plan.all).size() > 1))
+    return;
+  SourceGroups groups =
+      precise_groups(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m(), plan.all);
+  const auto rounding = bound_of(view, groups, Precision::fp64, view.sensor.samples);
+  if (!rounding)
+    return;
+  plan.precise = std::move(groups);
+  plan.bound_of_precise = error_bound_of(accuracy, *rounding, whole_light(view.lights));
+  const double usual_m = std::max(plan.bound->fixed_m + plan.bound->per_condition_m,
+                                  plan.bound_of_all->fixed_m + plan.bound_of_all->per_condition_m);
+  const auto lower = [&](std::optional<ErrorBound> &bound) {
+    if (bound)
+      bound->limit_m = std::min(bound->limit_m, largest_bound_in_float * usual_m);
+  };
+  lower(plan.bound);
+  lower(plan.bound_of_all);
+  lower(plan.uniform_bound);
+  lower(plan.refined_bound);
 }
 
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
@@ -278,12 +314,12 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   if (view.modulation.lit || view.model.backscatter != shader::backscatter_flat)
     worst = worse_of(worst, *plan.bound_of_all);
   claim_within_limits(view, worst, plan);
+  plan_precise_pixels(view, accuracy, plan);
   return plan;
 }
 
-std::optional<std::string> budget_violation(const shader::BudgetViolations &violations,
-                                            const AccuracyReport &found, const Accuracy &asked_for,
-                                            double ambiguity_m) {
+std::optional<std::string> beyond_bound(const shader::BudgetViolations &violations,
+                                        const Accuracy &asked_for) {
   if (violations.returns > 0)
     return fmt::format("{} returns of pixels cancel in part, or are weak beside what rounding does to them, "
                        "and may be off by up to {}; expected at most {}",
@@ -292,10 +328,17 @@ std::optional<std::string> budget_violation(const shader::BudgetViolations &viol
                                    static_cast<double>(std::bit_cast<float>(violations.amplitude)),
                                    asked_for),
                        limits_text(asked_for));
+  return std::nullopt;
+}
+
+std::optional<std::string> beyond_check(const AccuracyReport &found, const Accuracy &asked_for,
+                                        double ambiguity_m) {
   const double found_m = found.found_m.value_or(0.0), amplitude = found.found_amplitude.value_or(0.0);
   // What is compared is rounded to float itself.
   const double rounding_m = 0x1p-24 * ambiguity_m;
-  if (found_m > asked_for.max_error_m + rounding_m || amplitude > asked_for.max_amplitude_error + 0x1p-23)
+  // Which pixels' amplitudes are not promised is not known one by one.
+  const bool amplitude_holds = amplitude <= asked_for.max_amplitude_error + 0x1p-23 || found.unpromised > 0;
+  if (found_m > asked_for.max_error_m + rounding_m || !amplitude_holds)
     return fmt::format("pixels evaluated exactly are off by up to {}; expected at most {}",
                        errors_text(found_m, amplitude, asked_for), limits_text(asked_for));
   return std::nullopt;

@@ -42,6 +42,10 @@ struct FramePlan {
   LightExtent extent;          // of the light, as the reduced set's bound has it
   // Of what the reduced set sums, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
+  // Every diode in fp64, for pixels that may be beyond the bound in float, and what rounding leaves of those;
+  // nothing where there are no such pixels, or float is all there is.
+  std::optional<SourceGroups> precise;
+  std::optional<ErrorBound> bound_of_precise;
   // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;
   // Likewise of pixels of several samples that it sums at four points.
@@ -59,10 +63,12 @@ inline constexpr std::uint32_t frame_plans = 3;
 // The `attempt`-th of them. Throws Error (accuracy) where none can bound what is asked for.
 FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt);
 
-// Why a frame does not keep the error that was asked for; nothing where no pixel's bound is beyond it
-// (`violations`) and none that was checked is (`found`). The ambiguity range is that of the distances.
-std::optional<std::string> budget_violation(const shader::BudgetViolations &violations,
-                                            const AccuracyReport &found, const Accuracy &asked_for,
-                                            double ambiguity_m);
+// Why some pixels of a frame do not keep the error that was asked for; nothing where all pixels' bounds do.
+std::optional<std::string> beyond_bound(const shader::BudgetViolations &violations,
+                                        const Accuracy &asked_for);
+// Why the pixels that were checked do not keep what their bounds promise; nothing where they do. The
+// ambiguity range is that of the distances.
+std::optional<std::string> beyond_check(const AccuracyReport &found, const Accuracy &asked_for,
+                                        double ambiguity_m);
 
 } // namespace pmdsim

@@ -154,13 +154,16 @@ public:
 
 private:
   // Sums of nonnegative terms: within blocks, then of blocks, then of their stretches (in fp64 one after the
-  // other), then of runs and samples, where only a rest is rounded.
+  // other), then of runs and samples, where only a rest is rounded. What is added to nothing, and what is
+  // dark, is not rounded.
   double summation() const {
-    const double blocks = groups_.blocks_per_run;
+    const double blocks =
+        std::min(static_cast<double>(groups_.blocks_per_run), std::ceil(groups_.diode_count / block));
     const double stretch = std::min(blocks, static_cast<double>(shader::blocks_per_stretch));
+    const double in_block = std::min(block, static_cast<double>(groups_.diode_count));
     const double of_run = scope_.precision == Precision::fp64
-                              ? block * blocks
-                              : block + stretch + std::ceil(blocks / stretch) - 1.0;
+                              ? std::min(block * blocks, static_cast<double>(groups_.diode_count)) - 1.0
+                              : in_block + stretch + std::ceil(blocks / stretch) - 3.0;
     const double samples = scope_.samples;
     return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
   }
@@ -243,18 +246,22 @@ private:
     return bound;
   }
 
-  // A tap sums 4 w ||x| - 1/2| - w, x in turns, |x| <= 1; z is 2 / N times the sum of N taps.
+  // With C = 4 ||x| - 1/2| - 1, x in turns, a tap is C of the reference path times the sum of the weights,
+  // and the sum of 4 w times what ||x| - 1/2| differs by there, which is what x differs by at most. The first
+  // sum is common to all taps. z is 2 / N times the sum of N taps. The reference path's turns, at most a
+  // half, and x, at most 1, are rounded.
   RoundingBound of_square(double wavenumber_rad_m) const {
     RoundingBound bound = fixed(wavenumber_rad_m);
+    const double turns_per_m = wavenumber_rad_m / (2.0 * std::numbers::pi);
+    const double apart_turns = turns_per_m * groups_.path_difference_m;
     const double place_turns =
-        float_rounding + wavenumber_rad_m / (2.0 * std::numbers::pi) * u_ *
-                             (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
-    const double tap = 4.0 * place_turns + 3.0 * summation() + 6.0 * u_;
+        2.0 * float_rounding + turns_per_m * u_ * (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
+    const double tap = 4.0 * place_turns + 4.0 * apart_turns * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + modulation_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.
     const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
     bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
-    bound.amplitude_per_condition = z + 2.0 * weight_;
+    bound.amplitude_per_condition = z + summation() + 2.0 * weight_;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
     bound.amplitude_per_weight = 2.0;
     return bound;

@@ -5,6 +5,7 @@
 #include "engine/signal/read_back.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 namespace pmdsim {
@@ -37,13 +38,22 @@ void Frame::finish_visibility(Measurement &measurement) const {
     clear_unseen(measurement);
 }
 
+// What the pixels that keep what was asked for claim together, and how many do not.
+void Frame::finish_claims(Measurement &measurement) const {
+  const shader::BudgetViolations words = budget_violations(on_.memory->buffers);
+  AccuracyReport &report = measurement.accuracy;
+  report.unpromised = words.returns;
+  report.claimed_m = static_cast<double>(std::bit_cast<float>(words.kept_m));
+  report.claimed_amplitude = static_cast<double>(std::bit_cast<float>(words.kept_amplitude));
+}
+
 void Frame::check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measurement &measurement) const {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<PassTime> times = recorder.times();
   const PlannedStrip &planned = on_.strips[strip];
   on_.check_graph.run(recorder, planned, strip, on_.windows, {}, measurement);
   recorder.reset(times);
-  on_.check->compare(strip, planned.strip, on_.memory->buffers, measurement);
+  on_.check->compare(strip, planned.strip, on_.memory->buffers, accuracy_.max_error_m, measurement);
   measurement.accuracy.check_ms += vulkan::milliseconds_since(start);
 }
 
@@ -75,17 +85,29 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
   }
   if (shaded)
     finish_visibility(measurement);
+  if (on_.modulation.reports_kept && accuracy_.mode != Mode::exact)
+    finish_claims(measurement);
   recorder.add("read_back", memory_ms);
   measurement.passes = recorder.times();
   measurement.frame_ms = vulkan::milliseconds_since(start) - measurement.accuracy.check_ms;
   return measurement;
 }
 
-std::optional<std::string> Frame::violation(const Measurement &measured) const {
+std::optional<std::string> Frame::beyond_bound() const {
   if (accuracy_.mode == Mode::exact)
     return std::nullopt;
-  return budget_violation(budget_violations(on_.memory->buffers), measured.accuracy, accuracy_,
-                          on_.sensor.ambiguity_m());
+  return pmdsim::beyond_bound(budget_violations(on_.memory->buffers), accuracy_);
+}
+
+std::optional<std::string> Frame::beyond_check(const Measurement &measured) const {
+  if (accuracy_.mode == Mode::exact)
+    return std::nullopt;
+  return pmdsim::beyond_check(measured.accuracy, accuracy_, on_.sensor.ambiguity_m());
+}
+
+bool Frame::is_most_exact() const {
+  const PixelClass &last = on_.path.classes.back();
+  return !last.reduced && (last.precision == Precision::fp64 || !on_.modulation.by_moments());
 }
 
 } // namespace pmdsim

@@ -24,8 +24,12 @@ public:
   // holds).
   Measurement measure(vulkan::PassRecorder &recorder, Measurement &&memory,
                       const std::function<void(double)> &progress, const ExposureNumber &number) const;
-  // Why the last frame, `measured`, does not keep the error that was asked for, if so.
-  std::optional<std::string> violation(const Measurement &measured) const;
+  // Why some pixels of the last frame may be off by more than was asked for, if so; and why those that shall
+  // not be, are, as far as they were checked.
+  std::optional<std::string> beyond_bound() const;
+  std::optional<std::string> beyond_check(const Measurement &measured) const;
+  // Whether a pixel that float is not exact enough for has been summed as exactly as can be.
+  bool is_most_exact() const;
 
   // After it the frame is of no use any more.
   SpareMemory release_memory() { return {std::move(on_.memory->buffers), on_.raster->release_images()}; }
@@ -33,6 +37,7 @@ public:
 private:
   void clear_violations(vulkan::PassRecorder &recorder) const;
   void finish_visibility(Measurement &measurement) const;
+  void finish_claims(Measurement &measurement) const;
   void check_strip(vulkan::PassRecorder &recorder, std::size_t strip, Measurement &measurement) const;
 
   SimulatorOptions options_;

@@ -59,13 +59,14 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
 // What a strip keeps of its samples.
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
                        const FramePath &path) {
-  const bool depth_only = path.record == SampleRecord::depth;
-  const Precision of_check = path.check.value_or(plan.precision);
+  const bool depth_only = path.keeps_depths_only();
+  const Precision of_check =
+      path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
   const std::uint32_t surface_vectors =
       std::max(facts.model.surface_vectors(plan.precision), facts.model.surface_vectors(of_check));
   const Modulation &modulation = facts.modulation;
   return {.host_reads_ids = path.host_reads_truth || options.keep_sample_ids || options.keep_visibility,
-          .id_bytes = depth_only ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
+          .id_bytes = path.record == SampleRecord::depth ? sizeof(shader::uvec4) : sizeof(shader::uvec2),
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
@@ -121,7 +122,7 @@ ShadowPasses make_shadow_passes(const Basis &on, const std::vector<PlannedStrip>
   if (on.path.host_sweep)
     shadow.host = std::make_shared<const HostSweep>(
         on, facts.occluders, facts.camera, on.request.scene, on.plan.all, windows, strips, grid,
-        !grid || on.path.holes || on.path.check || on.options.keep_visibility);
+        !on.path.keeps_depths_only() || on.path.holes || on.path.check || on.options.keep_visibility);
   else
     shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
                                                      on.plan.all, windows, strips, grid);
@@ -192,29 +193,44 @@ void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &list
                                       {.points = points,
                                        .refines = refined != nullptr,
                                        .sums = uniform != nullptr,
-                                       .lists = on.path.lists_pixels()},
+                                       .lists = on.path.lists_pixels(),
+                                       .leaves_truth = on.path.host_reads_truth,
+                                       .parts = on.path.of(PixelsOf::unshadowed) != nullptr},
                                       lists));
   if (refined)
     graph.add_after(uniform_pixels_pass(on, on.plan.uniform_groups, on.plan.extent, *refined->bound,
-                                        {.points = refined->points}, lists));
+                                        {.points = refined->points, .leaves_truth = false}, lists));
 }
 
-// A class of pixels, sample by sample: all of them, or those of `list`.
+// The sources that pixels of a class are summed over.
+const SourceGroups &groups_of(const FramePlan &plan, const PixelClass &pixels) {
+  return pixels.who == PixelsOf::precise ? *plan.precise : pixels.reduced ? plan.reduced : plan.all;
+}
+
+// Which pixels a class sums, and which it leaves to a later one.
+struct ClassLists {
+  const vulkan::Buffer *list = nullptr, *later = nullptr;
+};
+
+// A class of pixels, sample by sample: all of them, or those of a list.
 void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
-                const vulkan::Buffer *list, FrameGraph &graph,
+                const ClassLists &lists, FrameGraph &graph,
                 const std::optional<SampleTiles> &shadowed_tiles = {}) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
-  const SourceGroups &groups = pixels->reduced ? on.plan.reduced : on.plan.all;
+  const SourceGroups &groups = groups_of(on.plan, *pixels);
+  const auto [list, later] = lists;
   SumScope scope{.shadowed = pixels->shadowed,
                  .beforehand = on.path.point_dimensions > 0 && !pixels->shadowed,
                  .precision = pixels->precision,
                  .list = list,
+                 .later = later,
+                 .looped = who == PixelsOf::precise,
                  .bound = pixels->bound};
-  if (on.path.record == SampleRecord::depth)
+  if (on.path.keeps_depths_only())
     scope.depth_records.emplace(on.device, on.sensor);
-  if (list && !on.path.points_first)
+  if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
   if (on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
@@ -227,24 +243,75 @@ void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &
     scope.tiles.emplace(*shadowed_tiles);
   }
   Pass sum = accumulate_pass(on, groups, of_windows, scope);
-  list ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
+  list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
   if (!on.path.direct)
     graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+}
+
+// How much there is to do for the classes that follow, which the last one has listed pixels for.
+Pass count_pass(const std::shared_ptr<const PixelLists> &lists) {
+  return {.name = "accumulate",
+          .reads = pixel_lists,
+          .writes = pixel_lists,
+          .record = [lists](const Recording &at) {
+            const std::uint32_t side = at.of_strip().samples;
+            lists->record_count(at.commands, side * side);
+          }};
+}
+
+Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
+  return {.name = "accumulate",
+          .reads = no_resource,
+          .writes = pixel_lists,
+          .record = [lists](const Recording &at) { lists->record_clear(at.commands); }};
+}
+
+// The classes of pixels, one after the other, each with the pixels that those before it have left.
+void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
+                  const std::vector<SourceWindow> &windows, const std::optional<SampleTiles> &shadowed_tiles,
+                  FrameGraph &graph) {
+  const PixelClass *precise = on.path.of(PixelsOf::precise);
+  std::shared_ptr<const PixelLists> lists;
+  if (on.path.is_sorted() || precise)
+    lists = std::make_shared<const PixelLists>(on.device, strips);
+  const vulkan::Buffer *of_precise = precise ? &lists->of(shader::list_precise) : nullptr;
+  if (!on.path.is_sorted()) {
+    if (precise) // of one window
+      graph.add_to_window(clear_pass(lists));
+    list_class(on, PixelsOf::all, windows, {nullptr, of_precise}, graph, shadowed_tiles);
+  } else {
+    const vulkan::Buffer *of_rest = &lists->of(shader::list_rest);
+    list_sorting(on, lists, graph);
+    list_class(on, PixelsOf::unshadowed, windows,
+               {&lists->of(shader::list_unshadowed), precise ? of_rest : nullptr}, graph);
+    if (precise)
+      graph.add_after(count_pass(lists));
+    list_class(on, PixelsOf::rest, windows, {of_rest, of_precise}, graph);
+  }
+  if (precise) {
+    graph.add_after(count_pass(lists));
+    list_class(on, PixelsOf::precise, windows, {of_precise, nullptr}, graph);
+  }
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
 void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
                 const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
-  modulation.keeps_terms = false;
+  modulation.keeps_terms = modulation.reports_kept = false;
   const PassSetup setup{on.device, on.options, on.sensor, modulation, on.model, on.buffers, on.scene};
   const Precision precision = *on.path.check;
   SourceGroups of_precision;
-  if (precision != on.plan.precision)
+  if (precision != on.plan.precision && !on.plan.precise)
     of_precision = group_diodes(on.facts.lights, on.facts.projection.visible,
                                 modulation.largest_wavenumber_rad_m(), precision);
-  const SourceGroups &groups = precision == on.plan.precision ? on.plan.all : of_precision;
-  const SumScope scope{.shadowed = modulation.lit, .precision = precision, .list = &check.list()};
+  const SourceGroups &groups = precision == on.plan.precision ? on.plan.all
+                               : on.plan.precise              ? *on.plan.precise
+                                                              : of_precision;
+  const SumScope scope{.shadowed = modulation.lit,
+                       .precision = precision,
+                       .list = &check.list(),
+                       .looped = on.plan.precise && precision == Precision::fp64};
   graph.add_before(check.list_pass());
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
@@ -301,15 +368,9 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;
-  if (shadow && grid)
+  if (shadow && on.path.keeps_depths_only())
     shadowed_tiles.emplace(shadow.shadowed_tiles());
-  list_class(on, PixelsOf::all, windows, nullptr, graph, shadowed_tiles);
-  if (on.path.is_sorted()) {
-    const auto lists = std::make_shared<const PixelLists>(on.device, strips);
-    list_sorting(on, lists, graph);
-    list_class(on, PixelsOf::unshadowed, windows, &lists->of(shader::list_unshadowed), graph);
-    list_class(on, PixelsOf::rest, windows, &lists->of(shader::list_rest), graph);
-  }
+  list_classes(on, strips, windows, shadowed_tiles, graph);
   graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
   if (on.path.check) {
     made.check.emplace(on, strips);
@@ -328,6 +389,8 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                                      facts.model, request.backscatter, device.is_cpu(), options.allowed},
                                     request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
+  facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
+  facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;
   const std::vector<SourceWindow> windows =
       facts.modulation.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);

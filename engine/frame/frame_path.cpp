@@ -61,6 +61,13 @@ std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const Frame
   return is_smooth(facts, plan, sensor) && may_thin_out ? std::optional(1u) : std::nullopt;
 }
 
+void add_precise(const FrameFacts &facts, const FramePlan &plan, std::uint32_t samples,
+                 std::vector<PixelClass> &classes) {
+  if (plan.precise)
+    classes.push_back(
+        {PixelsOf::precise, false, samples, Precision::fp64, facts.modulation.lit, plan.bound_of_precise});
+}
+
 std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan &plan,
                                        const FrameRequest &request, const PathForms &allowed) {
   const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
@@ -70,12 +77,14 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
     classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.uniform_bound});
   if (points && samples > 1 && plan.refined_bound && allowed.refined_uniform_pixels)
     classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.refined_bound});
-  // Of one sample a pixel, the uniform ones are all that every source lights and that surely keep the bound.
-  if (!points || samples > 1 || !plan.surely_kept)
+  // Of one sample a pixel, the uniform ones are all that every source lights; those that may not keep the
+  // bound with the reduced set go to the rest.
+  if (!points || samples > 1 || (!plan.surely_kept && !plan.precise))
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
-  if (has_rest(facts))
+  if (has_rest(facts) || plan.precise)
     classes.push_back(
         {PixelsOf::rest, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all});
+  add_precise(facts, plan, samples, classes);
   return classes;
 }
 
@@ -88,8 +97,12 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
     return sorted_classes(facts, plan, request, allowed);
   // Where all samples are alike, what stands in for the sources does so for all of them.
   const bool reduced = plan.is_reduced() && !has_rest(facts);
-  return {{PixelsOf::all, reduced, request.sensor.samples * request.sensor.samples, plan.precision,
-           facts.modulation.lit, reduced ? plan.bound : plan.bound_of_all}};
+  const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
+  std::vector<PixelClass> classes{{PixelsOf::all, reduced, samples, plan.precision, facts.modulation.lit,
+                                   reduced ? plan.bound : plan.bound_of_all}};
+  if (can_sort(facts, windows))
+    add_precise(facts, plan, samples, classes);
+  return classes;
 }
 
 // Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
@@ -115,15 +128,21 @@ std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, c
   return takes_all && is_plain ? plan.all.polynomials.point_dimensions : 0;
 }
 
+// Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
+bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathForms &allowed) {
+  return allowed.depth_records && path.is_sorted() && sensor.samples == 1 && is_even(path.grid, sensor);
+}
+
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
-  return facts.modulation.lit || sensor.has_distortion() ? plan.precision
-                                                         : sum_precision(facts.modulation, Precision::fp64);
+  return (facts.modulation.lit && !plan.precise) || sensor.has_distortion()
+             ? plan.precision
+             : sum_precision(facts.modulation, Precision::fp64);
 }
 
 // In the order of the numbers that they stand for.
-constexpr std::array pixels_names{"all", "uniform", "uniform_refined", "unshadowed", "rest"};
+constexpr std::array pixels_names{"all", "uniform", "uniform_refined", "unshadowed", "rest", "precise"};
 constexpr std::array grid_names{"nominal", "posed", "tiled", "distorted"};
 constexpr std::array surface_names{"constant, all facing", "constant, tested", "lambert"};
 constexpr std::array pattern_names{"isotropic", "whole power of the cosine", "power of the cosine",
@@ -193,7 +212,9 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   path.classes = classes_of(facts, plan, request, windows, allowed);
   path.record =
-      keeps_depth_only(path, facts, plan, sensor, allowed) ? SampleRecord::depth : SampleRecord::point;
+      keeps_depth_only(path, facts, plan, sensor, allowed) || begins_with_depths(path, sensor, allowed)
+          ? SampleRecord::depth
+          : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());

@@ -31,6 +31,7 @@ enum class PixelsOf {
   uniform_refined, // the same, for which one point of the pixel is not exact enough
   unshadowed,      // every source lights them, but they need all of their samples
   rest,            // all others
+  precise,         // those for which float is not exact enough
 };
 
 // Pixels that are summed alike: who, with which sources, at how many of a pixel's points, how exactly.
@@ -67,6 +68,9 @@ struct FramePath {
   std::optional<Precision> check; // of the spot check; nothing where no error was asked for
 
   const PixelClass *of(PixelsOf who) const;
+  // Whether depths are all that is ever there of the samples; else points are made of those of a class that
+  // asks for them.
+  bool keeps_depths_only() const { return record == SampleRecord::depth && !is_sorted(); }
   // Whether pixels are sorted into classes.
   bool is_sorted() const { return classes.front().who != PixelsOf::all; }
   bool lists_pixels() const { return of(PixelsOf::unshadowed) || of(PixelsOf::rest); }

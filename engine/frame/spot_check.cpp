@@ -77,7 +77,7 @@ Pass SpotCheck::list_pass() const {
 }
 
 void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
-                        Measurement &measured) const {
+                        double limit_m, Measurement &measured) const {
   AccuracyReport &report = measured.accuracy;
   const ChannelLayout layout(modulation_);
   double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
@@ -90,6 +90,8 @@ void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripB
       };
       const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_.modulation_hz[f]);
       const Return &found = measured.returns[f];
+      if (!found.error_bound_m.empty() && static_cast<double>(found.error_bound_m[at]) > limit_m)
+        continue;
       distance_m = std::max(
           distance_m, wrapped(difference(found.distance_m[at], exact(&Return::distance_m)), ambiguity_m));
       amplitude = std::max(amplitude, relative_difference(found.amplitude[at], exact(&Return::amplitude)));

@@ -19,8 +19,8 @@ public:
   // Fills it with the strip's pixels.
   Pass list_pass() const;
   // Largest difference of the measured strip from the channels that were read back, into the measurement's
-  // report.
-  void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers,
+  // report. Returns whose bounds are kept and beyond the limit are left out.
+  void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers, double limit_m,
                Measurement &measured) const;
 
 private:

@@ -16,6 +16,8 @@ namespace {
 std::uint32_t lists_of(const UniformPixels &pixels) {
   if (!pixels.lists)
     return shader::lists_no_pixel;
+  if (!pixels.parts)
+    return shader::lists_in_rest;
   return pixels.refines ? shader::lists_in_three : shader::lists_in_two;
 }
 
@@ -30,7 +32,8 @@ vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &gro
               {shader::constant_runs, pixels.sums ? static_cast<std::uint32_t>(groups.runs.size()) : 0u},
               {shader::constant_side, on.sensor.samples},
               {shader::constant_quadrature_points, pixels.points},
-              {shader::constant_lists_pixels, lists_of(pixels)}});
+              {shader::constant_lists_pixels, lists_of(pixels)}})
+      .set(shader::constant_ground_truth, !pixels.leaves_truth);
 }
 
 shader::UniformPixelsLight light_record(const LightExtent &extent, const Modulation &modulation,
@@ -73,6 +76,7 @@ vulkan::Buffer upload_light(const PassSetup &on, const SourceGroups &groups, con
 
 vulkan::Buffer upload_work(const PassSetup &on, const SourceGroups &groups, const PixelLists &lists) {
   shader::UniformPixelsWork work{};
+  work.violations = on.buffers.violations.words();
   work.lit_channel = ChannelLayout(on.modulation).lit_channel();
   work.diodes = groups.diode_count;
   for (std::uint32_t list = 0; list < shader::pixel_lists; ++list)

@@ -16,6 +16,8 @@ struct UniformPixels {
   bool refines = false; // pixels for which one point is not enough are listed for four
   bool sums = true;     // false: the pass only lists pixels
   bool lists = true;    // false: it takes all, and none can be beyond the bound
+  bool leaves_truth = false; // to the host, which finds it in the records
+  bool parts = true;         // what every diode lights is listed apart from the rest
 };
 
 // `groups` stand in for all diodes, whose light has that `extent`; `bound` is what their sum is held

@@ -67,7 +67,7 @@ vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &g
 }
 
 vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
-  return {{shader::constant_straight, is_straight(on.device, on.options, scope.precision)},
+  return {{shader::constant_straight, !scope.looped && is_straight(on.device, on.options, scope.precision)},
           {shader::constant_blocks_per_run, groups.blocks_per_run},
           {shader::constant_moments, groups.moments},
           {shader::constant_powers, groups.polynomials.powers},

@@ -42,11 +42,14 @@ struct SumOutput {
 
 // Which samples are summed, and how exactly.
 struct SumScope {
-  bool shadowed = false;                     // not every diode reaches every sample
-  bool beforehand = false;                   // the diodes are summed beforehand (point_polynomials.h)
-  Precision precision = Precision::fp32;     // of the groups and of the surfaces' vectors
-  const vulkan::Buffer *list = nullptr;      // of pixels; else all
-  std::optional<ErrorBound> bound{};         // what the sum's error is to be held against
+  bool shadowed = false;                 // not every diode reaches every sample
+  bool beforehand = false;               // the diodes are summed beforehand (point_polynomials.h)
+  Precision precision = Precision::fp32; // of the groups and of the surfaces' vectors
+  const vulkan::Buffer *list = nullptr;  // of pixels; else all
+  const vulkan::Buffer *later =
+      nullptr;                       // of pixels that may be beyond the bound, for a later class; else none
+  bool looped = false;               // no straight line, which few pixels are not worth compiling
+  std::optional<ErrorBound> bound{}; // what the sum's error is to be held against
   std::optional<ChipGrid> depth_records{};   // where these are all that is known of the samples
   std::optional<SampleTiles> tiles{};        // of depth records, which are summed anew, now shadowed
   std::shared_ptr<const SumOutput> output{}; // of depth records

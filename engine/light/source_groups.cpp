@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace pmdsim {
@@ -214,9 +215,12 @@ std::uint32_t moments_needed(double phase_rad, double remainder) {
   return k;
 }
 
-SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
-                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                          Precision precision, std::uint32_t most_blocks) {
+namespace {
+
+// `run_blocks`: nothing where the cheapest are to be found, of `most_blocks` at most.
+SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
+                     const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
+                     std::uint32_t most_blocks, std::optional<std::uint32_t> run_blocks) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
@@ -240,13 +244,27 @@ SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
           std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
   }
   result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision));
-  result.blocks_per_run = cheapest_run_blocks(
-      grouping.groups(), precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks);
+  result.blocks_per_run = run_blocks ? *run_blocks : cheapest_run_blocks(grouping.groups(), most_blocks);
   DiagramTables diagrams;
   for (const Group &group : grouping.groups())
     add_runs(group, precision, result, diagrams);
   result.diagrams = diagrams.values();
   return result;
+}
+
+} // namespace
+
+SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
+                          const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                          Precision precision, std::uint32_t most_blocks) {
+  return grouped(illuminators, visible, wavenumber_rad_m, precision,
+                 precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks, std::nullopt);
+}
+
+SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
+                            const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                            const SourceGroups &groups) {
+  return grouped(illuminators, visible, wavenumber_rad_m, Precision::fp64, 0, groups.blocks_per_run);
 }
 
 } // namespace pmdsim

@@ -70,6 +70,11 @@ SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                           Precision precision = Precision::fp32,
                           std::uint32_t most_blocks = usual_run_blocks);
 
+// The same diodes as `groups` in the same order and runs, in fp64.
+SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
+                            const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
+                            const SourceGroups &groups);
+
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);
 

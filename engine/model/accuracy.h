@@ -25,10 +25,11 @@ struct Accuracy {
   double max_error_m =
       default_max_error_m; // of distance in every pixel, wrapped; in mode exact of adaptive samples only
   double max_amplitude_error = std::numeric_limits<double>::infinity(); // relative, likewise
+  bool strict = false; // a frame some of whose pixels may be off by more is refused, not returned
 };
 
 // What a frame came to. Errors are of distance, wrapped, and of amplitude, relative; the largest of all
-// pixels.
+// pixels that keep what was asked for.
 struct AccuracyReport {
   Precision precision = Precision::fp32; // of pixels that few places did not do for in float
   std::uint32_t diodes = 0;              // summed where all reach a point: those that stand in for all
@@ -38,6 +39,9 @@ struct AccuracyReport {
   std::optional<double> found_m, found_amplitude;
   std::size_t checked_pixels = 0;
   double check_ms = 0.0; // not part of Measurement::frame_ms
+  // Pixels' returns that may be off by more than was asked for, one for each frequency
+  // (Return::error_bound_m).
+  std::size_t unpromised = 0;
 };
 
 // What is asked for of every pixel: an error within the limit. It is off by fixed + per_condition * condition

@@ -30,6 +30,7 @@ struct DeviceSlot {
     truth, // stored with the first frequency; the host may read all of it off the samples' records instead
     frequency, // one area for each; taps come last. A channel of the frame is read from the first
     shadow,    // only where something may stand in the light
+    bound,     // behind each frequency's taps; only where it is asked for
   };
   Area area;
   std::uint32_t index; // of a tap: that of tap 0
@@ -82,6 +83,11 @@ inline constexpr std::array channel_rows = [] {
        {Area::frequency, 2},
        Preview{"distance", Scale::sequential}},
       {"tap", radiance_unit, "the correlation samples", &Return::taps, {Area::frequency, 4}},
+      {"error_bound_m",
+       "m",
+       "what distance_m is off by at most; only with an error asked for that some pixels may exceed",
+       &Return::error_bound_m,
+       {Area::bound, 0}},
       {"range_m",
        "m",
        "ground truth: mean distance to the lens",

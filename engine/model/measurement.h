@@ -19,6 +19,9 @@ struct Return {
   // c_k, k = 0 ... N-1: the mean of the correlation function at path phase - 2 pi k / N, W/(m^2 sr), 0 where
   // nothing returns; empty unless the taps are asked for.
   std::vector<std::vector<float>> taps;
+  // What distance_m is off by at most, m, as theory has it: infinite where nothing can be said, NaN where
+  // nothing returns. Empty unless some pixel may be off by more than was asked for.
+  std::vector<float> error_bound_m{};
 };
 
 // Which exposure of a setup: what differs from one to the next, as noise does, follows from these numbers and

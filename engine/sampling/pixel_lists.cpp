@@ -38,7 +38,7 @@ vulkan::Buffer make_largest_list(const vulkan::Device &device, const std::vector
 
 PixelLists::PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips)
     : lists_{make_largest_list(device, strips), make_largest_list(device, strips),
-             make_largest_list(device, strips)},
+             make_largest_list(device, strips), make_largest_list(device, strips)},
       count_(device, vulkan::shader_module(device, SamplePrecision::automatic, "pixel_list_count"),
              sizeof(shader::PixelListConstants)) {}
 

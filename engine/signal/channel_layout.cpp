@@ -54,10 +54,12 @@ shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
 
 ChannelLayout::ChannelLayout(const Modulation &modulation)
     : frequencies(modulation.frequencies()), taps(modulation.keep_taps ? modulation.taps : 0),
-      lit(modulation.lit) {}
+      lit(modulation.lit), bounds(modulation.keeps_bounds) {}
 
 std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
-  return channels_in(Area::truth) + frequency * whole_pairs(channels_in(Area::frequency) + taps);
+  const std::uint32_t of_frequency =
+      whole_pairs(channels_in(Area::frequency) + taps) + (bounds ? channels_in(Area::bound) : 0);
+  return channels_in(Area::truth) + frequency * of_frequency;
 }
 
 std::uint32_t ChannelLayout::lit_channel() const { return first_channel(frequencies); }
@@ -67,13 +69,17 @@ std::uint32_t ChannelLayout::channels() const {
 }
 
 bool ChannelLayout::holds(const ChannelRow &row) const {
-  return is_of_taps(row) ? taps > 0 : row.slot.area != Area::shadow || lit;
+  return is_of_taps(row)                 ? taps > 0
+         : row.slot.area == Area::shadow ? lit
+                                         : row.slot.area != Area::bound || bounds;
 }
 
 std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
   const auto [area, index] = of.row.slot;
-  const std::uint32_t first = area == Area::frequency
-                                  ? first_channel(static_cast<std::uint32_t>(of.frequency))
+  const std::uint32_t of_frequency = first_channel(static_cast<std::uint32_t>(of.frequency));
+  const std::uint32_t first = area == Area::frequency ? of_frequency
+                              : area == Area::bound
+                                  ? of_frequency + whole_pairs(channels_in(Area::frequency) + taps)
                               : area == Area::shadow ? lit_channel()
                                                      : 0;
   return first + index + static_cast<std::uint32_t>(of.tap);

@@ -17,6 +17,7 @@ struct ChannelLayout {
   std::uint32_t frequencies;
   std::uint32_t taps; // that are kept, of each frequency
   bool lit;           // the area of shadows is there
+  bool bounds;        // those of bounds are
 
   // All of them, and where areas begin; even numbers.
   std::uint32_t channels() const;

@@ -2,6 +2,7 @@
 
 #include "engine/sampling/pixel_lists.h"
 #include "engine/signal/channel_layout.h"
+#include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
@@ -19,7 +20,11 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
           {shader::constant_tiled, is_tiled(on.sensor)},
           {shader::constant_lit_is_kept, first && on.modulation.lit},
           {shader::constant_listed, scope.list != nullptr},
+          {shader::constant_depth_records, on.buffers.id_bytes == sizeof(shader::uvec4)},
           {shader::constant_keeps_terms, on.modulation.keeps_terms},
+          {shader::constant_passes_on, scope.later != nullptr},
+          {shader::constant_keeps_bounds, on.modulation.keeps_bounds},
+          {shader::constant_reports_kept, on.modulation.keeps_terms && on.modulation.reports_kept},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};
 }
 
@@ -99,11 +104,14 @@ vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool fi
 }
 
 void Demodulation::record(const Recording &at) const {
-  for (std::uint32_t f = 0; f < frequencies_; f += at_once_)
+  for (std::uint32_t f = 0; f < frequencies_; f += at_once_) {
+    if (f > 0 && scope_.later) // of which the frequency before may have listed
+      vulkan::compute_barrier(at.commands);
     if (scope_.depth_records)
       record_depths(at, f);
     else
       record_samples(at, f);
+  }
 }
 
 void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) const {
@@ -120,6 +128,7 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
                                                 buffers_.terms.words(),
                                                 buffers_.violations.words(),
                                                 address_of(scope_.list),
+                                                address_of(scope_.later),
                                                 strip.columns,
                                                 strip.samples,
                                                 strip.padded_pixels,
@@ -163,7 +172,7 @@ Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const Su
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |
                    (on.modulation.lit ? visibility_counts : no_resource) |
                    (scope.list ? pixel_lists : no_resource),
-          .writes = channels,
+          .writes = channels | (scope.later ? pixel_lists | terms : no_resource),
           .record = [demodulation](const Recording &at) { demodulation->record(at); },
           .list = scope.list};
 }

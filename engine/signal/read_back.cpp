@@ -161,8 +161,11 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
   const std::size_t pixels = sensor.pixel_count();
   const ChannelLayout layout(modulation);
   measurement.returns.resize(layout.frequencies);
-  for (Return &of_frequency : measurement.returns)
+  for (Return &of_frequency : measurement.returns) {
     of_frequency.taps.resize(layout.taps);
+    if (!layout.bounds)
+      of_frequency.error_bound_m.clear();
+  }
   for_each_channel(measurement, [&](const ChannelIndex &of, auto &values) {
     if (layout.holds(of.row)) // what else there is, the host fills or clears
       values.resize(pixels);

@@ -22,14 +22,15 @@ struct Points {
 Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
                  std::uint32_t surface_vectors, const StripBuffers &buffers, const SceneBuffers &scene,
                  const vulkan::Buffer *list) {
-  vulkan::ComputePipeline pipeline(device, vulkan::shader_module(device, precision, "points"),
-                                   sizeof(shader::PointsConstants),
-                                   {{shader::constant_surface_vectors, surface_vectors},
-                                    {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
-                                    {shader::constant_general_chip, !is_nominal(sensor)},
-                                    {shader::constant_tiled, is_tiled(sensor)},
-                                    {shader::constant_painted, scene.paint.painted},
-                                    {shader::constant_listed, list != nullptr}});
+  vulkan::ComputePipeline pipeline(
+      device, vulkan::shader_module(device, precision, "points"), sizeof(shader::PointsConstants),
+      {{shader::constant_surface_vectors, surface_vectors},
+       {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
+       {shader::constant_general_chip, !is_nominal(sensor)},
+       {shader::constant_tiled, is_tiled(sensor)},
+       {shader::constant_painted, scene.paint.painted},
+       {shader::constant_depth_records, buffers.id_bytes == sizeof(shader::uvec4)},
+       {shader::constant_listed, list != nullptr}});
   const auto made = std::make_shared<const Points>(
       Points{half_sample_slope(sensor), upload_chip(device, sensor), std::move(pipeline)});
   return {.name = "points",

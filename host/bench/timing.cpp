@@ -19,6 +19,7 @@ void add(AccuracyReport &sum, const AccuracyReport &report) {
   sum.claimed_amplitude = larger(sum.claimed_amplitude, report.claimed_amplitude);
   sum.found_m = larger(sum.found_m, report.found_m);
   sum.found_amplitude = larger(sum.found_amplitude, report.found_amplitude);
+  sum.unpromised += report.unpromised;
   sum.checked_pixels += report.checked_pixels;
   sum.check_ms += report.check_ms;
 }

@@ -1,6 +1,7 @@
 #include "host/capture/capture.h"
 
 #include "engine/model/error.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ Setup requested_setup(const CaptureRequest &request) {
 
 Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
     : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
+      max_error_m_(request.accuracy.max_error_m),
       exposures_(setup_, request.device, keep_taps, request.accuracy),
       sequence_(setup_, frames_, request.output_directory,
                 {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
@@ -51,7 +53,10 @@ std::string Capture::device_text() const {
 TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<double> next_s,
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
-  return exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
+  TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
+  if (const std::string warning = unpromised_text(taken.measurement.accuracy, max_error_m_); !warning.empty())
+    fmt::print(stderr, "pmdsim: warning: {}, frame {}: {}\n", taken.sensor.name, at.frame, warning);
+  return taken;
 }
 
 void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes,

@@ -55,6 +55,7 @@ private:
   Setup setup_;
   FrameRange frames_;
   std::set<Format> formats_;
+  double max_error_m_; // asked for
   Exposures exposures_;
   FrameSequence sequence_;
   std::optional<ProgressBar> bar_; // while it writes

@@ -35,6 +35,7 @@ AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyRepor
   difference.claimed_m = sum(bistatic.claimed_m, monostatic.claimed_m);
   difference.found_m = sum(bistatic.found_m, monostatic.found_m);
   difference.claimed_amplitude = difference.found_amplitude = std::nullopt;
+  difference.unpromised = bistatic.unpromised + monostatic.unpromised;
   difference.checked_pixels = std::min(bistatic.checked_pixels, monostatic.checked_pixels);
   difference.check_ms += monostatic.check_ms;
   return difference;

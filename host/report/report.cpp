@@ -72,6 +72,14 @@ std::string errors_text(const AccuracyReport &report) {
   return fmt::format("{}", fmt::join(errors, ", "));
 }
 
+std::string unpromised_text(const AccuracyReport &report, double max_error_m) {
+  if (report.unpromised == 0)
+    return "";
+  return fmt::format("{} return{} of pixels may be off by more than {:.6g} mm, each by what the channel "
+                     "error_bound_m says; --strict refuses such frames",
+                     report.unpromised, report.unpromised == 1 ? "" : "s", 1e3 * max_error_m);
+}
+
 std::string accuracy_text(Mode mode, const AccuracyReport &report) {
   std::string text;
   if (mode != Mode::exact || report.precision == Precision::fp64)

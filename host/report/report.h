@@ -25,6 +25,8 @@ std::string sum_text(Mode mode, const AccuracyReport &report);
 // "at most 4 µm claimed, at most 1 µm found in 1024 pixels, checked in 2.000 ms"; empty where nothing is
 // known.
 std::string errors_text(const AccuracyReport &report);
+// Of pixels that may be off by more than was asked for, how many; empty where there are none.
+std::string unpromised_text(const AccuracyReport &report, double max_error_m);
 // A line of each, as far as they say something beyond mode exact in fp32.
 std::string accuracy_text(Mode mode, const AccuracyReport &report);
 

@@ -17,6 +17,7 @@ layout(push_constant, std430) uniform Constants { UniformPixelsConstants constan
 #define DIAGRAM_VALUES Lights(constants.light).at.diagrams
 #include "shaders/light/moments.glsl"
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
+layout(constant_id = constant_depth_records) const uint depth_records = 0;
 layout(constant_id = constant_runs) const uint runs = 1;
 layout(constant_id = constant_side) const uint side = 1; // S
 layout(constant_id = constant_quadrature_points) const uint quadrature_points = 0;
@@ -26,6 +27,15 @@ const uint evaluations = by_four ? 4 : 1;
 // The variance of the samples' points, in half steps between them. Four points at its root each way from the centre share all
 // moments with the samples up to the third.
 float variance() { return float(side * side - 1u) / 3.0; }
+
+// Of a pixel's only sample the record has the depth, and no more of its plane is loaded than the light asks for: lavapipe loads
+// lane by lane.
+TrianglePlane load_seen_plane(uint triangle) {
+  if (depth_records == 0)
+    return load_plane(constants.planes, triangle);
+  uvec2 appearance = load_words(constants.planes, 6 * triangle + 4);
+  return TrianglePlane(load_vec4(constants.planes, 3 * triangle), vec4(0.0), uintBitsToFloat(appearance.x), appearance.y, 0.0, 0.0);
+}
 
 // What the samples of a pixel have in common.
 struct Seen {
@@ -40,18 +50,25 @@ bool faces(TrianglePlane plane, UniformPixelsLight light) {
   return height > dot(abs(plane.plane_hi.xyz), light.extent_m.xyz);
 }
 
-Seen see(uint pixel, UniformPixelsLight light) {
+// `plane`: of the first sample; any where it hits nothing.
+Seen see(uint pixel, UniformPixelsLight light, out TrianglePlane plane) {
   Strip strip = constants.strip;
   uvec2 in_strip = uvec2(pixel % strip.columns, pixel / strip.columns), extent = uvec2(strip.columns, strip.rows);
   uint diodes = Works(constants.work).at.diodes;
   Seen seen = Seen(uvec2(0), true, true);
   for (uint s = 0; s < side * side; ++s) {
-    uvec2 ids = load_words(constants.ids, id_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0));
-    if (s == 0)
+    uvec2 ids = load_ids(constants.ids, id_index(in_strip, uvec2(s % side, s / side), extent, side, tiled != 0), depth_records);
+    if (s == 0) {
       seen.ids = ids;
+      plane = load_seen_plane(ids.x != 0u ? ids.y : 0u);
+    }
     seen.alike = seen.alike && ids == seen.ids;
-    if (backscatter_model != backscatter_flat)
-      seen.lit = seen.lit && (ids.x == 0u || faces(load_plane(constants.planes, ids.x != 0u ? ids.y : 0u), light));
+    if (backscatter_model != backscatter_flat) {
+      TrianglePlane of_sample = plane;
+      if (s > 0)
+        of_sample = load_plane(constants.planes, ids.x != 0u ? ids.y : 0u);
+      seen.lit = seen.lit && (ids.x == 0u || faces(of_sample, light));
+    }
     if (lit_is_kept != 0)
       seen.lit = seen.lit && (ids.x == 0u || Words(constants.lit).at[s * strip.padded_pixels + pixel] == diodes);
   }
@@ -119,9 +136,13 @@ Real3 ray_to(uint pixel, vec2 from_centre) {
 }
 
 // `z`: of each tone.
-void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, Real3 ray, uint number, inout Quadrature sum,
-               inout vec4 z[tones]) {
-  Real3 position = point_on_plane(ray, plane);
+void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, Real3 ray, uint number,
+               inout Quadrature sum, inout vec4 z[tones]) {
+  Real3 position;
+  if (depth_records != 0)
+    position = point_at_depth(ray, load_record_depth(constants.ids, pixel));
+  else
+    position = point_on_plane(ray, plane);
   float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
   vec4 of_point[tones];
   float terms;
@@ -152,14 +173,16 @@ Quadrature sum_points(UniformPixelsLight light, TrianglePlane plane, uint triang
   [[unroll]] for (uint p = 0; p < evaluations; ++p) { // lavapipe fetches lane by lane in loops
     vec2 side_of = vec2((p & 1u) == 0u ? -1.0 : 1.0, (p & 2u) == 0u ? -1.0 : 1.0);
     vec2 from_centre = by_four ? sqrt(variance()) * side_of : vec2(0.0);
-    add_point(light, plane, triangle, ray_to(pixel, from_centre), p, sum, z);
+    add_point(light, plane, triangle, pixel, ray_to(pixel, from_centre), p, sum, z);
   }
   return sum;
 }
 
-// Stores a pixel's channels and returns whether what was asked for of them holds.
-bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Quadrature seen, vec4 z[tones], Errors added) {
+// Stores a pixel's channels and returns whether what was asked for of them holds; `worst` is what they may be off by.
+bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Quadrature seen, vec4 z[tones], Errors added,
+                 out Errors worst) {
   bool kept = true;
+  worst = Errors(0.0, 0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     Frequency frequency = Lights(constants.light).at.frequencies[t];
     PixelSum sum;
@@ -172,9 +195,13 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
       sum.hits = sum.lit = evaluations;
     }
     float size = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
-    kept = kept && is_kept(frequency, errors_of(frequency, hits ? seen.terms : 0.0, size, added));
+    Errors errors = errors_of(frequency, hits ? seen.terms : 0.0, size, added);
+    kept = kept && is_kept(frequency, errors);
+    worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));
+    store_bound(to, frequency, pixel, size, errors);
     if (t == 0) {
-      store_ground_truth(to, evaluations, pixel, sum);
+      if (ground_truth != 0)
+        store_ground_truth(to, evaluations, pixel, sum);
       if (lit_is_kept != 0)
         store_lit(to, Works(constants.work).at.lit_channel, 1u, pixel, sum);
     }
@@ -218,22 +245,26 @@ void main() {
   bool pads = to >= strip.columns * strip.rows;
   uint pixel = pads ? 0u : to;
   UniformPixelsLight light = Lights(constants.light).at;
-  Seen seen = see(pixel, light);
+  TrianglePlane plane;
+  Seen seen = see(pixel, light, plane);
   bool done = false;
   if (runs > 0) {
     bool hits = seen.ids.x != 0u;
     uint triangle = hits ? seen.ids.y : 0u;
-    TrianglePlane plane = load_plane(constants.planes, triangle);
     vec4 z[tones];
     Quadrature quadrature = sum_points(light, plane, triangle, pixel, z);
     Errors added = errors_of_pixel(light, plane, pixel, hits, quadrature);
     Channels channels = Channels(constants.channels, strip.padded_pixels);
-    bool kept = store_pixel(channels, light, to, hits, quadrature, z, added);
-    store_ids(channels, seen.ids, plane.object, to);
+    Errors worst;
+    bool kept = store_pixel(channels, light, to, hits, quadrature, z, added, worst);
+    if (ground_truth != 0)
+      store_ids(channels, seen.ids, plane.object, to);
     done = seen.alike && seen.lit && kept && (side == 1 || quadrature_points != 0 || !hits);
+    if (done && !pads && hits)
+      report_kept(Works(constants.work).at.violations, worst);
   }
   if (lists_pixels != lists_no_pixel && !done && !pads) {
-    uint list = seen.lit ? list_unshadowed : list_rest;
+    uint list = seen.lit && lists_pixels != lists_in_rest ? list_unshadowed : list_rest;
     if (lists_pixels == lists_in_three)
       list = seen.alike && seen.lit ? list_refined : list;
     defer(list, pixel);

@@ -9,7 +9,7 @@ layout(constant_id = constant_taps) const uint taps = 4;
 
 // Of an even N the later half follows from the first.
 const uint distinct_taps = taps % 2 == 0 ? taps / 2 : taps;
-const uint totals = distinct_taps + 1; // of w * (C + 1) / 4 for each distinct tap, and of w
+const uint totals = distinct_taps + 1; // of w times what (C + 1) / 4 differs by from that of the reference path, and of w
 const uint tap_planes = (distinct_taps + 1) / 2;
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
@@ -19,11 +19,15 @@ void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phas
     phases[k] = turn_fraction(add(turns, negate(divide(real(float(k)), real(float(taps))))));
 }
 
+// (C + 1) / 4 of x in [-1, 1] turns.
+float quarter_wave(float turns) { return abs(abs(turns) - 0.5); }
+
+// What is summed is small, and so is its rounding; the larger part has the same sum of weights in every tap, whose rounding turns
+// nothing.
 void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_difference, Tone tone) {
   float difference_turns = weight_difference.y * tone.turns_per_m.x;
-  // The triangle wave of x in [-1, 1] turns is 4 ||x| - 1/2| - 1.
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
-    part[k] += weight_difference.x * abs(abs(phases[k] + difference_turns) - 0.5);
+    part[k] += weight_difference.x * (quarter_wave(phases[k] + difference_turns) - quarter_wave(phases[k]));
   part[distinct_taps] += weight_difference.x;
 }
 
@@ -39,11 +43,12 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
     total[k] += part[k];
 }
 
-void add_taps(uint i, float total[totals], float backscatter) {
+void add_taps(uint i, float total[totals], float phases[distinct_taps], float backscatter) {
   float weight = total[distinct_taps];
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
     uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
-    add_to_plane(p, i, backscatter, 4.0 * vec2(total[2 * p], total[second]) - weight);
+    vec2 of_reference = 4.0 * vec2(quarter_wave(phases[2 * p]), quarter_wave(phases[second])) - 1.0;
+    add_to_plane(p, i, backscatter, of_reference * weight + 4.0 * vec2(total[2 * p], total[second]));
   }
 }
 
@@ -69,5 +74,5 @@ void main() {
 
   float backscatter = load_backscatter(i);
   add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
-  add_taps(i, total, backscatter);
+  add_taps(i, total, phases, backscatter);
 }

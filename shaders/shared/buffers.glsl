@@ -52,6 +52,8 @@ void store_words(uvec2 address, uint i, uvec2 words) { DoubleWords(address).at[i
 #endif
 // A sample's record (interface.h).
 uvec2 load_record_ids(uvec2 address, uint i) { return load_words(address, 2 * i); }
+// Of samples that have a record or, where `records` is 0, IDs alone.
+uvec2 load_ids(uvec2 address, uint i, uint records) { return load_words(address, records != 0 ? 2 * i : i); }
 Real load_record_depth(uvec2 address, uint i) { return real_of(load_words(address, 2 * i + 1)); }
 
 TrianglePlane load_plane(uvec2 address, uint i) {

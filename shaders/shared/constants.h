@@ -56,10 +56,14 @@ PMDSIM_CONSTANT constant_all_facing = 42; // 1: every surface faces every diode
 PMDSIM_CONSTANT constant_lists_hidden = 43; // 1: of triangles that the lens does not see
 PMDSIM_CONSTANT constant_exact_only = 44; // 1: nothing is decided in float
 PMDSIM_CONSTANT constant_point_dimensions = 45; // by powers: 2 or 3: their sums are polynomials of the point in so many coordinates; 0: loops over the diodes
+PMDSIM_CONSTANT constant_keeps_bounds = 46; // 1: what each pixel may be off by is a channel, too
+PMDSIM_CONSTANT constant_passes_on = 47; // 1: pixels that may be off by more than was asked for are listed for a later class
+PMDSIM_CONSTANT constant_reports_kept = 48; // 1: the largest bound of the pixels that keep theirs is wanted
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest
 PMDSIM_CONSTANT lists_in_three = 2; // list_refined is for pixels that one point does not do for
+PMDSIM_CONSTANT lists_in_rest = 3;  // all in list_rest
 
 #ifdef __cplusplus
 } // namespace pmdsim::shader

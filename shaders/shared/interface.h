@@ -375,6 +375,7 @@ struct DemodulationConstants {
   uvec2 terms;      // in, where terms are kept: sum of |terms| of each sample
   uvec2 violations; // in and out, where terms are kept: BudgetViolations
   uvec2 list;       // in, where listed: PixelList and its pixels
+  uvec2 later;      // out, where pixels pass on: PixelList of those that a later class sums again
   uint columns;     // of the strip
   uint samples;
   uint padded_pixels;
@@ -449,10 +450,11 @@ struct PixelList {
   uint count;
   uint padding;
 };
-PMDSIM_CONSTANT pixel_lists = 3;
+PMDSIM_CONSTANT pixel_lists = 4;
 PMDSIM_CONSTANT list_unshadowed = 0; // every diode lights whatever they see
 PMDSIM_CONSTANT list_rest = 1;       // not every one does
 PMDSIM_CONSTANT list_refined = 2;    // one surface that every diode lights, which few points may do for
+PMDSIM_CONSTANT list_precise = 3;    // float may not be exact enough
 
 struct PixelListConstants {
   uvec2 lists[pixel_lists]; // in and out: PixelList
@@ -464,6 +466,8 @@ struct BudgetViolations {
   uint returns;    // of pixels, each at each frequency
   float worst_m;   // as far as is known; bits of a float >= 0 compare as the float does
   float amplitude; // relative, likewise
+  float kept_m;    // the largest bound of those that are not, likewise
+  float kept_amplitude;
   uint padding;
 };
 
@@ -503,6 +507,7 @@ struct UniformPixelsConstants {
 // Where the uniform-pixel pass leaves what it cannot do.
 struct UniformPixelsWork {
   uvec2 lists[pixel_lists]; // PixelList
+  uvec2 violations;         // BudgetViolations
   uint lit_channel;
   uint diodes; // of all illuminators
 };

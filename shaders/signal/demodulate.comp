@@ -8,7 +8,9 @@
 
 layout(push_constant, std430) uniform Constants { DemodulationConstants constants; };
 layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_depth_records) const uint depth_records = 0;
 layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
+layout(constant_id = constant_passes_on) const uint passes_on = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
 vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
@@ -51,7 +53,7 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
     if (lit_is_kept != 0)
       sum.lit += Words(constants.lit).at[i];
     if (keeps_terms != 0)
-      sum.terms += Floats(constants.terms).at[i];
+      sum.terms += max(0.0, Floats(constants.terms).at[i]);
   }
 }
 
@@ -60,7 +62,30 @@ uvec2 central_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
   uvec2 extent = uvec2(constants.columns, constants.pixels / constants.columns);
-  return load_words(constants.ids, id_index(at, uvec2(middle), extent, constants.samples, tiled != 0));
+  return load_ids(constants.ids, id_index(at, uvec2(middle), extent, constants.samples, tiled != 0), depth_records);
+}
+
+// A pixel is listed once, whichever of its frequencies comes first: its first sample's terms are turned negative then.
+void pass_on(uint pixel) {
+  Floats terms = Floats(constants.terms);
+  if (terms.at[pixel] < 0.0)
+    return;
+  terms.at[pixel] = -1.0;
+  PixelLists to = PixelLists(constants.later);
+  uint at = atomicAdd(to.head.count, 1u);
+  to.pixels[at] = pixel;
+}
+
+// What was asked for of a return holds, or the pixel passes on, or it is counted.
+void hold(Channels to, Frequency frequency, uint pixel, float terms, float size) {
+  Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * terms, size, Errors(0.0, 0.0));
+  store_bound(to, frequency, pixel, size, errors);
+  if (is_kept(frequency, errors))
+    report_kept(constants.violations, errors);
+  else if (passes_on != 0)
+    pass_on(pixel);
+  else
+    report_violation(constants.violations, errors);
 }
 
 void main() {
@@ -75,11 +100,8 @@ void main() {
   uint samples = constants.samples * constants.samples;
   Channels to = Channels(constants.channels, constants.padded_pixels);
   float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
-  if (keeps_terms != 0) {
-    Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * sum.terms, size, Errors(0.0, 0.0));
-    if (!is_kept(frequency, errors))
-      report_violation(constants.violations, errors);
-  }
+  if (keeps_terms != 0)
+    hold(to, frequency, pixel, sum.terms, size);
   if (ground_truth != 0) {
     store_ground_truth(to, samples, pixel, sum);
     uvec2 ids = central_ids(pixel);

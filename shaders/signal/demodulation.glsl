@@ -17,6 +17,8 @@ layout(constant_id = constant_ground_truth) const uint ground_truth = 1;
 layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
+layout(constant_id = constant_keeps_bounds) const uint keeps_bounds = 0;
+layout(constant_id = constant_reports_kept) const uint reports_kept = 0;
 
 // The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
 // of each frequency. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores lane by lane, two
@@ -30,6 +32,7 @@ const uint channel_phase_rad = 1;
 const uint channel_distance_m = 2;
 const uint channel_range_m = 3; // the same of each frequency: it fills a pair
 const uint channel_tap = 4;     // the first
+const uint bound_channel = channel_tap + (keep_taps != 0 ? (taps + 1) / 2 * 2 : 0); // in a pair of its own
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -222,13 +225,33 @@ bool is_kept(Frequency frequency, Errors errors) {
   return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
 }
 
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer ViolationWords { uint returns, worst_m, amplitude; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ViolationWords {
+  uint returns, worst_m, amplitude, kept_m, kept_amplitude;
+};
 
 void report_violation(uvec2 violations, Errors errors) {
   ViolationWords words = ViolationWords(violations);
   atomicAdd(words.returns, 1u);
   atomicMax(words.worst_m, floatBitsToUint(errors.distance_m));
   atomicMax(words.amplitude, floatBitsToUint(errors.amplitude));
+}
+
+// Few pixels are the worst so far, and looking is cheaper than an atomic.
+void report_kept(uvec2 violations, Errors errors) {
+  if (reports_kept == 0)
+    return;
+  ViolationWords words = ViolationWords(violations);
+  uint distance_m = floatBitsToUint(errors.distance_m), amplitude = floatBitsToUint(errors.amplitude);
+  if (distance_m > words.kept_m)
+    atomicMax(words.kept_m, distance_m);
+  if (amplitude > words.kept_amplitude)
+    atomicMax(words.kept_amplitude, amplitude);
+}
+
+// Of a return; not known where there is none.
+void store_bound(Channels to, Frequency frequency, uint pixel, float size, Errors errors) {
+  if (keeps_bounds != 0)
+    store(to, frequency.first_channel + bound_channel, pixel, size > 0.0 ? errors.distance_m : nan());
 }
 
 #endif

@@ -12,6 +12,7 @@ layout(push_constant, std430) uniform Constants { PointsConstants constants; };
 layout(constant_id = constant_general_chip) const uint general_chip = 0;
 layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_listed) const uint listed = 0;
+layout(constant_id = constant_depth_records) const uint depth_records = 0;
 
 Real3 sample_ray(Sample at) {
   Strip strip = constants.strip;
@@ -34,7 +35,7 @@ void main() {
     return;
   }
   uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, tiled != 0);
-  uvec2 ids = load_words(constants.ids, id_at);
+  uvec2 ids = load_ids(constants.ids, id_at, depth_records);
   if (ids.x == 0u) {
     store_miss(to, i);
     return;

@@ -101,13 +101,13 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(DepthDemodulationConstants, grid, chip, records, planes, sum, channels, harmonics, frequency, shapes,
            surfaces, lit, pixels, padded_pixels, plane, backscatter),
     STRUCT(DemodulationConstants, position, sum, ids, planes, channels, harmonics, frequency, lit, terms,
-           violations, list, columns, samples, padded_pixels, pixels, plane, lit_channel, diodes),
+           violations, list, later, columns, samples, padded_pixels, pixels, plane, lit_channel, diodes),
     STRUCT(PixelList, sample_groups_x, sample_groups_y, sample_groups_z, pixel_groups_x, pixel_groups_y,
            pixel_groups_z, count, padding),
     STRUCT(PixelListConstants, lists, samples),
     STRUCT(UniformPixelsLight, middle_m, extent_m, diagrams, pattern_slope, spread_m, wavenumber,
            point_spread_m, padding_1, padding_2, tones, frequencies),
-    STRUCT(UniformPixelsWork, lists, lit_channel, diodes),
+    STRUCT(UniformPixelsWork, lists, violations, lit_channel, diodes),
     STRUCT(UniformPixelsConstants, strip, slope, chip, ids, planes, shapes, surfaces, lit, light, diodes,
            channels, work),
 };
@@ -137,8 +137,10 @@ TEST_CASE("a raster's vertex is the vec3 and the uint that the vertex shader tak
   CHECK(offsetof(RasterVertex, triangle) == 12);
 }
 
-TEST_CASE("what breaks a promise is the three words that the shaders keep") {
+TEST_CASE("what breaks a promise, and what is kept, are the five words that the shaders keep") {
   CHECK(offsetof(BudgetViolations, returns) == 0);
   CHECK(offsetof(BudgetViolations, worst_m) == 4);
   CHECK(offsetof(BudgetViolations, amplitude) == 8);
+  CHECK(offsetof(BudgetViolations, kept_m) == 12);
+  CHECK(offsetof(BudgetViolations, kept_amplitude) == 16);
 }

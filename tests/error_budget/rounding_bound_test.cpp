@@ -53,15 +53,16 @@ TEST_CASE("light in the lens is rounded at the output only") {
   CHECK(bound.per_condition_m == 0.0); // whatever its weight is off by, there is one path
   CHECK(bound.per_weight_m == 0.0);
   CHECK(bound.amplitude_fixed == Approx(25 * float_rounding));
-  CHECK(bound.amplitude_per_condition == Approx(33 * float_rounding)); // 13 the weight, 17 sums, 3 Horner
+  CHECK(bound.amplitude_per_condition ==
+        Approx(16 * float_rounding)); // 13 the weight, 3 Horner; one diode is no sum
 }
 
 TEST_CASE("a pair of diodes by hand") {
-  // R = 0.1, t = 0.05, |e| <= 0.01 / 3.9; weights off by 34 u over paths 3 e apart, e by 0.766 u.
+  // R = 0.1, t = 0.05, |e| <= 0.01 / 3.9; weights off by 18 u over paths 3 e apart, e by 0.725 u.
   // K = 3: the moments left out are 0.008 u of it.
   const RoundingBound bound = bound_of({diodes_at(pair)}).value();
   CHECK(bound.per_condition_m ==
-        Approx(0.5 * float_rounding * (34.01 * 3 * 0.01 / 3.9 + 0.766)).epsilon(1e-3));
+        Approx(0.5 * float_rounding * (18.01 * 3 * 0.01 / 3.9 + 0.725)).epsilon(1e-3));
   CHECK(bound.per_weight_m == Approx(0.5 * 3 * 0.01 / 3.9).epsilon(1e-3));
   CHECK(bound.amplitude_per_weight == 1.0);
   const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;

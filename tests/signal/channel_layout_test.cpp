@@ -62,6 +62,10 @@ TEST_CASE("channels that a layout holds have a number each, and the range is the
   std::set<std::uint32_t> numbers;
   std::size_t channels = 0;
   for_each_channel(frame, [&](const ChannelIndex &of, auto &) {
+    if (of.row.name == "error_bound_m") {
+      CHECK_FALSE(with.holds(of.row));
+      return;
+    }
     CHECK(with.holds(of.row));
     CHECK(with.number(of) < with.channels());
     numbers.insert(with.number(of));
@@ -72,6 +76,17 @@ TEST_CASE("channels that a layout holds have a number each, and the range is the
   CHECK(with.number({row_of(&Measurement::range_m)}) == 7);
   CHECK(with.number({row_of(&Return::distance_m), 1}) == 18);
   CHECK(with.number({row_of(&Return::taps), 1, 6}) == 26);
+}
+
+TEST_CASE("bounds lie behind each frequency's taps, where they are kept") {
+  Modulation signal = signal_with_taps();
+  const ChannelLayout without(signal);
+  signal.keeps_bounds = true;
+  const ChannelLayout with(signal);
+  CHECK(with.holds(row_of(&Return::error_bound_m)));
+  CHECK(with.channels() == without.channels() + 6);
+  CHECK(with.number({row_of(&Return::error_bound_m), 0}) + 2 == with.first_channel(1));
+  CHECK(with.number({row_of(&Return::error_bound_m), 2}) + 2 == with.lit_channel());
 }
 
 TEST_CASE("a frequency's turns and its ambiguity, to double precision") {

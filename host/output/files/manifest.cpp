@@ -89,6 +89,7 @@ ordered_json accuracy_json(const AccuracyReport &report) {
           {"error_found_m", or_null(report.found_m)},
           {"amplitude_error_claimed", or_null(report.claimed_amplitude)},
           {"amplitude_error_found", or_null(report.found_amplitude)},
+          {"unpromised", report.unpromised},
           {"checked_pixels", report.checked_pixels},
           {"check_ms", report.check_ms}};
 }

@@ -79,7 +79,8 @@ nlohmann::ordered_json waveform_json(const Waveform &waveform);
 std::vector<double> ambiguities_m(const Sensor &sensor);
 
 // precision, diodes (as AccuracyReport::diodes), error_claimed_m, error_found_m, amplitude_error_claimed,
-// amplitude_error_found (relative), checked_pixels, check_ms. An error is null where nothing is known of it.
+// amplitude_error_found (relative), unpromised, checked_pixels, check_ms. An error is null where nothing is
+// known of it.
 nlohmann::ordered_json accuracy_json(const AccuracyReport &report);
 // What a frame came to: mode and that.
 nlohmann::ordered_json accuracy_json(const FrameRecord &record);

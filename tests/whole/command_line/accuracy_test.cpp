@@ -43,6 +43,23 @@ struct SmallWall {
 
 } // namespace
 
+TEST_CASE(
+    "a frame of which some pixels cannot be promised tells which, or is refused where that is asked for") {
+  const Workspace work;
+  std::vector<std::string> arguments{
+      "render", PMDSIM_SCENES "/light.json", "-o", work / "out", "--max-error", "10um", "--format", "npy",
+      "--json"};
+  const Run told = run_pmdsim(arguments);
+  INFO(told.errors);
+  REQUIRE(told.exit_code == 0);
+  CHECK(std::ranges::count(told.errors, '\n') == 1);
+  CHECK(told.errors.starts_with("pmdsim: warning: pmd, frame 0: "));
+  CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
+  CHECK(std::ifstream(work / "out/pmd_0000.error_bound_m.npy").good());
+  arguments.emplace_back("--strict");
+  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.01 mm"});
+}
+
 TEST_CASE("what cannot be asked for is refused before anything is read") {
   const Workspace work;
   const auto refuse = [&](const std::vector<std::string> &more, const std::vector<std::string> &fragments) {
@@ -55,6 +72,7 @@ TEST_CASE("what cannot be asked for is refused before anything is read") {
   refuse({"--max-amplitude-error", "2"}, {"--max-amplitude-error: expected a number above 0, at most 1"});
   refuse({"--mode", "fast"}, {"--mode"});
   refuse({"--mode", "exact", "--max-error", "1mm"}, {"--max-error: mode exact", "reduced or auto"});
+  refuse({"--strict"}, {"--strict: mode exact keeps no bound", "--max-error"});
   refuse({"--device", "reference", "--mode", "auto"}, {"--device reference: expected mode exact"});
   refuse({"--device", "reference", "--precision", "fp32"}, {"--device reference: expected precision fp64"});
 }

@@ -190,6 +190,7 @@ struct Runs {
 Runs run_all(Simulator &simulator, const ExtremeTruth &truth) {
   Accuracy within_limit, precise;
   within_limit.mode = Mode::automatic;
+  within_limit.strict = true;
   within_limit.max_error_m = truth.smallest_limit_m();
   precise.precision = Precision::fp64;
   return {run(simulator, truth, within_limit), run(simulator, truth, {}), run(simulator, truth, precise)};
@@ -212,10 +213,9 @@ std::string errors(const ExtremeRun &run) {
 std::string choice(const ExtremeRun &run) {
   if (!run.refusal.empty())
     return fmt::format("{:>21}", "");
-  const auto &[precision, diodes, claimed_m, claimed_amplitude, found_m, found_amplitude, pixels, ms] =
-      run.accuracy;
-  return fmt::format("{:>5}{:>7}{:>9}", precision == Precision::fp64 ? "fp64" : "fp32", diodes,
-                     claimed_m ? fmt::format("{:.2g}", 1e6 * *claimed_m) : "");
+  const AccuracyReport &report = run.accuracy;
+  return fmt::format("{:>5}{:>7}{:>9}", report.precision == Precision::fp64 ? "fp64" : "fp32", report.diodes,
+                     report.claimed_m ? fmt::format("{:.2g}", 1e6 * *report.claimed_m) : "");
 }
 
 std::string row(const Cell &cell, const ExtremeTruth &truth, const Runs &runs) {
