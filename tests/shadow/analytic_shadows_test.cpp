@@ -79,9 +79,9 @@ Count check_one_diode(Engine engine, const std::string &name, const Measurement 
       continue;
     const bool bright = clearance_m < 0;
     ++(bright ? count.bright : count.dark);
-    const auto &[amplitude, phase_rad, distance_m, taps] = measured.returns[0];
-    wrong += measured.lit[pixel] != (bright ? 1.0f : 0.0f) || (amplitude[pixel] > 0) != bright ||
-             std::isnan(distance_m[pixel]) == bright || std::isnan(phase_rad[pixel]) == bright;
+    const Return &seen = measured.returns[0];
+    wrong += measured.lit[pixel] != (bright ? 1.0f : 0.0f) || (seen.amplitude[pixel] > 0) != bright ||
+             std::isnan(seen.distance_m[pixel]) == bright || std::isnan(seen.phase_rad[pixel]) == bright;
   }
   check_within(engine, name + ", wrong pixels", 0, static_cast<double>(wrong), 0);
   return count;
