@@ -219,9 +219,9 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
-  path.direct = allowed.direct_pixels && path.host_reads_truth && path.single_run &&
-                facts.modulation.waveform == shader::waveform_sine && !facts.modulation.keep_taps &&
-                facts.modulation.frequencies() <= most_direct_frequencies;
+  path.direct = allowed.direct_pixels && path.keeps_depths_only() && path.host_reads_truth &&
+                path.single_run && facts.modulation.waveform == shader::waveform_sine &&
+                !facts.modulation.keep_taps && facts.modulation.frequencies() <= most_direct_frequencies;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);
   return path;
