@@ -60,6 +60,33 @@ void widen_stretch(double radius_m, double least_m2, double product_m2, double r
       std::max(result.most_stretch, std::min((radius_m * radius_m + 2.0 * product_m2) / rho2, t * (2.0 + t)));
 }
 
+double nearest_m(const VisibleBox &box, const glm::dvec3 &from_m) {
+  return glm::distance(from_m, glm::clamp(from_m, box.low_m, box.high_m));
+}
+
+glm::dvec3 farthest_along_axes_m(const VisibleBox &box, const glm::dvec3 &from_m) {
+  return glm::max(glm::abs(box.low_m - from_m), glm::abs(box.high_m - from_m));
+}
+
+// A bound takes the nearest and the farthest place of a box for one, so that one long box, of a floor, would
+// decide for all. Boxes that are long for their distance are cut into cells.
+constexpr double longest_cell = 0.25; // over its distance
+constexpr int most_cells = 8;         // along an axis
+
+template <class Look>
+void for_each_cell(const VisibleBox &box, const glm::dvec3 &from_m, Look look) {
+  const glm::dvec3 size_m = box.high_m - box.low_m;
+  const double longest_m = std::max(longest_cell * nearest_m(box, from_m), 1e-9);
+  const glm::ivec3 cells(glm::clamp(glm::ceil(size_m / longest_m), 1.0, static_cast<double>(most_cells)));
+  const auto corner = [&](int x, int y, int z) {
+    return glm::mix(box.low_m, box.high_m, glm::dvec3(x, y, z) / glm::dvec3(cells));
+  };
+  for (int x = 0; x < cells.x; ++x)
+    for (int y = 0; y < cells.y; ++y)
+      for (int z = 0; z < cells.z; ++z)
+        look(VisibleBox{corner(x, y, z), corner(x + 1, y + 1, z + 1)});
+}
+
 } // namespace
 
 PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const glm::dvec3> diodes_m,
@@ -71,17 +98,17 @@ PathDifference path_difference_of(const glm::dvec3 &reference_m, std::span<const
     reach.along_m = glm::max(reach.along_m, glm::abs(diode_m - reference_m));
     reach.across_m = glm::max(reach.across_m, across(diode_m - reference_m));
   }
-  for (const VisibleBox &seen : visible) {
-    const double rho_m = glm::distance(reference_m, glm::clamp(reference_m, seen.low_m, seen.high_m));
-    const glm::dvec3 farthest_m =
-        glm::max(glm::abs(seen.low_m - reference_m), glm::abs(seen.high_m - reference_m));
-    const double product_m2 = largest_product(farthest_m, reach);
-    result.range_m = std::min(result.range_m, rho_m);
-    result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
-    result.path_difference_m =
-        std::max(result.path_difference_m, path_difference_at_most_m(result.radius_m, product_m2, rho_m));
-    widen_stretch(result.radius_m, least_difference_m2(farthest_m, reach), product_m2, rho_m, result);
-  }
+  for (const VisibleBox &seen : visible)
+    for_each_cell(seen, reference_m, [&](const VisibleBox &cell) {
+      const double rho_m = nearest_m(cell, reference_m);
+      const glm::dvec3 farthest_m = farthest_along_axes_m(cell, reference_m);
+      const double product_m2 = largest_product(farthest_m, reach);
+      result.range_m = std::min(result.range_m, rho_m);
+      result.farthest_m = std::max(result.farthest_m, glm::length(farthest_m));
+      result.path_difference_m =
+          std::max(result.path_difference_m, path_difference_at_most_m(result.radius_m, product_m2, rho_m));
+      widen_stretch(result.radius_m, least_difference_m2(farthest_m, reach), product_m2, rho_m, result);
+    });
   return result;
 }
 
