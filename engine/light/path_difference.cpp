@@ -70,7 +70,7 @@ glm::dvec3 farthest_along_axes_m(const VisibleBox &box, const glm::dvec3 &from_m
 
 // A bound takes the nearest and the farthest place of a box for one, so that one long box, of a floor, would
 // decide for all. Boxes that are long for their distance are cut into cells.
-constexpr double longest_cell = 0.25; // over its distance
+constexpr double longest_cell = 0.15; // over its distance
 constexpr int most_cells = 8;         // along an axis
 
 template <class Look>
