@@ -1,5 +1,6 @@
 #include "engine/shadow/host/host_sweep.h"
 
+#include "engine/model/instruction_sets.h"
 #include "engine/shadow/host/silhouette_tree.h"
 #include "engine/shadow/sweep_tables.h"
 #include "engine/shadow/tiles.h"
@@ -36,12 +37,9 @@ namespace {
 
 DecideTile widest_decide_tile(std::uint32_t most_bits) {
 #ifdef __x86_64__
-  const bool avx2_and_fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (most_bits >= 512 && avx2_and_fma && __builtin_cpu_supports("avx512f") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
+  if (most_bits >= 512 && has_avx512())
     return avx512::decide_silhouettes;
-  if (most_bits >= 256 && avx2_and_fma)
+  if (most_bits >= 256 && has_avx2())
     return avx2::decide_silhouettes;
 #endif
   return baseline::decide_silhouettes;

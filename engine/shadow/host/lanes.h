@@ -38,7 +38,6 @@ inline void store(T *to, const V &values) {
 
 inline Floats all(float value) { return value - Floats{}; }
 inline Ints all(std::int32_t value) { return value - Ints{}; }
-inline Doubles all(double value) { return value - Doubles{}; }
 
 template <class V>
 inline V smaller(const V &a, const V &b) {

@@ -1,5 +1,6 @@
 #include "host/bench/native/native_kernel.h"
 
+#include "engine/model/instruction_sets.h"
 #include "engine/model/sensor.h"
 
 #include <algorithm>
@@ -80,11 +81,9 @@ unsigned native_threads() {
 std::vector<const NativeSums *> available_native_sums() {
   std::vector<const NativeSums *> available;
 #ifdef __x86_64__
-  const bool avx2_and_fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2_and_fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+  if (has_avx512())
     available.push_back(&avx512::sums);
-  if (avx2_and_fma)
+  if (has_avx2())
     available.push_back(&avx2::sums);
 #endif
   available.push_back(&baseline::sums);
