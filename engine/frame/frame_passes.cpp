@@ -1,12 +1,8 @@
 #include "engine/frame/frame_passes.h"
 
+#include "engine/frame/shadow_passes.h"
 #include "engine/frame/uniform_pixels_pass.h"
-#include "engine/model/error.h"
 #include "engine/sampling/raster_blocks.h"
-#include "engine/shadow/holes_pass.h"
-#include "engine/shadow/host/host_sweep.h"
-#include "engine/shadow/sweep_pass.h"
-#include "engine/shadow/visibility_bits.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/demodulation_pass.h"
 #include "engine/signal/direct_pixels.h"
@@ -19,14 +15,6 @@
 
 namespace pmdsim {
 namespace {
-
-// What all that is made for a frame follows from.
-struct Basis : PassSetup {
-  const FrameRequest &request;
-  const FrameFacts &facts;
-  const FramePlan &plan;
-  const FramePath &path;
-};
 
 std::vector<shader::TrianglePlane> planes_of(const FrameFacts &facts, const FrameRequest &request) {
   auto planes = triangle_planes(facts.camera, request.scene, request.backscatter,
@@ -78,13 +66,13 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
 }
 
 // The points of all samples, or those of `list`, for a sum of that precision.
-Pass points_of(const Basis &on, Precision precision, const vulkan::Buffer *list = nullptr) {
+Pass points_of(const FrameBasis &on, Precision precision, const vulkan::Buffer *list = nullptr) {
   return points_pass(on.device, on.options.precision, on.sensor, on.model.surface_vectors(precision),
                      on.buffers, on.scene, list);
 }
 
 // What each sample sees, and where.
-void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
+void list_view(const FrameBasis &on, const std::shared_ptr<IdRasterPass> &raster,
                const std::shared_ptr<const EdgeSettling> &edges, FrameGraph &graph) {
   graph.add_before({.name = "visibility",
                     .reads = no_resource,
@@ -102,90 +90,8 @@ void list_view(const Basis &on, const std::shared_ptr<IdRasterPass> &raster,
     graph.add_before(points_of(on, on.plan.precision));
 }
 
-// Which sources reach which sample.
-struct ShadowPasses {
-  std::shared_ptr<const SweepPass> sweep;
-  std::shared_ptr<const HostSweep> host; // in its place
-  std::shared_ptr<const HolesPass> holes;
-
-  explicit operator bool() const { return sweep || host; }
-  SampleTiles shadowed_tiles() const { return host ? host->shadowed_tiles() : sweep->shadowed_tiles(); }
-};
-
-ShadowPasses make_shadow_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
-                                const std::vector<SourceWindow> &windows,
-                                const std::optional<ChipGrid> &grid) {
-  ShadowPasses shadow;
-  const FrameFacts &facts = on.facts;
-  if (on.path.windows == 0)
-    return shadow;
-  if (on.path.host_sweep)
-    shadow.host = std::make_shared<const HostSweep>(
-        on, facts.occluders, facts.camera, on.request.scene, on.plan.all, windows, strips, grid,
-        !on.path.keeps_depths_only() || on.path.holes || on.path.check || on.options.keep_visibility);
-  else
-    shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
-                                                     on.plan.all, windows, strips, grid);
-  if (on.path.holes)
-    shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, windows,
-                                                     strips, grid, shadow.shadowed_tiles());
-  return shadow;
-}
-
-Pass sweep_pass(Resources samples, const std::shared_ptr<const SweepPass> &sweep) {
-  Pass pass{.name = "lit",
-            .reads = samples,
-            .writes = visibility_bits | visibility_counts,
-            .record = [=](const Recording &at) { sweep->record(at.commands, at.of_strip(), at.window); }};
-  if (sweep->may_lose())
-    pass.store = [=](const Recording &, Measurement &) {
-      if (sweep->has_lost())
-        throw Error(ExitCode::out_of_memory, "shadows: expected fewer edges in the light of a sample");
-    };
-  return pass;
-}
-
-Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &sweep) {
-  return {.name = "lit",
-          .reads = samples,
-          .writes = visibility_bits | visibility_counts,
-          .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
-          .store = [=](const Recording &at, Measurement &) { sweep->decide(at.of_strip(), at.window); }};
-}
-
-void list_shadow(const Basis &on, const ShadowPasses &shadow, FrameGraph &graph) {
-  const Resources samples = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points;
-  graph.add_to_window(shadow.host ? host_sweep_pass(samples, shadow.host)
-                                  : sweep_pass(samples, shadow.sweep));
-  if (shadow.holes)
-    graph.add_to_window({.name = "lit",
-                         .reads = samples | visibility_bits,
-                         .writes = visibility_bits | visibility_counts,
-                         .record = [holes = shadow.holes](const Recording &at) {
-                           holes->record(at.commands, at.of_strip(), at.window);
-                         }});
-}
-
-// The bits for the host.
-Pass visibility_read_back_pass(const Basis &on, const std::vector<SourceWindow> &windows,
-                               const std::shared_ptr<const SourceGroups> &sources) {
-  const bool row_by_row = on.path.record == SampleRecord::depth;
-  return {.name = "read_back",
-          .reads = visibility_bits,
-          .writes = no_resource,
-          .record =
-              [=, &buffers = on.buffers](const Recording &at) {
-                record_visibility(at.commands, at.of_strip(), buffers, windows[at.window]);
-              },
-          .store =
-              [=, &buffers = on.buffers](const Recording &at, Measurement &to) {
-                store_visibility(at.of_strip(), buffers, windows[at.window], *sources, row_by_row,
-                                 to.sample_visibility);
-              }};
-}
-
 // Sorts the pixels into classes, and sums those whose light is uniform.
-void list_sorting(const Basis &on, const std::shared_ptr<const PixelLists> &lists, FrameGraph &graph) {
+void list_sorting(const FrameBasis &on, const std::shared_ptr<const PixelLists> &lists, FrameGraph &graph) {
   const PixelClass *uniform = on.path.of(PixelsOf::uniform), *refined = on.path.of(PixelsOf::uniform_refined);
   const ErrorBound &bound = on.plan.uniform_bound ? *on.plan.uniform_bound : *on.plan.bound;
   const std::uint32_t points = uniform && on.sensor.samples > 1 ? uniform->points : 0;
@@ -213,7 +119,7 @@ struct ClassLists {
 };
 
 // A class of pixels, sample by sample: all of them, or those of a list.
-void list_class(const Basis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
+void list_class(const FrameBasis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
                 const ClassLists &lists, FrameGraph &graph,
                 const std::optional<SampleTiles> &shadowed_tiles = {}) {
   const PixelClass *pixels = on.path.of(who);
@@ -267,7 +173,7 @@ Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
 }
 
 // The classes of pixels, one after the other, each with the pixels that those before it have left.
-void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
+void list_classes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
                   const std::vector<SourceWindow> &windows, const std::optional<SampleTiles> &shadowed_tiles,
                   FrameGraph &graph) {
   const PixelClass *precise = on.path.of(PixelsOf::precise);
@@ -295,7 +201,7 @@ void list_classes(const Basis &on, const std::vector<PlannedStrip> &strips,
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
-void list_check(const Basis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
+void list_check(const FrameBasis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
                 const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
   modulation.keeps_terms = modulation.reports_kept = false;
@@ -316,7 +222,7 @@ void list_check(const Basis &on, const SpotCheck &check, const std::vector<Sourc
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
   if (shadow && windows.size() > 1)
-    list_shadow(on, shadow, graph);
+    list_shadow_passes(on, shadow, graph);
   graph.add_to_window(
       accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(demodulation_pass(setup, groups, scope));
@@ -340,7 +246,7 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   return report;
 }
 
-FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips,
+FramePasses make_passes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
                         const std::vector<SourceWindow> &windows, std::unique_ptr<FrameMemory> memory,
                         std::optional<RasterImages> images) {
   std::optional<ChipGrid> grid;
@@ -364,7 +270,7 @@ FramePasses make_passes(const Basis &on, const std::vector<PlannedStrip> &strips
   FrameGraph &graph = made.graph;
   list_view(on, raster, edges, graph);
   if (shadow)
-    list_shadow(on, shadow, graph);
+    list_shadow_passes(on, shadow, graph);
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, windows, sources));
   std::optional<SampleTiles> shadowed_tiles;
@@ -405,7 +311,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
       {vulkan::upload(device, planes),
        upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
        path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m}});
-  const Basis on{
+  const FrameBasis on{
       {device, options, request.sensor, facts.modulation, facts.model, memory->buffers, memory->scene},
       request,
       facts,

@@ -19,21 +19,11 @@ void add(shader::DiodeBox &box, const glm::dvec3 &position_m) {
 constexpr shader::DiodeBox empty_box{shader::vec4(std::numeric_limits<float>::max()),
                                      shader::vec4(std::numeric_limits<float>::lowest())};
 
-// Diodes of one board often have the same z, but for the rounding of their centre: a hundredth of a
-// micrometre is none, and without z a fourth of the work is saved.
-void flatten(shader::BundleDiodes &bundle) {
-  constexpr float none_m = 1e-8f;
-  if (std::ranges::all_of(bundle.places,
-                          [](const shader::vec4 &place) { return std::abs(place.z) <= none_m; }))
-    for (shader::vec4 &place : bundle.places)
-      place.z = 0.0f;
-}
-
 void add_bundle(WindowDiodes &diodes, std::span<const SourcePosition> places) {
   shader::DiodeBox box = empty_box;
   for (const SourcePosition &place : places) {
     add(box, place.position_m);
-    add(diodes.boxes.front(), place.position_m);
+    add(diodes.box, place.position_m);
   }
   const glm::vec3 centre(0.5f * (box.low + box.high));
   shader::BundleDiodes bundle{};
@@ -48,10 +38,8 @@ void add_bundle(WindowDiodes &diodes, std::span<const SourcePosition> places) {
     if (shines)
       bits |= 1u << i;
   }
-  flatten(bundle);
   bundle.extent = {reach_m, 0.0f};
   bundle.centre = {centre, reach_m.x + reach_m.y + reach_m.z};
-  diodes.boxes.push_back(box);
   diodes.bundles.push_back(bundle);
   diodes.bits.push_back(bits);
 }
@@ -88,8 +76,7 @@ std::span<const SourcePosition> positions_of(const SourceWindow &window, std::ui
 }
 
 WindowDiodes diodes_of(const SourceWindow &window, const SourceGroups &groups) {
-  WindowDiodes diodes;
-  diodes.boxes.push_back(empty_box);
+  WindowDiodes diodes{empty_box, {}, {}};
   for (std::uint32_t bundle = 0; bundle < window.bundles; ++bundle)
     add_bundle(diodes, positions_of(window, bundle, groups));
   return diodes;

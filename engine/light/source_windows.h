@@ -29,7 +29,7 @@ std::span<const SourcePosition> positions_of(const SourceWindow &window, std::ui
 
 // What the shaders know of a window's diodes.
 struct WindowDiodes {
-  std::vector<shader::DiodeBox> boxes; // around all, then around each bundle
+  shader::DiodeBox box; // around all
   std::vector<shader::BundleDiodes> bundles;
   std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
 };

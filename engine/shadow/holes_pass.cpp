@@ -165,7 +165,7 @@ void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &windo
   made.bundles = vulkan::upload(on.device, diodes.bundles);
   made.places = upload_hole_texels(on.device, places);
   shader::HolesWindow of_window = record;
-  of_window.box = diodes.boxes.front();
+  of_window.box = diodes.box;
   of_window.bundles = made.bundles.words();
   for (std::size_t bundle = 0; bundle < diodes.bits.size(); ++bundle)
     of_window.shining[bundle / 4][static_cast<glm::length_t>(bundle % 4)] = diodes.bits[bundle];

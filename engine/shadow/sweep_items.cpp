@@ -12,8 +12,6 @@
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t width = shader::tree_width;
-
 // A diode that is no farther from a triangle touches it, m: what rounding may leave of one that a file puts
 // there.
 constexpr double touching_m = 1e-8;
@@ -85,70 +83,23 @@ struct ItemMaker {
     const glm::dvec3 second_normal = is_alone ? glm::dvec3(0.0) : turn * triangles[edge.second].normal;
     const double second_offset_m = is_alone ? 0.0 : turn * triangles[edge.second].offset_m;
     const int second_side = is_alone ? 0 : static_cast<int>(turn) * triangles[edge.second].side;
-    to.edges.items.push_back(
-        {glm::vec3(edge.a_m), occluders.shapes[edge.first].id, glm::vec3(edge.b_m),
-         is_alone ? shader::item_boundary : occluders.shapes[edge.second].id, glm::vec3(first.normal),
-         packed_rest(edge.a_m, rest_step) | packed_side(first.side), glm::vec3(second_normal),
-         packed_rest(edge.b_m, rest_step) | packed_side(second_side)});
+    to.edges.push_back({glm::vec3(edge.a_m), occluders.shapes[edge.first].id, glm::vec3(edge.b_m),
+                        is_alone ? shader::item_boundary : occluders.shapes[edge.second].id,
+                        glm::vec3(first.normal), packed_rest(edge.a_m, rest_step) | packed_side(first.side),
+                        glm::vec3(second_normal),
+                        packed_rest(edge.b_m, rest_step) | packed_side(second_side)});
     const DoublePair4 first_plane(first.normal, first.offset_m), second_plane(second_normal, second_offset_m);
     to.planes.push_back({first_plane.hi, first_plane.lo, second_plane.hi, second_plane.lo});
   }
 
   void add_hidden(std::uint32_t triangle, SweepItems &to) const {
     const auto &[a_m, b_m, c_m] = triangles[triangle].corners_m;
-    to.hidden.items.push_back({glm::vec3(a_m), occluders.shapes[triangle].id, glm::vec3(b_m),
-                               shader::item_hidden, glm::vec3(c_m), packed_rest(a_m, rest_step),
-                               glm::vec3(std::bit_cast<float>(packed_rest(c_m, rest_step)), 0.0f, 0.0f),
-                               packed_rest(b_m, rest_step)});
+    to.hidden.push_back({glm::vec3(a_m), occluders.shapes[triangle].id, glm::vec3(b_m), shader::item_hidden,
+                         glm::vec3(c_m), packed_rest(a_m, rest_step),
+                         glm::vec3(std::bit_cast<float>(packed_rest(c_m, rest_step)), 0.0f, 0.0f),
+                         packed_rest(b_m, rest_step)});
   }
 };
-
-using ItemBox = std::array<glm::vec4, 2>;
-
-// Met by nothing.
-const ItemBox empty_box{glm::vec4(1e30f), glm::vec4(-1e30f)};
-
-void fill_up(std::vector<ItemBox> &boxes, std::size_t first) {
-  while ((boxes.size() - first) % width != 0)
-    boxes.push_back(empty_box);
-}
-
-ItemBox box_of(const SweepItem &item) {
-  ItemBox box{glm::vec4(glm::min(item.a, item.b), 0.0f), glm::vec4(glm::max(item.a, item.b), 0.0f)};
-  if (item.second == shader::item_hidden)
-    box = {glm::min(box[0], glm::vec4(item.first_normal, 0.0f)),
-           glm::max(box[1], glm::vec4(item.first_normal, 0.0f))};
-  return box;
-}
-
-// Fills up the last cluster with items that nothing meets, and builds the tree over them.
-void build_boxes(SweepTree &to) {
-  while (to.items.size() % width != 0 || to.items.empty())
-    to.items.push_back({glm::vec3(1e30f), no_id, glm::vec3(1e30f), shader::item_boundary, glm::vec3(0.0f), 0,
-                        glm::vec3(0.0f), 0});
-
-  const auto around = [](ItemBox &box, const ItemBox &other) {
-    box[0] = glm::min(box[0], other[0]);
-    box[1] = glm::max(box[1], other[1]);
-  };
-  std::vector<ItemBox> below;
-  for (const SweepItem &item : to.items)
-    below.push_back(box_of(item));
-  for (std::size_t level = 0; level < to.level_first.size(); ++level) {
-    const std::size_t first = to.boxes.size();
-    std::vector<ItemBox> boxes;
-    for (std::size_t i = 0; i < below.size(); i += width) {
-      boxes.push_back(empty_box);
-      for (std::size_t k = i; k < std::min(i + width, below.size()); ++k)
-        around(boxes.back(), below[k]);
-    }
-    to.level_first[level] = static_cast<std::uint32_t>(first);
-    to.level_count[level] = static_cast<std::uint32_t>(boxes.size());
-    to.boxes.insert(to.boxes.end(), boxes.begin(), boxes.end());
-    fill_up(to.boxes, first);
-    below.assign(to.boxes.begin() + static_cast<std::ptrdiff_t>(first), to.boxes.end());
-  }
-}
 
 // Those that may be silhouettes. Where a neighbour is no occluder, or has holes, an edge is that of one
 // triangle alone.
@@ -276,12 +227,10 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
   middles_m.reserve(edges.size());
   for (const Edge &edge : edges)
     middles_m.push_back(0.5 * (edge.a_m + edge.b_m));
-  made.edges.items.reserve(edges.size() + width);
-  made.planes.reserve(edges.size() + width);
+  made.edges.reserve(edges.size());
+  made.planes.reserve(edges.size());
   for (const std::uint32_t i : order_by_place(middles_m))
     maker.add_edge(edges[i], made);
-  build_boxes(made.edges);
-  made.planes.resize(made.edges.items.size());
 
   std::vector<std::uint32_t> hidden;
   middles_m.clear();
@@ -290,10 +239,8 @@ SweepItems sweep_items(const Board &board, const Occluders &occluders, const Cam
     middles_m.push_back((triangles[i].corners_m[0] + triangles[i].corners_m[1] + triangles[i].corners_m[2]) /
                         3.0);
   }
-  made.any_hidden = !hidden.empty();
   for (const std::uint32_t i : order_by_place(middles_m))
     maker.add_hidden(hidden[i], made);
-  build_boxes(made.hidden);
   return made;
 }
 

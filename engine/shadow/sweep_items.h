@@ -1,5 +1,5 @@
 #pragma once
-// The edges that may be silhouettes as seen from a board, and the implicit tree of boxes over them.
+// The edges that may be silhouettes as seen from a board.
 
 #include "engine/shadow/boards.h"
 #include "engine/shadow/occluders.h"
@@ -32,17 +32,11 @@ struct BoardTriangle {
   int side; // 1 where all of the board and the lens are in front, -1 where behind, 0 else
 };
 
-struct SweepTree {
-  std::vector<SweepItem> items;                // whole clusters of shader::tree_width
-  std::vector<std::array<glm::vec4, 2>> boxes; // low and high, level by level, each in whole clusters
-  std::array<std::uint32_t, shader::tree_levels> level_first{}, level_count{};
-};
-
 struct SweepItems {
-  SweepTree edges;
+  std::vector<SweepItem> edges;            // those that follow each other lie close together
   std::vector<shader::SweepPlanes> planes; // beside the edges
-  SweepTree hidden; // triangles that the lens does not see and that may hide something from it all the same
-  bool any_hidden = false;
+  // Likewise, triangles that the lens does not see and that may hide something from it all the same.
+  std::vector<SweepItem> hidden;
   float rest_step = 0.0f; // of the packed rests, m
   // Those that come so near the way of the light's place from the lens to a diode that they may meet it.
   std::vector<BoardTriangle> in_the_way;

@@ -2,6 +2,7 @@
 
 #include "engine/shadow/sweep_items.h"
 #include "engine/shadow/sweep_tables.h"
+#include "engine/shadow/sweep_tree.h"
 #include "engine/shadow/tiles.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/compute_pipeline.h"
@@ -37,7 +38,7 @@ Buffer upload_texels(const vulkan::Device &device, const std::vector<T> &texels)
                         vk::BufferUsageFlagBits::eUniformTexelBuffer);
 }
 
-shader::SweepBoard board_record(const Board &board, const SweepItems &items, const SweepTree &tree,
+shader::SweepBoard board_record(const Board &board, const SweepItems &items, const TreeLevels &levels,
                                 double world_rounding_m) {
   shader::SweepBoard record{};
   for (glm::length_t row = 0; row < 3; ++row) {
@@ -55,8 +56,8 @@ shader::SweepBoard board_record(const Board &board, const SweepItems &items, con
   record.highest = static_cast<float>(std::max(board.highest_m, board.lens_z_m));
   record.diodes_low = static_cast<float>(board.lowest_m);
   record.diodes_high = static_cast<float>(board.highest_m);
-  std::ranges::copy(tree.level_first, record.level_first);
-  std::ranges::copy(tree.level_count, record.level_count);
+  std::ranges::copy(levels.first, record.level_first);
+  std::ranges::copy(levels.count, record.level_count);
   record.nearest = static_cast<float>(board.nearest_in_front_m());
   record.line_margin = static_cast<float>(0.5 * line_margin_m(board));
   record.world_rounding = static_cast<float>(world_rounding_m);
@@ -82,6 +83,7 @@ struct SweepPass::State {
   struct BoardBuffers {
     Buffer items, boxes, planes;
     Buffer hidden_items, hidden_boxes;
+    TreeLevels levels, hidden_levels;
     bool any_hidden;
   };
 
@@ -242,10 +244,13 @@ vulkan::ComputePipeline SweepPass::State::pipeline(const PassSetup &on, std::str
 
 void SweepPass::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items) {
   const vulkan::Device &device = on.device;
-  most_items = std::max(most_items, items.edges.items.size() + items.hidden.items.size());
-  boards.push_back({upload_texels(device, items.edges.items), upload_texels(device, items.edges.boxes),
-                    vulkan::upload(device, items.planes), upload_texels(device, items.hidden.items),
-                    upload_texels(device, items.hidden.boxes), items.any_hidden});
+  const SweepTree edges = sweep_tree(items.edges), hidden = sweep_tree(items.hidden);
+  most_items = std::max(most_items, edges.items.size() + hidden.items.size());
+  std::vector<shader::SweepPlanes> planes = items.planes;
+  planes.resize(edges.items.size());
+  boards.push_back({upload_texels(device, edges.items), upload_texels(device, edges.boxes),
+                    vulkan::upload(device, planes), upload_texels(device, hidden.items),
+                    upload_texels(device, hidden.boxes), edges.levels, hidden.levels, !items.hidden.empty()});
   specialization.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
 }
 
@@ -256,8 +261,8 @@ void SweepPass::State::upload_records(const PassSetup &on, const Board &board, c
       find_piercers(board, items.in_the_way, places_of(windows[window], groups));
   of.piercers = vulkan::upload(on.device, piercers.empty() ? std::vector<shader::Piercer>(1) : piercers);
   const std::vector<std::uint32_t> bits = diodes_of(windows[window], groups).bits;
-  const auto record_of = [&](const SweepTree &tree) {
-    shader::SweepBoard record = board_record(board, items, tree, on.scene.world_rounding_m);
+  const auto record_of = [&](const TreeLevels &levels) {
+    shader::SweepBoard record = board_record(board, items, levels, on.scene.world_rounding_m);
     if (records) {
       record.slope = records->slope();
       record.chip = records->chip();
@@ -270,8 +275,8 @@ void SweepPass::State::upload_records(const PassSetup &on, const Board &board, c
     record.piercer_count = static_cast<std::uint32_t>(piercers.size());
     return vulkan::upload(on.device, std::as_bytes(std::span(&record, 1)));
   };
-  of.record = record_of(items.edges);
-  of.hidden_record = record_of(items.hidden);
+  of.record = record_of(boards.back().levels);
+  of.hidden_record = record_of(boards.back().hidden_levels);
   for (const std::uint32_t of_bundle : bits)
     shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
 }

@@ -11,7 +11,7 @@ namespace pmdsim::shader {
 
 PMDSIM_CONSTANT bundles_per_window = 8;
 
-// Around the diodes of a window or of a bundle, rounded outwards, camera frame, m.
+// Around the diodes of a window, rounded outwards, camera frame, m.
 struct DiodeBox {
   vec4 low, high;
 };

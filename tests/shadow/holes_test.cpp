@@ -1,6 +1,7 @@
 // Shapes with holes in the light, beside a mesh without them, against the reference: pair by pair.
 
 #include "tests/comparison/visibility_comparison.h"
+#include "tests/shadow/boards.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,36 +21,12 @@ using namespace pmdsim::test;
 
 namespace {
 
-using Places = std::vector<glm::dvec3>;
-
-// Three rings across the view around a place.
-Places rings_about(const glm::dvec3 &centre_m, std::size_t count) {
-  Places places_m;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double angle =
-        2.0 * std::numbers::pi * (static_cast<double>(i / 3) + 0.5) / static_cast<double>(count / 3);
-    const double radius_m = 0.06 + 0.04 * static_cast<double>(i % 3);
-    places_m.push_back(centre_m + radius_m * glm::dvec3(std::cos(angle), std::sin(angle), 0.0));
-  }
-  return places_m;
-}
-
 // All around the lens, some of them behind what is seen.
 Places cloud(Random &random, std::size_t count) {
   Places places_m;
   for (std::size_t i = 0; i < count; ++i)
     places_m.push_back(random.in_box({-1.0, -1.0, -0.5}, {1.0, 1.0, 2.0}));
   return places_m;
-}
-
-std::vector<Illuminator> illuminators_of(const std::vector<Places> &boards, const Sensor &sensor) {
-  std::vector<Illuminator> illuminators;
-  for (const Places &places_m : boards) {
-    illuminators.push_back({"board", sensor.world_from_camera, {}});
-    for (const glm::dvec3 &place_m : places_m)
-      illuminators.back().diodes.push_back(diode_at(place_m));
-  }
-  return illuminators;
 }
 
 // A leaf's outline in the square of its texture.
@@ -154,16 +130,6 @@ void scatter(Random &random, std::size_t count, const Pose &world_from_camera, S
   }
 }
 
-Sensor leaf_camera(std::uint32_t seed, std::uint32_t pixels) {
-  Random random(seed);
-  Sensor sensor;
-  sensor.resolution = {pixels, pixels};
-  sensor.pixel_pitch_m = glm::dvec2(0.02 / pixels);
-  sensor.focal_length_m = 0.02;
-  sensor.world_from_camera = random.pose(3.0);
-  return sensor;
-}
-
 std::string visibility_of(const Simulator &simulator) {
   for (const auto &[name, value] : simulator.path())
     if (name == "visibility")
@@ -207,7 +173,7 @@ Scene leaves_before_wall(std::uint32_t seed, std::size_t count, double size_m,
 TEST_CASE("triangles with holes and without share edges", "[smoke]") {
   fmt::print("{}", reached_heading());
   for (std::uint32_t seed = 60; seed < 63; ++seed) {
-    const Sensor sensor = leaf_camera(seed, 32);
+    const Sensor sensor = tumbled_camera(seed, 32);
     Random random(seed);
     LeafScene scene(sensor.world_from_camera);
     scene.add_wall(2.0);
@@ -219,7 +185,7 @@ TEST_CASE("triangles with holes and without share edges", "[smoke]") {
 }
 
 TEST_CASE("a leaf before a wall, lit from beside the camera") {
-  const Sensor sensor = leaf_camera(64, 48);
+  const Sensor sensor = tumbled_camera(64, 48);
   LeafScene scene(sensor.world_from_camera);
   scene.add_wall(2.0);
   Sheet leaf;
@@ -233,7 +199,7 @@ TEST_CASE("a leaf before a wall, lit from beside the camera") {
 }
 
 TEST_CASE("discs keep light off beside a mesh without holes") {
-  const Sensor sensor = leaf_camera(65, 40);
+  const Sensor sensor = tumbled_camera(65, 40);
   Random random(65);
   Scene scene = random_triangles(random, 100, sensor.world_from_camera);
   scatter(random, 60, sensor.world_from_camera, scene);
@@ -242,7 +208,7 @@ TEST_CASE("discs keep light off beside a mesh without holes") {
 }
 
 TEST_CASE("any board shines through leaves") {
-  const Sensor sensor = leaf_camera(66, 24);
+  const Sensor sensor = tumbled_camera(66, 24);
   const Scene scene = leaves_before_wall(66, 150, 0.06, sensor.world_from_camera);
   Random random(67);
   fmt::print("{}", reached_heading());
@@ -255,7 +221,7 @@ TEST_CASE("any board shines through leaves") {
 }
 
 TEST_CASE("several samples a pixel, lenses with distortion and float pairs see leaves", "[long]") {
-  Sensor sensor = leaf_camera(68, 20);
+  Sensor sensor = tumbled_camera(68, 20);
   const Scene scene = leaves_before_wall(68, 150, 0.06, sensor.world_from_camera);
   const std::vector<Places> boards{rings_about({0.2, 0, 0}, 48)};
   fmt::print("{}", reached_heading());
@@ -270,7 +236,7 @@ TEST_CASE("several samples a pixel, lenses with distortion and float pairs see l
 }
 
 TEST_CASE("light through 20,000 triangles with holes") {
-  const Sensor sensor = leaf_camera(69, 48);
+  const Sensor sensor = tumbled_camera(69, 48);
   fmt::print("{}", reached_heading());
   check_scene("20,000 of leaves", leaves_before_wall(69, 10'000, 0.02, sensor.world_from_camera), sensor,
               {rings_about({0.1, 0, 0}, 240)});
@@ -278,7 +244,7 @@ TEST_CASE("light through 20,000 triangles with holes") {
 
 // All leaves lie in the ways of all samples: loops as long as they get.
 TEST_CASE("400 leaves behind each other, each with a hole for all of the light") {
-  const Sensor sensor = leaf_camera(70, 6);
+  const Sensor sensor = tumbled_camera(70, 6);
   Texture texture{{4, 4}, std::vector<glm::vec4>(16, glm::vec4(1.0f, 1.0f, 1.0f, 0.0f))};
   texture.texels[0].a = 1.0f;
   LeafScene scene(sensor.world_from_camera);

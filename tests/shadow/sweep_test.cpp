@@ -3,6 +3,7 @@
 
 #include "engine/shadow/boards.h"
 #include "tests/comparison/visibility_comparison.h"
+#include "tests/shadow/boards.h"
 #include "tests/support/random_cameras.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
@@ -12,8 +13,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -21,31 +20,6 @@ using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
-
-// Places in the camera's frame.
-using Places = std::vector<glm::dvec3>;
-
-// Three rings across the view around (0, 0, z).
-Places rings(double z_m, std::size_t count) {
-  Places places_m;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double angle =
-        2.0 * std::numbers::pi * (static_cast<double>(i / 3) + 0.5) / static_cast<double>(count / 3);
-    const double radius_m = 0.06 + 0.04 * static_cast<double>(i % 3);
-    places_m.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), z_m);
-  }
-  return places_m;
-}
-
-Places moved(Places places_m, const glm::dmat3 &rotation, const glm::dvec3 &by_m) {
-  for (glm::dvec3 &place_m : places_m)
-    place_m = rotation * place_m + by_m;
-  return places_m;
-}
-
-glm::dmat3 tilt(double rad) {
-  return glm::dmat3(glm::rotate(glm::dmat4(1.0), rad, glm::dvec3(0.3, 1.0, 0.1)));
-}
 
 Places bar(std::size_t count) {
   Places places_m;
@@ -85,29 +59,6 @@ std::vector<BoardCase> board_cases() {
           {"more diodes than a window has", {rings(0.0, 600)}}};
 }
 
-std::vector<Illuminator> illuminators_of(const BoardCase &board_case, const Sensor &sensor) {
-  std::vector<Illuminator> illuminators;
-  for (const Places &places_m : board_case.boards) {
-    illuminators.push_back({board_case.name, sensor.world_from_camera, {}});
-    for (const glm::dvec3 &place_m : places_m) {
-      Diode diode;
-      diode.position_m = place_m;
-      illuminators.back().diodes.push_back(diode);
-    }
-  }
-  return illuminators;
-}
-
-Sensor camera(std::uint32_t seed, std::uint32_t pixels) {
-  Random random(seed);
-  Sensor sensor;
-  sensor.resolution = {pixels, pixels};
-  sensor.pixel_pitch_m = glm::dvec2(0.02 / pixels);
-  sensor.focal_length_m = 0.02;
-  sensor.world_from_camera = random.pose(3.0);
-  return sensor;
-}
-
 // What all boards are tried on.
 struct BoardScene {
   Sensor sensor;
@@ -115,7 +66,7 @@ struct BoardScene {
 };
 
 BoardScene board_scene(std::uint32_t seed, std::uint32_t pixels) {
-  const Sensor sensor = camera(seed, pixels);
+  const Sensor sensor = tumbled_camera(seed, pixels);
   Random random(seed + 1);
   return {sensor, random_triangles(random, 300, sensor.world_from_camera)};
 }
@@ -136,7 +87,7 @@ void check_boards(std::uint32_t seed, std::uint32_t pixels) {
   const BoardScene on = board_scene(seed, pixels);
   for (const BoardCase &board_case : board_cases()) {
     INFO(board_case.name);
-    const auto illuminators = illuminators_of(board_case, on.sensor);
+    const auto illuminators = illuminators_of(board_case.boards, on.sensor);
     const auto expected = reference::simulate(on.scene, on.sensor, illuminators, Backscatter::lambert,
                                               {Shadows::automatic, true});
     for (const bool on_host : {true, false}) {
@@ -184,7 +135,7 @@ TEST_CASE("vectors of every width leave the same bits") {
   for (std::size_t i = 2; i < cases.size(); i += 3) {
     const BoardCase &board_case = cases[i];
     INFO(board_case.name);
-    const auto illuminators = illuminators_of(board_case, on.sensor);
+    const auto illuminators = illuminators_of(board_case.boards, on.sensor);
     const Measurement widest = measure(on, illuminators, true);
     for (const std::uint32_t bits : {256u, 128u})
       CHECK(measure(on, illuminators, true, bits).sample_visibility == widest.sample_visibility);
@@ -198,7 +149,7 @@ TEST_CASE("a wall between lens and diodes shades all that the lens sees") {
   // The whole plane x = 0.5 m, as far as anybody looks; none of its edges is near any way.
   builder.add_triangle({0.5, -50.0, 50.0}, {0.5, -50.0, -50.0}, {0.5, 100.0, 0.0}, {0.5, true});
   const BoardCase beyond{"beyond the wall", {moved(rings(0.0, 48), glm::dmat3(1.0), {1.0, 0.0, 0.0})}};
-  const auto illuminators = illuminators_of(beyond, sensor);
+  const auto illuminators = illuminators_of(beyond.boards, sensor);
   Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
   simulator.prepare(builder.scene(), sensor, illuminators, Backscatter::lambert, Shadows::automatic);
   const Measurement measured = simulator.measure();

@@ -143,9 +143,8 @@ struct HostSweep::State {
 void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
                                  const SourceGroups &groups, const std::vector<SourceWindow> &of_frame) {
   auto on_board = std::make_unique<OnBoard>();
-  on_board->edges = silhouette_tree(items.edges.items, items.rest_step);
-  if (items.any_hidden)
-    on_board->hidden = silhouette_tree(items.hidden.items, items.rest_step);
+  on_board->edges = silhouette_tree(items.edges, items.rest_step);
+  on_board->hidden = silhouette_tree(items.hidden, items.rest_step);
   std::ranges::transform(items.planes, std::back_inserter(on_board->planes), exact_planes);
   most_blocks = std::max({most_blocks, on_board->edges.items.size(), on_board->hidden.items.size()});
   for (const std::size_t window : board.windows) {

@@ -1,15 +1,12 @@
 #include "engine/shadow/host/silhouette_tree.h"
 
+#include "engine/shadow/item_box.h"
+
 #include <array>
 #include <bit>
 
 namespace pmdsim {
 namespace {
-
-using EndBox = std::array<glm::vec3, 2>;
-const EndBox no_box{glm::vec3(1e30f), glm::vec3(-1e30f)};
-
-void grow(EndBox &box, const glm::vec3 &place) { box = {glm::min(box[0], place), glm::max(box[1], place)}; }
 
 std::array<float, 3> unpacked_rest(std::uint32_t packed, float step) {
   std::array<float, 3> rest{};
@@ -48,20 +45,11 @@ void put_item(const SweepItem &item, std::uint32_t number, float rest_step, Item
   block.rows[row_number][lane] = static_cast<std::int32_t>(number);
 }
 
-EndBox box_around(const SweepItem &item) {
-  EndBox box = no_box;
-  grow(box, item.a);
-  grow(box, item.b);
-  if (item.second == shader::item_hidden)
-    grow(box, item.first_normal);
-  return box;
-}
-
 // Boxes around as many of those below as a block holds.
-std::vector<BoxBlock> blocks_of(const std::vector<EndBox> &boxes) {
+std::vector<BoxBlock> blocks_of(const std::vector<ItemBox> &boxes) {
   std::vector<BoxBlock> blocks((boxes.size() + items_per_block - 1) / items_per_block);
   for (std::size_t i = 0; i < blocks.size() * items_per_block; ++i) {
-    const EndBox &box = i < boxes.size() ? boxes[i] : no_box;
+    const ItemBox &box = i < boxes.size() ? boxes[i] : empty_box;
     for (std::size_t k = 0; k < 3; ++k) {
       blocks[i / items_per_block].low[k][i % items_per_block] = box[0][static_cast<glm::length_t>(k)];
       blocks[i / items_per_block].high[k][i % items_per_block] = box[1][static_cast<glm::length_t>(k)];
@@ -70,12 +58,10 @@ std::vector<BoxBlock> blocks_of(const std::vector<EndBox> &boxes) {
   return blocks;
 }
 
-std::vector<EndBox> around(const std::vector<EndBox> &boxes) {
-  std::vector<EndBox> above((boxes.size() + items_per_block - 1) / items_per_block, no_box);
+std::vector<ItemBox> around(const std::vector<ItemBox> &boxes) {
+  std::vector<ItemBox> above((boxes.size() + items_per_block - 1) / items_per_block, empty_box);
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (const glm::vec3 &place : boxes[i])
-      if (boxes[i][0].x <= boxes[i][1].x)
-        grow(above[i / items_per_block], place);
+    above[i / items_per_block] = union_of(above[i / items_per_block], boxes[i]);
   return above;
 }
 
@@ -83,21 +69,18 @@ std::vector<EndBox> around(const std::vector<EndBox> &boxes) {
 
 SilhouetteTree silhouette_tree(const std::vector<SweepItem> &items, float rest_step) {
   SilhouetteTree tree;
-  std::size_t count = 0;
-  while (count < items.size() && items[count].first != no_id) // what fills up the last cluster follows
-    ++count;
+  const std::size_t count = items.size();
   if (count == 0)
     return tree;
   const SweepItem nothing{glm::vec3(1e30f), no_id, glm::vec3(1e30f), no_id,
                           glm::vec3(0.0f),  0,     glm::vec3(0.0f),  0};
   tree.items.resize((count + items_per_block - 1) / items_per_block);
-  std::vector<EndBox> boxes(tree.items.size(), no_box);
+  std::vector<ItemBox> boxes(tree.items.size(), empty_box);
   for (std::size_t i = 0; i < tree.items.size() * items_per_block; ++i) {
     put_item(i < count ? items[i] : nothing, static_cast<std::uint32_t>(i), rest_step,
              tree.items[i / items_per_block], i % items_per_block);
     if (i < count)
-      for (const glm::vec3 &place : box_around(items[i]))
-        grow(boxes[i / items_per_block], place);
+      boxes[i / items_per_block] = union_of(boxes[i / items_per_block], box_of(items[i]));
   }
   do {
     tree.levels.push_back(blocks_of(boxes));

@@ -1,0 +1,18 @@
+#pragma once
+// What all that is made for a frame follows from.
+
+#include "engine/error_budget/plan.h"
+#include "engine/frame/frame_facts.h"
+#include "engine/frame/frame_path.h"
+#include "engine/light/accumulate_pass.h"
+
+namespace pmdsim {
+
+struct FrameBasis : PassSetup {
+  const FrameRequest &request;
+  const FrameFacts &facts;
+  const FramePlan &plan;
+  const FramePath &path;
+};
+
+} // namespace pmdsim
