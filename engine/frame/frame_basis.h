@@ -6,6 +6,8 @@
 #include "engine/frame/frame_path.h"
 #include "engine/light/accumulate_pass.h"
 
+#include <vector>
+
 namespace pmdsim {
 
 struct FrameBasis : PassSetup {
@@ -13,6 +15,8 @@ struct FrameBasis : PassSetup {
   const FrameFacts &facts;
   const FramePlan &plan;
   const FramePath &path;
+  const std::vector<PlannedStrip> &strips;
+  const std::vector<SourceWindow> &windows; // of visibility bits
 };
 
 } // namespace pmdsim

@@ -113,11 +113,9 @@ void FrameGraph::warm_up(vulkan::PassRecorder &recorder, PlannedStrip planned, s
   planned.strip.columns = planned.strip.rows = 1;
   planned.strip.padded_pixels = padded(1);
   Run run{recorder, planned, 0};
-  const std::uint32_t samples = planned.strip.samples * planned.strip.samples;
   const auto warm = [&](const Pass &pass, std::size_t window) {
-    static constexpr std::array<std::uint32_t, 1> first_pixel{0};
-    if (pass.list)
-      record_fill(recorder.commands(), *pass.list, first_pixel, samples);
+    if (pass.fill_list)
+      pass.fill_list({recorder.commands(), planned, 0, window, {}});
     run_pass(pass, window, run);
   };
   recorder.begin();

@@ -118,10 +118,36 @@ struct ClassLists {
   const vulkan::Buffer *list = nullptr, *later = nullptr;
 };
 
+std::uint32_t shining(const SourceGroups &groups) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
+}
+
+// Depth records block by block: those that every source reaches are summed as if there were no shadows.
+void list_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                 const SumScope &scope, FrameGraph &graph) {
+  const auto lists =
+      std::make_shared<const BlockLists>(on.device, on.buffers, on.strips, shining(groups), on.path.direct);
+  graph.add_to_window({.name = "accumulate",
+                       .reads = ids | visibility_counts,
+                       .writes = block_lists,
+                       .record = [lists](const Recording &at) { lists->record(at); }});
+  SumScope shaded = scope, lit = scope;
+  lit.shadowed = false;
+  lit.beforehand = on.path.point_dimensions > 0;
+  shaded.blocks = lists->of(shader::blocks_shaded);
+  lit.blocks = lists->of(shader::blocks_lit);
+  graph.add_to_window(accumulate_pass(on, groups, windows, lit));
+  graph.add_to_window(accumulate_pass(on, groups, windows, shaded));
+  if (!on.path.direct)
+    return;
+  SumScope empty = lit;
+  empty.blocks = lists->of(shader::blocks_empty);
+  graph.add_to_window(accumulate_pass(on, groups, windows, empty));
+}
+
 // A class of pixels, sample by sample: all of them, or those of a list.
-void list_class(const FrameBasis &on, PixelsOf who, const std::vector<SourceWindow> &windows,
-                const ClassLists &lists, FrameGraph &graph,
-                const std::optional<SampleTiles> &shadowed_tiles = {}) {
+void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, FrameGraph &graph) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
@@ -140,16 +166,13 @@ void list_class(const FrameBasis &on, PixelsOf who, const std::vector<SourceWind
     graph.add_after(points_of(on, pixels->precision, list));
   if (on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
-  const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : windows;
-  if (shadowed_tiles) { // as if every source reached every sample first, then those that not every one does
-    SumScope unshadowed = scope;
-    unshadowed.shadowed = false;
-    unshadowed.beforehand = on.path.point_dimensions > 0;
-    graph.add_to_window(accumulate_pass(on, groups, of_windows, unshadowed));
-    scope.tiles.emplace(*shadowed_tiles);
+  const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
+  if (pixels->shadowed && on.path.keeps_depths_only()) {
+    list_blocks(on, groups, of_windows, scope, graph);
+  } else {
+    Pass sum = accumulate_pass(on, groups, of_windows, scope);
+    list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
   }
-  Pass sum = accumulate_pass(on, groups, of_windows, scope);
-  list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
   if (!on.path.direct)
     graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
@@ -173,36 +196,33 @@ Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
 }
 
 // The classes of pixels, one after the other, each with the pixels that those before it have left.
-void list_classes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
-                  const std::vector<SourceWindow> &windows, const std::optional<SampleTiles> &shadowed_tiles,
-                  FrameGraph &graph) {
+void list_classes(const FrameBasis &on, FrameGraph &graph) {
   const PixelClass *precise = on.path.of(PixelsOf::precise);
   std::shared_ptr<const PixelLists> lists;
   if (on.path.is_sorted() || precise)
-    lists = std::make_shared<const PixelLists>(on.device, strips);
+    lists = std::make_shared<const PixelLists>(on.device, on.strips);
   const vulkan::Buffer *of_precise = precise ? &lists->of(shader::list_precise) : nullptr;
   if (!on.path.is_sorted()) {
     if (precise) // of one window
       graph.add_to_window(clear_pass(lists));
-    list_class(on, PixelsOf::all, windows, {nullptr, of_precise}, graph, shadowed_tiles);
+    list_class(on, PixelsOf::all, {nullptr, of_precise}, graph);
   } else {
     const vulkan::Buffer *of_rest = &lists->of(shader::list_rest);
     list_sorting(on, lists, graph);
-    list_class(on, PixelsOf::unshadowed, windows,
-               {&lists->of(shader::list_unshadowed), precise ? of_rest : nullptr}, graph);
+    list_class(on, PixelsOf::unshadowed, {&lists->of(shader::list_unshadowed), precise ? of_rest : nullptr},
+               graph);
     if (precise)
       graph.add_after(count_pass(lists));
-    list_class(on, PixelsOf::rest, windows, {of_rest, of_precise}, graph);
+    list_class(on, PixelsOf::rest, {of_rest, of_precise}, graph);
   }
   if (precise) {
     graph.add_after(count_pass(lists));
-    list_class(on, PixelsOf::precise, windows, {of_precise, nullptr}, graph);
+    list_class(on, PixelsOf::precise, {of_precise, nullptr}, graph);
   }
 }
 
 // Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
-void list_check(const FrameBasis &on, const SpotCheck &check, const std::vector<SourceWindow> &windows,
-                const ShadowPasses &shadow, FrameGraph &graph) {
+void list_check(const FrameBasis &on, const SpotCheck &check, const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
   modulation.keeps_terms = modulation.reports_kept = false;
   const PassSetup setup{on.device, on.options, on.sensor, modulation, on.model, on.buffers, on.scene};
@@ -221,19 +241,14 @@ void list_check(const FrameBasis &on, const SpotCheck &check, const std::vector<
   graph.add_before(check.list_pass());
   if (on.path.grid != SampleGrid::distorted)
     graph.add_before(points_of(on, precision, &check.list()));
-  if (shadow && windows.size() > 1)
+  if (shadow && on.windows.size() > 1)
     list_shadow_passes(on, shadow, graph);
   graph.add_to_window(
-      accumulate_pass(setup, groups, shadow ? windows : std::vector{all_runs(groups)}, scope));
+      accumulate_pass(setup, groups, shadow ? on.windows : std::vector{all_runs(groups)}, scope));
   graph.add_after(demodulation_pass(setup, groups, scope));
   Pass read_back = read_back_pass(on.sensor, on.modulation, on.buffers, {});
   read_back.store = {}; // it is only compared
   graph.add_after(std::move(read_back));
-}
-
-std::uint32_t shining(const SourceGroups &groups) {
-  return static_cast<std::uint32_t>(std::ranges::count_if(
-      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
 
 // What is known before the frame.
@@ -246,41 +261,37 @@ AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   return report;
 }
 
-FramePasses make_passes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
-                        const std::vector<SourceWindow> &windows, std::unique_ptr<FrameMemory> memory,
+FramePasses make_passes(const FrameBasis &on, std::unique_ptr<FrameMemory> memory,
                         std::optional<RasterImages> images) {
   std::optional<ChipGrid> grid;
   if (on.path.record == SampleRecord::depth)
     grid.emplace(on.device, on.sensor);
   auto raster =
-      std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, strips, on.scene,
+      std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, on.strips, on.scene,
                                      on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   std::shared_ptr<const EdgeSettling> edges;
   if (on.path.grid != SampleGrid::distorted)
     edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
                                                  on.request.scene, on.facts.projection.blocks, grid);
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
-  const ShadowPasses shadow = make_shadow_passes(on, strips, windows, grid);
+  const ShadowPasses shadow = make_shadow_passes(on, grid);
   std::optional<TruthOfRecords> truth;
   if (on.path.host_reads_truth)
     truth = truth_of_records(on.device, on.options, on.request.scene);
 
-  FramePasses made{on.path, on.sensor,         on.modulation, strips, windows.size(),
-                   sources, std::move(memory), raster,        {},     report_of(on.plan, on.path)};
+  FramePasses made{on.path, on.sensor,         on.modulation, on.strips, on.windows.size(),
+                   sources, std::move(memory), raster,        {},        report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
   list_view(on, raster, edges, graph);
   if (shadow)
     list_shadow_passes(on, shadow, graph);
   if (shadow && on.options.keep_visibility)
-    graph.add_to_window(visibility_read_back_pass(on, windows, sources));
-  std::optional<SampleTiles> shadowed_tiles;
-  if (shadow && on.path.keeps_depths_only())
-    shadowed_tiles.emplace(shadow.shadowed_tiles());
-  list_classes(on, strips, windows, shadowed_tiles, graph);
+    graph.add_to_window(visibility_read_back_pass(on, sources));
+  list_classes(on, graph);
   graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
   if (on.path.check) {
-    made.check.emplace(on, strips);
-    list_check(on, *made.check, windows, shadow, made.check_graph);
+    made.check.emplace(on, on.strips);
+    list_check(on, *made.check, shadow, made.check_graph);
   }
   return made;
 }
@@ -316,8 +327,10 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
       request,
       facts,
       plan,
-      path};
-  return make_passes(on, strips, windows, std::move(memory), std::move(spare.images));
+      path,
+      strips,
+      windows};
+  return make_passes(on, std::move(memory), std::move(spare.images));
 }
 
 } // namespace pmdsim

@@ -30,23 +30,21 @@ Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &
 
 } // namespace
 
-ShadowPasses make_shadow_passes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
-                                const std::vector<SourceWindow> &windows,
-                                const std::optional<ChipGrid> &grid) {
+ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGrid> &grid) {
   ShadowPasses shadow;
   const FrameFacts &facts = on.facts;
   if (on.path.windows == 0)
     return shadow;
   if (on.path.host_sweep)
     shadow.host = std::make_shared<const HostSweep>(
-        on, facts.occluders, facts.camera, on.request.scene, on.plan.all, windows, strips, grid,
+        on, facts.occluders, facts.camera, on.request.scene, on.plan.all, on.windows, grid,
         !on.path.keeps_depths_only() || on.path.holes || on.path.check || on.options.keep_visibility);
   else
     shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
-                                                     on.plan.all, windows, strips, grid);
+                                                     on.plan.all, on.windows, on.strips, grid);
   if (on.path.holes)
-    shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, windows,
-                                                     strips, grid, shadow.shadowed_tiles());
+    shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, on.windows,
+                                                     on.strips, grid);
   return shadow;
 }
 
@@ -63,18 +61,17 @@ void list_shadow_passes(const FrameBasis &on, const ShadowPasses &shadow, FrameG
                          }});
 }
 
-Pass visibility_read_back_pass(const FrameBasis &on, const std::vector<SourceWindow> &windows,
-                               const std::shared_ptr<const SourceGroups> &sources) {
+Pass visibility_read_back_pass(const FrameBasis &on, const std::shared_ptr<const SourceGroups> &sources) {
   const bool row_by_row = on.path.record == SampleRecord::depth;
   return {.name = "read_back",
           .reads = visibility_bits,
           .writes = no_resource,
           .record =
-              [=, &buffers = on.buffers](const Recording &at) {
+              [=, &buffers = on.buffers, windows = on.windows](const Recording &at) {
                 record_visibility(at.commands, at.of_strip(), buffers, windows[at.window]);
               },
           .store =
-              [=, &buffers = on.buffers](const Recording &at, Measurement &to) {
+              [=, &buffers = on.buffers, windows = on.windows](const Recording &at, Measurement &to) {
                 store_visibility(at.of_strip(), buffers, windows[at.window], *sources, row_by_row,
                                  to.sample_visibility);
               }};

@@ -20,18 +20,14 @@ struct ShadowPasses {
   std::shared_ptr<const HolesPass> holes;
 
   explicit operator bool() const { return sweep || host; }
-  SampleTiles shadowed_tiles() const { return host ? host->shadowed_tiles() : sweep->shadowed_tiles(); }
 };
 
-ShadowPasses make_shadow_passes(const FrameBasis &on, const std::vector<PlannedStrip> &strips,
-                                const std::vector<SourceWindow> &windows,
-                                const std::optional<ChipGrid> &grid);
+ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGrid> &grid);
 
 // Adds them to those of each window.
 void list_shadow_passes(const FrameBasis &on, const ShadowPasses &shadow, FrameGraph &graph);
 
 // The bits for the host.
-Pass visibility_read_back_pass(const FrameBasis &on, const std::vector<SourceWindow> &windows,
-                               const std::shared_ptr<const SourceGroups> &sources);
+Pass visibility_read_back_pass(const FrameBasis &on, const std::shared_ptr<const SourceGroups> &sources);
 
 } // namespace pmdsim

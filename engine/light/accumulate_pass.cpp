@@ -141,7 +141,7 @@ private:
   std::vector<SourceWindow> windows_;
   const vulkan::Buffer *list_;
   std::optional<ChipGrid> depth_records_;
-  std::optional<SampleTiles> tiles_;
+  std::optional<SampleBlocks> blocks_;
   std::shared_ptr<const SumOutput> output_;
   std::vector<SourceRun> runs_;
   vulkan::Buffer light_runs_; // shader::LightRun of each
@@ -164,7 +164,7 @@ vulkan::Buffer upload_sum(const PassSetup &on, const SourceGroups &groups, const
 Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
-      depth_records_(scope.depth_records), tiles_(scope.tiles), output_(scope.output), runs_(groups.runs),
+      depth_records_(scope.depth_records), blocks_(scope.blocks), output_(scope.output), runs_(groups.runs),
       light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
@@ -182,7 +182,8 @@ vulkan::ComputePipeline Sum::make_pipeline(const PassSetup &on, const SourceGrou
   if (scope.output)
     constants.merge(scope.output->constants);
   if (depth_records_)
-    constants.set(shader::constant_general_chip, !depth_records_->is_nominal());
+    constants.set(shader::constant_general_chip, !depth_records_->is_nominal())
+        .set(shader::constant_block_list, blocks_ ? blocks_->kind : shader::no_blocks);
   return {on.device, vulkan::shader_module(on.device, on.options.precision, module_of(on.modulation, scope)),
           depth_records_ ? sizeof(shader::DepthSumConstants) : sizeof(shader::AccumulateConstants),
           constants};
@@ -240,9 +241,9 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             strip.columns * strip.rows * strip.samples * strip.samples,
                                             run == 0 ? 1u : 0u,
                                             buffers_.visibility.words(),
-                                            tiles_ ? tiles_->buffer.words(tiles_->offset) : shader::uvec2(0)};
-  if (tiles_)
-    first_.dispatch_indirect(at.commands, constants, tiles_->buffer, tiles_->offset);
+                                            blocks_ ? blocks_->list->words() : shader::uvec2(0)};
+  if (blocks_)
+    first_.dispatch_indirect(at.commands, constants, *blocks_->list, 0);
   else
     first_.dispatch(at.commands, constants, plane, shader::workgroup_size);
 }
@@ -254,7 +255,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.list ? pixel_lists : no_resource) |
+                   (scope.list ? pixel_lists : no_resource) | (scope.blocks ? block_lists : no_resource) |
                    (scope.output && on.modulation.lit ? visibility_counts : no_resource),
           .writes = scope.output ? channels : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },
@@ -264,7 +265,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
               },
           .all_parts = static_cast<std::uint32_t>(groups.runs.size()),
           .interactions = [sum](const shader::Strip &strip) { return sum->interactions_per_run(strip); },
-          .list = scope.list};
+          .fill_list = scope.blocks ? fill_with_one(*scope.blocks) : fill_with_one(scope.list)};
 }
 
 } // namespace pmdsim

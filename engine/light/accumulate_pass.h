@@ -8,6 +8,7 @@
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"
 #include "engine/model/simulator_options.h"
+#include "engine/sampling/block_lists.h"
 #include "engine/sampling/pass.h"
 #include "engine/sampling/sample_grid.h"
 #include "engine/sampling/strip_memory.h"
@@ -51,7 +52,7 @@ struct SumScope {
   bool looped = false;               // no straight line, which few pixels are not worth compiling
   std::optional<ErrorBound> bound{}; // what the sum's error is to be held against
   std::optional<ChipGrid> depth_records{};   // where these are all that is known of the samples
-  std::optional<SampleTiles> tiles{};        // of depth records, which are summed anew, now shadowed
+  std::optional<SampleBlocks> blocks{};      // of depth records, only these
   std::shared_ptr<const SumOutput> output{}; // of depth records
 };
 

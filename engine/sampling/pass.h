@@ -23,6 +23,7 @@ enum Resource : std::uint32_t {
   sums = 1u << 5,
   terms = 1u << 6, // sums of the terms' sizes, for bounds
   channels = 1u << 7,
+  block_lists = 1u << 8, // of depth records
 };
 using Resources = std::uint32_t;
 
@@ -51,7 +52,8 @@ struct Pass {
   std::function<Parts(std::size_t window)> parts = {};
   std::uint32_t all_parts = 1;
   std::function<std::uint64_t(const shader::Strip &)> interactions = {};
-  const vulkan::Buffer *list = nullptr; // of pixels that it works on; else it works on all
+  // Of a pass that works on a list: gives it an entry, so that a warm-up has something to do.
+  std::function<void(const Recording &)> fill_list = {};
   // The host's share, once the device is done.
   std::function<void(const Recording &, Measurement &)> store = {};
 };

@@ -54,6 +54,15 @@ void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &
   barrier_after(commands);
 }
 
+std::function<void(const Recording &)> fill_with_one(const vulkan::Buffer *list) {
+  if (list == nullptr)
+    return {};
+  return [list](const Recording &at) {
+    static constexpr std::array<std::uint32_t, 1> first_pixel{0};
+    record_fill(at.commands, *list, first_pixel, at.of_strip().samples * at.of_strip().samples);
+  };
+}
+
 void PixelLists::record_clear(const vk::raii::CommandBuffer &commands) const {
   barrier_before(commands);
   const shader::PixelList empty{0, 1, 1, 0, 1, 1, 0, 0};

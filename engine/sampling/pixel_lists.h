@@ -2,11 +2,13 @@
 // Pixels that the uniform-pixel pass leaves to the passes that go sample by sample, in lists that the device
 // fills.
 
+#include "engine/sampling/pass.h"
 #include "engine/sampling/strip_memory.h"
 #include "engine/vulkan/compute_pipeline.h"
 #include "shaders/shared/interface.h"
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +19,9 @@ vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixel
 // Some thousand pixels, whatever was done with the list before; `samples` of each.
 void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
                  std::span<const std::uint32_t> pixels, std::uint32_t samples);
+
+// Puts the first pixel into the list; nothing where there is none.
+std::function<void(const Recording &)> fill_with_one(const vulkan::Buffer *list);
 
 class PixelLists {
 public:

@@ -21,12 +21,6 @@ shader::vec4 half_sample_slope(const Sensor &sensor);
 
 vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor);
 
-// A shader::TileList of samples that are an even grid, on the device.
-struct SampleTiles {
-  const vulkan::Buffer &buffer;
-  vk::DeviceSize offset; // where it begins
-};
-
 class ChipGrid {
 public:
   // Of a sensor without distortion whose pixels are filled or have one sample.

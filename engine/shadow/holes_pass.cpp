@@ -78,8 +78,8 @@ vulkan::Buffer upload_hole_texels(const vulkan::Device &device, const std::vecto
 } // namespace
 
 struct HolesPass::State {
-  State(const PassSetup &on, const std::optional<ChipGrid> &grid, const SampleTiles &of_frame)
-      : buffers(on.buffers), records(grid), shaded(of_frame), lanes(on.device.limits().subgroup),
+  State(const PassSetup &on, const std::optional<ChipGrid> &grid)
+      : buffers(on.buffers), records(grid), lanes(on.device.limits().subgroup),
         specialization{{shader::constant_tiled, is_tiled(on.sensor)},
                        {shader::constant_lanes, lanes},
                        {shader::constant_depth_records, records.has_value()},
@@ -94,14 +94,13 @@ struct HolesPass::State {
 
   const StripBuffers &buffers;
   std::optional<ChipGrid> records; // where samples are these
-  SampleTiles shaded;
   std::uint32_t lanes;
   vulkan::Specialization specialization;
   shader::HolesWindow record{}; // of no window yet
   std::uint32_t ranges = 0;
   vulkan::Buffer shapes, shape_boxes;
   vulkan::Buffer tile_boxes, work;
-  vulkan::ComputePipeline find_tiles, mark_known, list_tiles;
+  vulkan::ComputePipeline find_tiles, list_tiles;
   std::vector<Window> windows;
 
   vulkan::ComputePipeline pipeline(const PassSetup &on, std::string_view name,
@@ -110,8 +109,6 @@ struct HolesPass::State {
   void make_lists(const PassSetup &on, vk::DeviceSize tiles);
   void add_window(const PassSetup &on, const SourceWindow &window, const SourceGroups &groups);
   shader::HolesConstants constants(const shader::Strip &strip, std::size_t window) const;
-  void record_tiles(const vk::raii::CommandBuffer &commands, const shader::HolesConstants &plain,
-                    std::size_t window) const;
   // The ranges from `plain.first_range` on that have lists at a time.
   void record_batch(const vk::raii::CommandBuffer &commands, const shader::HolesConstants &plain,
                     std::size_t window) const;
@@ -147,11 +144,10 @@ void HolesPass::State::upload_shapes(const PassSetup &on, const std::vector<shad
 void HolesPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
   using Usage = vk::BufferUsageFlagBits;
   tile_boxes = {on.device, tiles * sizeof(shader::TileBox), Usage::eStorageBuffer, vulkan::Memory::device};
-  const vk::DeviceSize lists = (1 + shader::hole_batch) * tiles * sizeof(std::uint32_t);
+  const vk::DeviceSize lists = shader::hole_batch * tiles * sizeof(std::uint32_t);
   work = {on.device, sizeof(shader::HolesWork) + lists,
           Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferDst, vulkan::Memory::device};
   find_tiles = pipeline(on, "holes_tiles");
-  mark_known = pipeline(on, "holes_known");
   list_tiles = pipeline(on, "holes_lists");
 }
 
@@ -179,9 +175,8 @@ void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &windo
 
 HolesPass::HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes,
                      const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records,
-                     const SampleTiles &shaded)
-    : state_(std::make_unique<State>(on, records, shaded)) {
+                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records)
+    : state_(std::make_unique<State>(on, records)) {
   state_->upload_shapes(on, shapes);
   state_->make_lists(on, largest_tile_count(strips));
   for (const SourceWindow &window : windows)
@@ -198,30 +193,12 @@ shader::HolesConstants HolesPass::State::constants(const shader::Strip &strip, s
           windows[window].record.words(),
           tile_boxes.words(),
           work.words(),
-          shaded.buffer.words(shaded.offset),
           buffers.visibility.words(),
           buffers.lit.words(),
           0,
           0,
           tile_count(of_samples),
           sample_count(strip)};
-}
-
-void HolesPass::State::record_tiles(const vk::raii::CommandBuffer &commands,
-                                    const shader::HolesConstants &plain, std::size_t window) const {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
-  if (records) {
-    vulkan::memory_barrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
-                           Access::eTransferWrite);
-    commands.fillBuffer(work.get(), sizeof(shader::HolesWork),
-                        vk::DeviceSize{plain.tiles} * sizeof(std::uint32_t), 0);
-    vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
-                           Access::eShaderStorageRead | Access::eShaderStorageWrite);
-    mark_known.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size,
-                        &windows[window].texels);
-  }
-  find_tiles.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &windows[window].texels);
 }
 
 void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
@@ -231,7 +208,7 @@ void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
   vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
                          Stage::eTransfer, Access::eTransferWrite);
   shader::HolesWork nothing{};
-  std::ranges::fill(nothing.ranges, shader::TileList{shader::tile_samples, 0, 1, 0});
+  std::ranges::fill(nothing.ranges, shader::WorkList{shader::tile_samples, 0, 1, 0});
   commands.updateBuffer<shader::HolesWork>(work.get(), 0, nothing);
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                          Access::eShaderStorageRead | Access::eShaderStorageWrite);
@@ -240,7 +217,7 @@ void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
   shader::HolesConstants of_range = plain;
   for (; of_range.range < std::min(shader::hole_batch, ranges - plain.first_range); ++of_range.range) {
     vulkan::compute_barrier(commands);
-    of.holes.dispatch_indirect(commands, of_range, work, of_range.range * sizeof(shader::TileList),
+    of.holes.dispatch_indirect(commands, of_range, work, of_range.range * sizeof(shader::WorkList),
                                &of.texels);
   }
 }
@@ -248,7 +225,8 @@ void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
 void HolesPass::record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                        std::size_t window) const {
   shader::HolesConstants plain = state_->constants(strip, window);
-  state_->record_tiles(commands, plain, window);
+  state_->find_tiles.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size,
+                              &state_->windows[window].texels);
   for (; plain.first_range < state_->ranges; plain.first_range += shader::hole_batch)
     state_->record_batch(commands, plain, window);
 }

@@ -16,15 +16,13 @@ namespace pmdsim {
 
 class HolesPass {
 public:
-  // `records`: where samples are these; then `shaded` are those of their tiles that not every diode may
-  // reach, as the passes before have them. Throws Error (out_of_memory).
+  // `records`: where samples are these. Throws Error (out_of_memory).
   HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes, const SourceGroups &groups,
             const std::vector<SourceWindow> &windows, std::span<const PlannedStrip> strips,
-            const std::optional<ChipGrid> &records, const SampleTiles &shaded);
+            const std::optional<ChipGrid> &records);
   ~HolesPass();
 
-  // Clears bits in the strip's visibility, takes their diodes off `lit`, and adds tiles to those that are
-  // shaded.
+  // Clears bits in the strip's visibility, and takes their diodes off `lit`.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window) const;
 
 private:

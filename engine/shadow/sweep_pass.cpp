@@ -175,10 +175,9 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
     shader::SweepWork nothing{};
     std::ranges::fill(nothing.rounds, shader::SweepRound{0, 1, 1, 0, shader::tile_samples / lanes, 0, 1, 0,
                                                          windows[window].bundles, 0, 1, 0});
-    nothing.shaded = {1, 0, 1, 0};
     commands.updateBuffer<shader::SweepWork>(work.get(), 0, nothing);
     if (!boards[of_window[window].board].any_hidden)
-      commands.fillBuffer(work.get(), sizeof(nothing) + 3 * tiles * word, tiles * word, 0);
+      commands.fillBuffer(work.get(), sizeof(nothing) + 2 * tiles * word, tiles * word, 0);
   } else {
     for (std::size_t round = 0; round < shader::sweep_rounds; ++round)
       commands.updateBuffer<std::uint32_t>(
@@ -328,7 +327,7 @@ void SweepPass::State::make_list_pipelines(const PassSetup &on) {
 void SweepPass::State::make_lists(const PassSetup &on, vk::DeviceSize tiles) {
   using Usage = vk::BufferUsageFlagBits;
   shafts = sweep_storage(on.device, tiles * sizeof(shader::TileShaft));
-  const vk::DeviceSize words = (5 + shader::sweep_rounds + shader::tile_samples) * tiles;
+  const vk::DeviceSize words = (4 + shader::sweep_rounds + shader::tile_samples) * tiles;
   work = sweep_storage(on.device, sizeof(shader::SweepWork) + words * sizeof(std::uint32_t),
                        Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc);
   may_lose = (on.device.is_cpu() && most_items > fewest_to_lose) ||
@@ -372,8 +371,6 @@ void SweepPass::State::record_read_back(const vk::raii::CommandBuffer &commands)
   commands.copyBuffer(work.get(), header_read.get(), vk::BufferCopy(0, 0, sizeof(shader::SweepWork)));
   vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
-
-SampleTiles SweepPass::shadowed_tiles() const { return {state_->work, offsetof(shader::SweepWork, shaded)}; }
 
 bool SweepPass::may_lose() const { return state_->may_lose; }
 

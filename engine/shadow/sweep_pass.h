@@ -27,9 +27,6 @@ public:
   // that follow reach a sample.
   void record(const vk::raii::CommandBuffer &commands, const shader::Strip &strip, std::size_t window) const;
 
-  // Those of the depth records that not every diode may reach.
-  SampleTiles shadowed_tiles() const;
-
   // Whether has_lost() may ever be true.
   bool may_lose() const;
   // Once the device is done with a strip: whether a scene with so many edges in a tile's way is beyond what

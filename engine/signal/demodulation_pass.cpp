@@ -174,7 +174,7 @@ Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const Su
                    (scope.list ? pixel_lists : no_resource),
           .writes = channels | (scope.later ? pixel_lists | terms : no_resource),
           .record = [demodulation](const Recording &at) { demodulation->record(at); },
-          .list = scope.list};
+          .fill_list = fill_with_one(scope.list)};
 }
 
 } // namespace pmdsim

@@ -24,9 +24,23 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
   return backscatter_of(direct.shapes, direct.surfaces, ray, point, triangle, plane);
 }
 
+void store_nothing(uint i, DirectPixelsOf output_of) {
+  PixelSum sum;
+  see_nothing(sum);
+  Channels to = Channels(output_of.at.channels, constants.plane);
+  [[unroll]] for (uint t = 0; t < tones; ++t)
+    store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+  if (lit_is_kept != 0)
+    store_lit(to, output_of.of[0].lit_channel, output_of.of[0].diodes, i, sum);
+}
+
 void main() {
   uint i = sample_of_invocation(), record = min(i, constants.samples - 1); // what only pads has no record
   DirectPixelsOf output_of = DirectPixelsOf(constants.sum);
+  if (block_list == blocks_empty) {
+    store_nothing(i, output_of);
+    return;
+  }
   DirectPixels direct = output_of.at;
   LightRun run = LightRuns(constants.run).at;
   Point point;

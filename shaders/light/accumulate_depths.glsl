@@ -16,22 +16,22 @@ layout(constant_id = constant_general_chip) const uint general_chip = 0;
 #define DIAGRAM_VALUES constants.diagrams
 #include "shaders/light/sum.glsl"
 
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Tiles {
-  TileList at;
+layout(constant_id = constant_block_list) const uint block_list = no_blocks;
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Blocks {
+  WorkList at;
   uint list[];
 };
 
-// Where not every diode reaches every sample, the samples of a list of tiles; what only pads is beyond the last one.
+// All of them, or those of a list of blocks. Where a block ends beyond its row, or a workgroup beyond the list, the last samples are
+// done again.
 uint sample_of_invocation() {
-  if (shadowed == 0)
+  if (block_list == no_blocks)
     return gl_GlobalInvocationID.x;
-  Tiles tiles = Tiles(constants.tiles);
-  uint entry = gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y;
-  uint columns = constants.grid.columns, tiles_across = (columns + tile_side - 1u) / tile_side;
-  uint tile = tiles.list[min(entry, tiles.at.count - 1u)], within = gl_LocalInvocationID.x;
-  uvec2 at = uvec2(tile % tiles_across, tile / tiles_across) * tile_side + uvec2(within % tile_side, within / tile_side);
-  uint i = at.y * columns + at.x;
-  return entry < tiles.at.count && at.x < columns && i < constants.samples ? i : constants.plane - 1u;
+  Blocks blocks = Blocks(constants.blocks_of_list);
+  uint group = gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y;
+  uint entry = group * (workgroup_size / block_samples) + gl_LocalInvocationID.x / block_samples;
+  uint block = blocks.list[min(entry, blocks.at.count - 1u)];
+  return block / block_samples + min(gl_LocalInvocationID.x % block_samples, block % block_samples);
 }
 
 // Of the block's diodes, those that reach sample i, a bit each.

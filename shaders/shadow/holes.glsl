@@ -18,14 +18,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer HoleLists {
   HolesWork at;
   uint list[];
 };
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer ShadedTiles {
-  TileList at;
-  uint list[];
-};
 
-// Where in the lists they are.
-uint known_at(uint tile) { return tile; }
-uint tile_at(uint range, uint entry) { return (1u + range) * constants.tiles + entry; }
+uint tile_at(uint range, uint entry) { return range * constants.tiles + entry; }
 
 Real3 point_of(TileSample at, HolesWindow window) {
   return point_of(at, constants.strip, constants.position, constants.ids, window.slope, window.chip);

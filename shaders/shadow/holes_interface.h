@@ -38,9 +38,9 @@ struct TileBox {
   vec4 low, high;
 };
 
-// What follows: for each tile whether it is known as shaded, then of each range its tiles.
+// What follows: of each range its tiles.
 struct HolesWork {
-  TileList ranges[hole_batch];
+  WorkList ranges[hole_batch];
 };
 
 struct HolesConstants {
@@ -50,7 +50,6 @@ struct HolesConstants {
   uvec2 window;     // in: HolesWindow
   uvec2 boxes;      // TileBox[]
   uvec2 work;       // HolesWork and its lists
-  uvec2 shaded;     // in and out, of depth records: TileList of those that not every diode may reach
   uvec2 visibility; // in and out
   uvec2 lit;        // in and out: uint a sample, the diodes that reach it
   uint first_range; // of those that have lists
@@ -61,7 +60,7 @@ struct HolesConstants {
 
 #ifdef __cplusplus
 static_assert(175 * hole_range < 60000);
-static_assert(sizeof(HolesWindow) == 128 && sizeof(HolesConstants) == 112);
+static_assert(sizeof(HolesWindow) == 128 && sizeof(HolesConstants) == 104);
 } // namespace pmdsim::shader
 #endif
 

@@ -13,19 +13,6 @@ void list_tile(uint range, uint tile) {
   atomicMax(lists.at.ranges[range].groups_z, entry / workgroups_per_row + 1u);
 }
 
-// Once for each tile.
-void list_as_shaded(uint tile) {
-  HoleLists lists = HoleLists(constants.work);
-  if (lists.list[known_at(tile)] != 0u)
-    return;
-  lists.list[known_at(tile)] = 1u;
-  ShadedTiles shaded = ShadedTiles(constants.shaded);
-  uint entry = atomicAdd(shaded.at.count, 1u);
-  shaded.list[entry] = tile;
-  atomicMax(shaded.at.groups_y, min(entry + 1u, workgroups_per_row));
-  atomicMax(shaded.at.groups_z, entry / workgroups_per_row + 1u);
-}
-
 void main() {
   uint tile = gl_GlobalInvocationID.x;
   if (tile >= constants.tiles)
@@ -36,12 +23,7 @@ void main() {
     return;
   Shaft shaft = shaft_to_diodes(box.low.xyz, box.high.xyz, window);
   uint ranges = (window.shapes + hole_range - 1u) / hole_range, last = min(ranges, constants.first_range + hole_batch);
-  bool is_listed = false;
   for (uint range = constants.first_range; range < last; ++range)
-    if (meets_box(shaft, window.first_range + range)) {
+    if (meets_box(shaft, window.first_range + range))
       list_tile(range - constants.first_range, tile);
-      is_listed = true;
-    }
-  if (is_listed && depth_records != 0)
-    list_as_shaded(tile);
 }

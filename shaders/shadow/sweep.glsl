@@ -200,10 +200,10 @@ uint interleaved(uint i, uint count) {
 
 // Where in the lists they are; `kind`: list_edges or list_hidden.
 const uint list_edges = 0u, list_hidden = 1u;
-uint length_at(uint kind, uint tile) { return (1u + 2u * kind) * constants.tiles + tile; }
-uint place_at(uint kind, uint tile) { return (2u + 2u * kind) * constants.tiles + tile; }
-uint active_at(uint round_, uint entry) { return (5u + round_) * constants.tiles + entry; }
-uint sample_at(uint entry) { return (5u + sweep_rounds) * constants.tiles + entry; }
+uint length_at(uint kind, uint tile) { return 2u * kind * constants.tiles + tile; }
+uint place_at(uint kind, uint tile) { return (1u + 2u * kind) * constants.tiles + tile; }
+uint active_at(uint round_, uint entry) { return (4u + round_) * constants.tiles + entry; }
+uint sample_at(uint entry) { return (4u + sweep_rounds) * constants.tiles + entry; }
 
 uint round_of(uint place) { return min(place / entries_per_round, sweep_rounds); }
 

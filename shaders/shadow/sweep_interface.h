@@ -80,7 +80,7 @@ struct SweepRound {
   uint samples;
 };
 
-// Lists of the sweep. What follows: the active tiles, for each tile the length of its list of edges and the
+// Lists of the sweep. What follows: for each tile the length of its list of edges and the
 // entry where it begins, the same of its list of hidden triangles, then of each round its active tiles, then
 // the samples that have to be decided exactly.
 struct SweepWork {
@@ -88,7 +88,6 @@ struct SweepWork {
   uint entries; // of all tiles' lists
   uint lost;    // 1: a tile has no round, or loops were too long for all that had to be done
   uint padding_1, padding_2;
-  TileList shaded; // one of whose lists is not empty
 };
 
 struct SweepConstants {
@@ -124,7 +123,7 @@ struct Piercer {
 
 #ifdef __cplusplus
 static_assert(sizeof(SweepBoard) == 16 * 17 && sizeof(TileShaft) == 96 &&
-              sizeof(SweepWork) == 48 * sweep_rounds + 32);
+              sizeof(SweepWork) == 48 * sweep_rounds + 16);
 static_assert(sizeof(SweepConstants) <= 128);
 } // namespace pmdsim::shader
 #endif

@@ -86,10 +86,6 @@ void make_room(SweepLists lists, uint tile, bool is_shaded) {
   }
   uint entry = atomicAdd(lists.at.rounds[round_].tiles, 1u);
   lists.list[active_at(round_, entry)] = tile;
-  uint place_ = atomicAdd(lists.at.shaded.count, 1u);
-  lists.list[place_] = tile;
-  atomicMax(lists.at.shaded.groups_y, min(place_ + 1u, workgroups_per_row));
-  atomicMax(lists.at.shaded.groups_z, place_ / workgroups_per_row + 1u);
   atomicMax(lists.at.rounds[round_].list_groups_x, gl_NumWorkGroups.x);
   atomicMax(lists.at.rounds[round_].tile_groups_y, min(entry + 1u, workgroups_per_row));
   atomicMax(lists.at.rounds[round_].tile_groups_z, entry / workgroups_per_row + 1u);

@@ -49,7 +49,7 @@ uint shape_of(TileSample at, Strip strip, uvec2 ids) {
   return at.is_there ? id : 0u;
 }
 
-// The entry of this workgroup in a TileList.
+// The entry of this workgroup in a WorkList.
 uint entry_of_workgroup() { return gl_WorkGroupID.z * workgroups_per_row + gl_WorkGroupID.y; }
 
 #endif

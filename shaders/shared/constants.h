@@ -59,6 +59,7 @@ PMDSIM_CONSTANT constant_point_dimensions = 45; // by powers: 2 or 3: their sums
 PMDSIM_CONSTANT constant_keeps_bounds = 46; // 1: what each pixel may be off by is a channel, too
 PMDSIM_CONSTANT constant_passes_on = 47; // 1: pixels that may be off by more than was asked for are listed for a later class
 PMDSIM_CONSTANT constant_reports_kept = 48; // 1: the largest bound of the pixels that keep theirs is wanted
+PMDSIM_CONSTANT constant_block_list = 49; // one of no_blocks and blocks_*: of depth records only those of a list
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

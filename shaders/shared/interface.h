@@ -385,14 +385,33 @@ struct DemodulationConstants {
   uint diodes; // of all illuminators
 };
 
-// Samples row by row, taken in tiles of so many a side. A list of tiles begins with the arguments of a dispatch over
-// it, a workgroup a tile along y and then z; their numbers follow, row by row.
-PMDSIM_CONSTANT tile_side = 8;
-PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
+// A list of work begins with the arguments of a dispatch over it, workgroups along y and then z; its entries follow.
 PMDSIM_CONSTANT workgroups_per_row = 32768; // along y; devices may end at 65,535
-struct TileList {
+struct WorkList {
   uint groups_x, groups_y, groups_z;
   uint count;
+};
+
+// Samples row by row, taken in tiles of so many a side.
+PMDSIM_CONSTANT tile_side = 8;
+PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
+
+// Depth records in blocks of neighbours in a row, listed by what there is to do for them. A block is of one row, so that
+// what becomes of a sample does not depend on where strips end. An entry is `block_samples` times the block's first sample, and how many others it has.
+PMDSIM_CONSTANT block_samples = 8;
+PMDSIM_CONSTANT no_blocks = 0;     // no list: all samples
+PMDSIM_CONSTANT blocks_lit = 1;    // every diode reaches all that they see
+PMDSIM_CONSTANT blocks_shaded = 2; // some diode does not
+PMDSIM_CONSTANT blocks_empty = 3;  // nothing is seen
+PMDSIM_CONSTANT block_lists = 3;
+
+struct BlockListConstants {
+  uvec2 records;
+  uvec2 lit;                // in: uint a sample, the diodes that reach it
+  uvec2 lists[block_lists]; // out, of blocks_lit and what follows: WorkList
+  uint columns, rows;       // of samples
+  uint blocks_across;
+  uint shining; // diodes, of all illuminators
 };
 
 // The sum over depth records and what becomes of it: all samples alike, row by row, each with a record of two
@@ -413,7 +432,7 @@ struct DepthSumConstants {
   uint samples;  // of the strip, in all
   uint is_first; // of the frame's runs: nothing is in the sum yet
   uvec2 visibility; // in, where shadowed: as in AccumulateConstants
-  uvec2 tiles;      // in, where shadowed: TileList of the samples that are summed, in place of what is there
+  uvec2 blocks_of_list; // in, where only those of a list are summed: WorkList
 };
 
 // What becomes of a sum that goes to a pixel's channels at once. DepthSumConstants::sum leads here.

@@ -131,13 +131,11 @@ struct HostSweep::State {
   DecideTile decide_tile;
   std::vector<std::unique_ptr<OnBoard>> boards;
   std::vector<OfWindow> windows;
-  vulkan::Buffer shaded; // shader::TileList
 
   void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups,
                  const std::vector<SourceWindow> &of_frame);
   SampleSource samples_of(const shader::Strip &strip) const;
   void store(const shader::Strip &strip, std::size_t window, const TileBits &bits) const;
-  void list(const std::vector<std::uint8_t> &is_shaded) const;
 };
 
 void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
@@ -204,21 +202,9 @@ void HostSweep::State::store(const shader::Strip &strip, std::size_t window, con
   }
 }
 
-void HostSweep::State::list(const std::vector<std::uint8_t> &is_shaded) const {
-  shader::TileList &header = *host_memory<shader::TileList>(shaded);
-  auto *const numbers = reinterpret_cast<std::uint32_t *>(&header + 1);
-  std::uint32_t count = 0;
-  for (std::uint32_t tile = 0; tile < is_shaded.size(); ++tile)
-    if (is_shaded[tile] != 0)
-      numbers[count++] = tile;
-  header = {1, std::min(count, shader::workgroups_per_row),
-            (count + shader::workgroups_per_row - 1) / shader::workgroups_per_row, count};
-}
-
 HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                     std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records,
-                     bool fills_all)
+                     const std::optional<ChipGrid> &records, bool fills_all)
     : state_(std::make_unique<State>(State{.buffers = on.buffers,
                                            .scene = on.scene,
                                            .records = records,
@@ -230,8 +216,7 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                                            .fills_all = fills_all,
                                            .decide_tile = widest_decide_tile(on.options.host_vector_bits),
                                            .boards = {},
-                                           .windows = {},
-                                           .shaded = {}})) {
+                                           .windows = {}})) {
   if (!on.buffers.ids.is_mapped() || !on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
     throw std::logic_error("the host does not share the device's memory");
   State &state = *state_;
@@ -245,11 +230,6 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
   }
   for (const Board &board : find_boards(groups, windows))
     state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups, windows);
-  const std::uint32_t tiles = largest_tile_count(strips);
-  using Usage = vk::BufferUsageFlagBits;
-  state.shaded = {on.device, sizeof(shader::TileList) + std::size_t{tiles} * sizeof(std::uint32_t),
-                  Usage::eStorageBuffer | Usage::eIndirectBuffer, vulkan::Memory::device};
-  state.list({1}); // so that a first run warms up what works on listed tiles
 }
 
 HostSweep::~HostSweep() = default;
@@ -259,7 +239,6 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
   const SilhouetteBoard &board = *state.windows[window].board;
   const SampleSource samples = state.samples_of(strip);
   const std::uint32_t tiles = tile_count(samples.strip);
-  std::vector<std::uint8_t> is_shaded(tiles);
   struct Memory {
     std::vector<ListedBlock> edges, hidden;
     TileBits bits;
@@ -272,13 +251,9 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
     Memory &own = memory.local();
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
       state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
-      is_shaded[tile] = own.bits.is_shaded;
       state.store(strip, window, own.bits);
     }
   });
-  state.list(is_shaded);
 }
-
-SampleTiles HostSweep::shadowed_tiles() const { return {state_->shaded, 0}; }
 
 } // namespace pmdsim

@@ -21,14 +21,11 @@ public:
   // of tiles, too, all of whose samples every diode reaches.
   HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
             const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-            std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records, bool fills_all);
+            const std::optional<ChipGrid> &records, bool fills_all);
   ~HostSweep();
 
   // As SweepPass::record(), at once; the device is done with the samples.
   void decide(const shader::Strip &strip, std::size_t window) const;
-
-  // As SweepPass::shadowed_tiles().
-  SampleTiles shadowed_tiles() const;
 
 private:
   struct State;

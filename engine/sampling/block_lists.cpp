@@ -1,0 +1,85 @@
+#include "engine/sampling/block_lists.h"
+
+#include "engine/vulkan/commands.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+// In a row of the strip's samples.
+std::uint32_t blocks_across(const shader::Strip &strip) {
+  return (strip.columns * strip.samples + shader::block_samples - 1) / shader::block_samples;
+}
+
+std::uint32_t block_count(const shader::Strip &strip) {
+  return blocks_across(strip) * strip.rows * strip.samples;
+}
+
+vulkan::Buffer make_block_list(const vulkan::Device &device, std::uint32_t blocks) {
+  using Usage = vk::BufferUsageFlagBits;
+  return {device, sizeof(shader::WorkList) + vk::DeviceSize{blocks} * sizeof(std::uint32_t),
+          Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferDst, vulkan::Memory::device};
+}
+
+vulkan::Buffer make_largest_block_list(const vulkan::Device &device, std::span<const PlannedStrip> strips) {
+  std::uint32_t most = 0;
+  for (const PlannedStrip &planned : strips)
+    most = std::max(most, block_count(planned.strip));
+  return make_block_list(device, most);
+}
+
+// Before and after the head of a list is written from here.
+void barrier_before_head(const vk::raii::CommandBuffer &commands) {
+  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
+                         Stage::eTransfer, Access::eTransferWrite);
+}
+
+void barrier_after_head(const vk::raii::CommandBuffer &commands) {
+  vulkan::memory_barrier(
+      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
+      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+}
+
+} // namespace
+
+BlockLists::BlockLists(const vulkan::Device &device, const StripBuffers &buffers,
+                       std::span<const PlannedStrip> strips, std::uint32_t shining, bool lists_empty)
+    : buffers_(buffers), shining_(shining),
+      lists_empty_(lists_empty), lists_{make_largest_block_list(device, strips),
+                                        make_largest_block_list(device, strips),
+                                        make_largest_block_list(device, strips)},
+      sort_(device, vulkan::shader_module(device, SamplePrecision::automatic, "block_lists"),
+            sizeof(shader::BlockListConstants)) {}
+
+std::size_t BlockLists::index_of(std::uint32_t kind) const {
+  return (kind == shader::blocks_empty && !lists_empty_ ? shader::blocks_lit : kind) - shader::blocks_lit;
+}
+
+void BlockLists::record(const Recording &at) const {
+  const shader::Strip &strip = at.of_strip();
+  barrier_before_head(at.commands);
+  for (const vulkan::Buffer &list : lists_)
+    at.commands.updateBuffer<shader::WorkList>(list.get(), 0, shader::WorkList{1, 0, 1, 0});
+  barrier_after_head(at.commands);
+  shader::BlockListConstants constants{
+      buffers_.ids.words(),       buffers_.lit.words(), {},      strip.columns * strip.samples,
+      strip.rows * strip.samples, blocks_across(strip), shining_};
+  for (std::uint32_t kind = shader::blocks_lit; kind <= shader::block_lists; ++kind)
+    constants.lists[kind - shader::blocks_lit] = lists_[index_of(kind)].words();
+  sort_.dispatch(at.commands, constants, padded(block_count(strip)), shader::workgroup_size);
+}
+
+std::function<void(const Recording &)> fill_with_one(const SampleBlocks &blocks) {
+  return [blocks](const Recording &at) {
+    barrier_before_head(at.commands);
+    at.commands.updateBuffer<std::uint32_t>(blocks.list->get(), 0,
+                                            std::array<std::uint32_t, 5>{1, 1, 1, 1, 0});
+    barrier_after_head(at.commands);
+  };
+}
+
+} // namespace pmdsim
