@@ -46,8 +46,10 @@ double pixel_rad(const Sensor &sensor) {
 
 std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups &groups, Precision precision,
                                       std::uint32_t samples,
-                                      std::optional<double> sample_spread_m = std::nullopt) {
+                                      std::optional<double> sample_spread_m = std::nullopt,
+                                      bool beforehand = false) {
   RoundingScope scope;
+  scope.beforehand = beforehand;
   scope.sample_spread_m = sample_spread_m;
   scope.precision = precision;
   scope.samples = samples;
@@ -156,6 +158,13 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
   return bound;
 }
 
+double largest_growth(const FramePlan &plan) {
+  double growth = 1.0;
+  for (const SourceGroups *groups : {&plan.all, &plan.reduced, &plan.uniform_groups})
+    growth = std::max(growth, groups->polynomials.growth);
+  return growth;
+}
+
 // At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
 // counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
 std::optional<double> largest_condition(const LightFacts &view, const FramePlan &plan) {
@@ -166,7 +175,7 @@ std::optional<double> largest_condition(const LightFacts &view, const FramePlan 
       view.model.backscatter == shader::backscatter_lambert || view.model.pattern == shader::pattern_axial ||
       view.model.pattern == shader::pattern_any)
     return std::nullopt;
-  return 1.0 / std::cos(half_rad);
+  return largest_growth(plan) / std::cos(half_rad);
 }
 
 // What no pixel is off by more than, if that is known before the frame.
@@ -193,6 +202,15 @@ void claim_within_limits(const LightFacts &view, const ErrorBound &bound, FrameP
   plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
   if (sure || std::isfinite(bound.amplitude_limit))
     plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
+}
+
+std::optional<ErrorBound> bound_beforehand(const LightFacts &view, const Accuracy &accuracy,
+                                           const FramePlan &plan) {
+  if (plan.all.polynomials.point_dimensions == 0)
+    return std::nullopt;
+  const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples, std::nullopt, true);
+  return rounding ? std::optional(error_bound_of(accuracy, *rounding, whole_light(view.lights)))
+                  : std::nullopt;
 }
 
 ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
@@ -233,6 +251,15 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
     plan.refined_bound = bound_at(2, point_spread_m);
 }
 
+// Of the bounds of what is summed in float, at a condition.
+double largest_m(const FramePlan &plan, double condition) {
+  double largest = 0.0;
+  for (const auto *bound : {&plan.bound, &plan.bound_of_all, &plan.bound_beforehand})
+    if (*bound)
+      largest = std::max(largest, (*bound)->fixed_m + (*bound)->per_condition_m * condition);
+  return largest;
+}
+
 // For the pixels that float is not exact enough for. Bits that tell who reaches a sample are in the order of
 // the plan's sources.
 void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
@@ -247,14 +274,14 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
     return;
   plan.precise = std::move(groups);
   plan.bound_of_precise = error_bound_of(accuracy, *rounding, whole_light(view.lights));
-  const double usual_m = std::max(plan.bound->fixed_m + plan.bound->per_condition_m,
-                                  plan.bound_of_all->fixed_m + plan.bound_of_all->per_condition_m);
+  const double usual_m = largest_m(plan, largest_growth(plan));
   const auto lower = [&](std::optional<ErrorBound> &bound) {
     if (bound)
       bound->limit_m = std::min(bound->limit_m, largest_bound_in_float * usual_m);
   };
   lower(plan.bound);
   lower(plan.bound_of_all);
+  lower(plan.bound_beforehand);
   lower(plan.uniform_bound);
   lower(plan.refined_bound);
 }
@@ -309,10 +336,13 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights));
   const auto of_reduced = bound_of(view, plan.reduced, plan.precision, view.sensor.samples);
   plan.bound = error_bound_of(accuracy, of_reduced.value_or(sum.bound), light);
+  plan.bound_beforehand = bound_beforehand(view, accuracy, plan);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
   if (view.modulation.lit || view.model.backscatter != shader::backscatter_flat)
     worst = worse_of(worst, *plan.bound_of_all);
+  if (plan.bound_beforehand)
+    worst = worse_of(worst, *plan.bound_beforehand);
   claim_within_limits(view, worst, plan);
   plan_precise_pixels(view, accuracy, plan);
   return plan;

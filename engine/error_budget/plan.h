@@ -42,6 +42,8 @@ struct FramePlan {
   LightExtent extent;          // of the light, as the reduced set's bound has it
   // Of what the reduced set sums, and of what all do; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
+  // Of all, summed beforehand (point_polynomials.h); likewise, and nothing where they cannot be.
+  std::optional<ErrorBound> bound_beforehand;
   // Every diode in fp64, for pixels that may be beyond the bound in float, and what rounding leaves of those;
   // nothing where there are no such pixels, or float is all there is.
   std::optional<SourceGroups> precise;

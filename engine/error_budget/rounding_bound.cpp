@@ -1,6 +1,7 @@
 #include "engine/error_budget/rounding_bound.h"
 
 #include "engine/light/path_difference.h"
+#include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
 #include "engine/light/rounding_units.h"
 
@@ -86,8 +87,12 @@ constexpr double inverse_square = division_u + 3.0;
 double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
 
 // Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
-// as many sums.
-double polynomial_error(const SourceGroups &groups) { return 3.0 * groups.polynomials.powers; }
+// as many sums. Summed beforehand a coefficient is rounded, and in place of the loop's products come those of
+// the point's coordinates, two sums and a product each, and of heights the sum over the axes.
+double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) {
+  const double powers = groups.polynomials.powers;
+  return scope.beforehand ? beforehand_error_u(groups.polynomials.powers) + 2.0 * powers : 3.0 * powers;
+}
 
 // a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
 // u)^(-p/2).
@@ -95,7 +100,7 @@ double power_weight_error(const SourceGroups &groups, const SumModel &model, con
                           double inverse_powers) {
   const auto [form, t, least_cosine] = law_rounding(groups, model, scope);
   double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
-                 groups.polynomials.growth * polynomial_error(groups) +
+                 polynomial_error(groups, scope) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
   error += model.order * (along_error_u(t) / least_cosine + 1.0);
   if (model.backscatter == shader::backscatter_lambert)
@@ -115,12 +120,12 @@ double weight_error(const SourceGroups &groups, const SumModel &model, const Rou
 }
 
 // b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
-double excess_error_m(const SourceGroups &groups) {
+double excess_error_m(const SourceGroups &groups, const RoundingScope &scope) {
   const double t = groups.radius_over_range;
   if (groups.polynomials.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
     return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
-           groups.path_difference_m *
-               (groups.polynomials.growth * (polynomial_error(groups) + 3.0) + inverse_square / (1.0 - t));
+           groups.polynomials.path_terms_m * (polynomial_error(groups, scope) + 3.0) +
+           groups.path_difference_m * inverse_square / (1.0 - t);
   return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
          groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
@@ -157,6 +162,10 @@ private:
   // other), then of runs and samples, where only a rest is rounded. What is added to nothing, and what is
   // dark, is not rounded.
   double summation() const {
+    const double samples = scope_.samples;
+    const double of_rests = 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
+    if (scope_.beforehand)
+      return of_rests;
     const double blocks =
         std::min(static_cast<double>(groups_.blocks_per_run), std::ceil(groups_.diode_count / block));
     const double stretch = std::min(blocks, static_cast<double>(shader::blocks_per_stretch));
@@ -164,8 +173,11 @@ private:
     const double of_run = scope_.precision == Precision::fp64
                               ? std::min(block * blocks, static_cast<double>(groups_.diode_count)) - 1.0
                               : in_block + stretch + std::ceil(blocks / stretch) - 3.0;
-    const double samples = scope_.samples;
-    return u_ * of_run + 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
+    return u_ * of_run + of_rests;
+  }
+
+  double path_terms_m() const {
+    return groups_.polynomials.powers > 0 ? groups_.polynomials.path_terms_m : groups_.path_difference_m;
   }
 
   // Phases that differ by more than the paths': as bad as any.
@@ -190,11 +202,10 @@ private:
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
     const MomentPolynomials &powers = groups_.polynomials;
-    TermError error{weight_ + summation() * growth * powers.growth + 3.0 * u_ + powers.weight_error, 0.0};
-    error.path_m =
-        growth * u_ * (excess_error_m(groups_) + 11.0 * groups_.path_difference_m) +
-        growth * (summation() * powers.growth * groups_.path_difference_m + left_out / wavenumber_rad_m) +
-        powers.angle_error_rad / modulation_.largest_wavenumber_rad_m();
+    TermError error{weight_ + summation() * growth + 3.0 * u_ + powers.weight_error, 0.0};
+    error.path_m = growth * u_ * (excess_error_m(groups_, scope_) + 11.0 * groups_.path_difference_m) +
+                   growth * (summation() * path_terms_m() + left_out / wavenumber_rad_m) +
+                   powers.angle_error_rad / modulation_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first
@@ -255,7 +266,8 @@ private:
     const double turns_per_m = wavenumber_rad_m / (2.0 * std::numbers::pi);
     const double apart_turns = turns_per_m * groups_.path_difference_m;
     const double place_turns =
-        2.0 * float_rounding + turns_per_m * u_ * (excess_error_m(groups_) + 2.0 * groups_.path_difference_m);
+        2.0 * float_rounding +
+        turns_per_m * u_ * (excess_error_m(groups_, scope_) + 2.0 * groups_.path_difference_m);
     const double tap = 4.0 * place_turns + 4.0 * apart_turns * summation() + 6.0 * u_;
     const double z = 2.0 * (tap + (6.0 + modulation_.taps) * float_rounding);
     // The wave's corners turn z at most twice as fast as the path's phase.

@@ -14,7 +14,8 @@
 namespace pmdsim {
 
 // Of any pixel, against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms| over
-// |sum|, >= 1; for harmonics the terms are those of all harmonics, each times its amplitude.
+// |sum|, >= 1, the terms times what rounding grows by there (MomentPolynomials::growth at most); for
+// harmonics the terms are those of all harmonics, each times its amplitude.
 struct RoundingBound {
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
@@ -45,6 +46,7 @@ struct RoundingScope {
   double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
   // What is more than 45 degrees off a diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
   bool beam_edges_are_terms = false;
+  bool beforehand = false; // the groups are summed beforehand (point_polynomials.h)
   // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
   double backscatter_error = 0x1p-24;
 };

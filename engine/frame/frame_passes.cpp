@@ -4,6 +4,7 @@
 #include "engine/frame/uniform_pixels_pass.h"
 #include "engine/sampling/raster_blocks.h"
 #include "engine/signal/channel_layout.h"
+#include "engine/signal/claims_pass.h"
 #include "engine/signal/demodulation_pass.h"
 #include "engine/signal/direct_pixels.h"
 #include "engine/signal/read_back.h"
@@ -123,6 +124,18 @@ std::uint32_t shining(const SourceGroups &groups) {
       groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
 }
 
+// A sum over all that every source reaches is taken beforehand where it can be.
+void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+             SumScope scope, FrameGraph &graph) {
+  scope.beforehand = on.path.point_dimensions > 0 && !scope.shadowed && scope.list == nullptr;
+  if (scope.beforehand)
+    scope.bound = on.plan.bound_beforehand;
+  if (scope.depth_records && on.path.direct)
+    scope.output = direct_pixels(on, groups, scope);
+  Pass sum = accumulate_pass(on, groups, windows, scope);
+  scope.list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
+}
+
 // Depth records block by block: those that every source reaches are summed as if there were no shadows.
 void list_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                  const SumScope &scope, FrameGraph &graph) {
@@ -132,18 +145,16 @@ void list_blocks(const FrameBasis &on, const SourceGroups &groups, const std::ve
                        .reads = ids | visibility_counts,
                        .writes = block_lists,
                        .record = [lists](const Recording &at) { lists->record(at); }});
-  SumScope shaded = scope, lit = scope;
-  lit.shadowed = false;
-  lit.beforehand = on.path.point_dimensions > 0;
-  shaded.blocks = lists->of(shader::blocks_shaded);
-  lit.blocks = lists->of(shader::blocks_lit);
-  graph.add_to_window(accumulate_pass(on, groups, windows, lit));
-  graph.add_to_window(accumulate_pass(on, groups, windows, shaded));
-  if (!on.path.direct)
-    return;
-  SumScope empty = lit;
-  empty.blocks = lists->of(shader::blocks_empty);
-  graph.add_to_window(accumulate_pass(on, groups, windows, empty));
+  const auto add = [&](std::uint32_t kind) {
+    SumScope of_kind = scope;
+    of_kind.shadowed = kind == shader::blocks_shaded;
+    of_kind.blocks = lists->of(kind);
+    add_sum(on, groups, windows, std::move(of_kind), graph);
+  };
+  add(shader::blocks_lit);
+  add(shader::blocks_shaded);
+  if (on.path.direct)
+    add(shader::blocks_empty);
 }
 
 // A class of pixels, sample by sample: all of them, or those of a list.
@@ -154,26 +165,24 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, Fra
   const SourceGroups &groups = groups_of(on.plan, *pixels);
   const auto [list, later] = lists;
   SumScope scope{.shadowed = pixels->shadowed,
-                 .beforehand = on.path.point_dimensions > 0 && !pixels->shadowed,
                  .precision = pixels->precision,
                  .list = list,
                  .later = later,
                  .looped = who == PixelsOf::precise,
                  .bound = pixels->bound};
-  if (on.path.keeps_depths_only())
+  const bool sums_records = on.path.sums_records && who == PixelsOf::all;
+  if (sums_records)
     scope.depth_records.emplace(on.device, on.sensor);
   if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
-  if (on.path.direct)
-    scope.output = direct_pixels(on, groups, scope);
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
-  if (pixels->shadowed && on.path.keeps_depths_only()) {
+  if (pixels->shadowed && sums_records)
     list_blocks(on, groups, of_windows, scope, graph);
-  } else {
-    Pass sum = accumulate_pass(on, groups, of_windows, scope);
-    list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
-  }
-  if (!on.path.direct)
+  else
+    add_sum(on, groups, of_windows, scope, graph);
+  if (sums_records && on.path.direct && holds_pixels(on.modulation))
+    graph.add_to_window(claims_pass(on, later));
+  if (!sums_records || !on.path.direct)
     graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
 

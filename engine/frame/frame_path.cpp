@@ -89,15 +89,21 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
 }
 
 std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &plan,
-                                   const FrameRequest &request, std::size_t windows,
+                                   const FrameRequest &request, std::size_t windows, bool direct,
                                    const PathForms &allowed) {
+  const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
+  if (direct) {
+    std::vector<PixelClass> classes{
+        {PixelsOf::all, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all}};
+    add_precise(facts, plan, samples, classes);
+    return classes;
+  }
   const bool sorted = can_sort(facts, windows) && (uniform_points(facts, plan, request, allowed) ||
                                                    (plan.is_reduced() && has_rest(facts)));
   if (sorted)
     return sorted_classes(facts, plan, request, allowed);
   // Where all samples are alike, what stands in for the sources does so for all of them.
   const bool reduced = plan.is_reduced() && !has_rest(facts);
-  const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
   std::vector<PixelClass> classes{{PixelsOf::all, reduced, samples, plan.precision, facts.modulation.lit,
                                    reduced ? plan.bound : plan.bound_of_all}};
   if (can_sort(facts, windows))
@@ -111,21 +117,36 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
   return grid != SampleGrid::distorted && (sensor.samples == 1 || grid != SampleGrid::tiled);
 }
 
-bool keeps_depth_only(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
-                      const Sensor &sensor, const PathForms &allowed) {
+bool can_sum_records(const FramePath &path, const FramePlan &plan, const Sensor &sensor,
+                     const PathForms &allowed) {
   const bool reads_depths = path.windows == 0 || path.single_run;
-  return allowed.depth_records && !path.is_sorted() && !plan.is_reduced() && reads_depths &&
-         !facts.modulation.keeps_terms && path.summation != Summation::per_diode &&
+  return allowed.depth_records && reads_depths && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 
-// Where samples that a source does not light or does not face are summed apart or are not there, and where no
-// error is claimed for the loop over the sources.
+bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                   const Sensor &sensor, const PathForms &allowed) {
+  const Modulation &modulation = facts.modulation;
+  return allowed.direct_pixels && can_sum_records(path, plan, sensor, allowed) && sensor.samples == 1 &&
+         path.single_run && modulation.waveform == shader::waveform_sine && !modulation.keep_taps &&
+         modulation.frequencies() <= most_direct_frequencies;
+}
+
+// Where samples that a source does not light or does not face are summed apart or are not there.
 std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
-  const bool takes_all = path.windows > 0 ? path.record == SampleRecord::depth : facts.model.all_facing;
-  const bool is_plain = !path.is_sorted() && !plan.is_reduced() && !facts.modulation.keeps_terms &&
-                        plan.precision == Precision::fp32 && path.summation == Summation::polynomial_moments;
+  const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
+  const bool is_plain = !path.is_sorted() && !path.classes.front().reduced &&
+                        (path.direct || !facts.modulation.keeps_terms) && plan.precision == Precision::fp32 &&
+                        path.summation == Summation::polynomial_moments;
   return takes_all && is_plain ? plan.all.polynomials.point_dimensions : 0;
+}
+
+// Within an error sorting pixels and reducing the sources costs more than it saves where sums beforehand do
+// not depend on how many there are, or where few sources less do.
+bool is_better_direct(const FrameFacts &facts, const FramePlan &plan) {
+  const bool beforehand =
+      plan.all.polynomials.point_dimensions > 0 && (facts.modulation.lit || facts.model.all_facing);
+  return beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size();
 }
 
 // Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
@@ -210,18 +231,20 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
-  path.classes = classes_of(facts, plan, request, windows, allowed);
-  path.record =
-      keeps_depth_only(path, facts, plan, sensor, allowed) || begins_with_depths(path, sensor, allowed)
-          ? SampleRecord::depth
-          : SampleRecord::point;
+  const bool reports = facts.modulation.keeps_terms;
+  const bool direct = can_be_direct(path, facts, plan, sensor, allowed) &&
+                      (!reports || (request.accuracy.mode == Mode::automatic && !sensor.adaptive_samples &&
+                                    is_better_direct(facts, plan)));
+  path.classes = classes_of(facts, plan, request, windows, direct, allowed);
+  path.sums_records = direct || (!reports && !path.is_sorted() && !plan.is_reduced() &&
+                                 can_sum_records(path, plan, sensor, allowed));
+  path.direct = direct;
+  path.record = path.sums_records || begins_with_depths(path, sensor, allowed) ? SampleRecord::depth
+                                                                               : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;
-  path.direct = allowed.direct_pixels && path.keeps_depths_only() && path.host_reads_truth &&
-                path.single_run && facts.modulation.waveform == shader::waveform_sine &&
-                !facts.modulation.keep_taps && facts.modulation.frequencies() <= most_direct_frequencies;
   if (request.accuracy.mode != Mode::exact)
     path.check = check_precision(facts, plan, sensor);
   return path;

@@ -60,7 +60,8 @@ struct FramePath {
       point_dimensions;  // of the polynomials that unshadowed samples' sums are; 0: loops over sources
   bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
-  bool direct;           // from depth records to channels at once
+  bool sums_records;     // the class of all pixels is summed from depth records
+  bool direct;           // and goes to channels at once
   bool host_reads_truth; // coverage, depth and IDs come off the records
   // In the order in which they are summed. One class of all pixels, or classes that pixels are sorted into:
   // those that the first ones leave are listed for those that follow.
@@ -69,8 +70,8 @@ struct FramePath {
 
   const PixelClass *of(PixelsOf who) const;
   // Whether depths are all that is ever there of the samples; else points are made of those of a class that
-  // asks for them.
-  bool keeps_depths_only() const { return record == SampleRecord::depth && !is_sorted(); }
+  // asks for them, and of those that are checked.
+  bool keeps_depths_only() const { return sums_records && !of(PixelsOf::precise) && !check; }
   // Whether pixels are sorted into classes.
   bool is_sorted() const { return classes.front().who != PixelsOf::all; }
   bool lists_pixels() const { return of(PixelsOf::unshadowed) || of(PixelsOf::rest); }

@@ -22,8 +22,8 @@ std::uint32_t lists_of(const UniformPixels &pixels) {
 }
 
 vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &groups,
-                                    const UniformPixels &pixels) {
-  return sum_constants(on, groups, {})
+                                    const ErrorBound &bound, const UniformPixels &pixels) {
+  return sum_constants(on, groups, {.bound = bound})
       .merge(demodulation_constants(on, {}, true))
       .merge({{shader::constant_surface_vectors, 1},
               {shader::constant_vignetting, on.sensor.vignetting == Vignetting::cos4},
@@ -93,7 +93,7 @@ struct OnDevice {
         light(upload_light(on, groups, extent, bound, pixels.sums, diagrams)),
         work(upload_work(on, groups, lists)),
         pipeline(on.device, vulkan::shader_module(on.device, on.options.precision, "uniform_pixels"),
-                 sizeof(shader::UniformPixelsConstants), constants_of(on, groups, pixels)) {}
+                 sizeof(shader::UniformPixelsConstants), constants_of(on, groups, bound, pixels)) {}
 
   shader::vec4 slope;
   vulkan::Buffer chip, diodes, diagrams, light, work;

@@ -35,6 +35,11 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
          (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
+bool has_beam_edges(const SumModel &model, const std::optional<ErrorBound> &bound) {
+  return bound && bound->terms_of_beam_edges > 0.0 && model.pattern != shader::pattern_isotropic &&
+         model.pattern != shader::pattern_axial;
+}
+
 bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
   return groups.polynomials.equal_weights && !scope.shadowed;
 }
@@ -78,6 +83,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},
           {shader::constant_phased, groups.phased},
+          {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
           {shader::constant_shadowed, scope.shadowed},
           {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
           {shader::constant_taps, on.modulation.taps},
@@ -85,7 +91,8 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_keeps_terms, on.modulation.keeps_terms}};
 }
 
-std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound) {
+std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound,
+                                         bool beforehand) {
   const std::size_t run_diodes = std::size_t{groups.blocks_per_run} * shader::diodes_per_block;
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
@@ -106,7 +113,11 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.detours = detours;
-    record.heights = static_cast<float>(bound.terms_per_weight_error * height_rounding * rounding * size_m);
+    // Summed beforehand, heights of places to either side of the reference cancel.
+    const double apart_m =
+        beforehand ? beforehand_error_u(groups.polynomials.powers) * run.reach.radius_m : 0.0;
+    record.heights =
+        static_cast<float>(bound.terms_per_weight_error * rounding * (height_rounding * size_m + apart_m));
     record.diagrams = static_cast<float>(bound.terms_per_weight_error * diagrams);
     set_beam_edges(groups, run.first, run.first + run_diodes, bound, record);
     if (groups.polynomials.powers > 0)
@@ -165,7 +176,8 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
          const SumScope &scope)
     : buffers_(on.buffers), scene_(on.scene), windows_(windows), list_(scope.list),
       depth_records_(scope.depth_records), blocks_(scope.blocks), output_(scope.output), runs_(groups.runs),
-      light_runs_(vulkan::upload(on.device, light_runs(groups, scope.bound.value_or(ErrorBound{})))),
+      light_runs_(vulkan::upload(on.device,
+                                 light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
       planes_(on.modulation.planes), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
@@ -257,7 +269,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
                    (scope.list ? pixel_lists : no_resource) | (scope.blocks ? block_lists : no_resource) |
                    (scope.output && on.modulation.lit ? visibility_counts : no_resource),
-          .writes = scope.output ? channels : sums | terms,
+          .writes = scope.output ? channels | sums : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },
           .parts =
               [windows](std::size_t of) {

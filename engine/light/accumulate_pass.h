@@ -62,7 +62,8 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
 
 // What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
 // bound counts as light.
-std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound);
+std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound,
+                                         bool beforehand = false);
 
 // Specialization constants of the sum's forms, and the diodes that they read.
 vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);

@@ -68,54 +68,78 @@ Coefficients interpolate(const Interval &interval, std::uint32_t inverse_powers,
   return a;
 }
 
-// Of one moment, at most, over the interval, relative to the weight.
-struct Fit {
-  double error = 0.0; // of the polynomial
-  double terms = 0.0; // sum_i |a_i u^i|
-};
-
 // At least `so_far`; what is no number is as bad as can be.
 void raise(double &so_far, double value) {
   if (!(value <= so_far))
     so_far = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
-Fit judge(const Coefficients &a, const Interval &interval, std::uint32_t inverse_powers, std::uint32_t k) {
-  Coefficients sizes{};
-  std::ranges::transform(a, sizes.begin(), [](double coefficient) { return std::abs(coefficient); });
-  Fit fit;
+// What the polynomial is off by, at most, over the interval, relative to the weight.
+double error_of(const Coefficients &a, const Interval &interval, std::uint32_t inverse_powers,
+                std::uint32_t k) {
+  double error = 0.0;
   for (std::uint32_t i = 0; i < probes; ++i) {
     const double u = interval.at(std::cos(std::numbers::pi * i / (probes - 1)));
-    const double weight = moment_factor(u, inverse_powers, 0);
-    raise(fit.error, std::abs(value(a, u) - moment_factor(u, inverse_powers, k)) / weight);
-    raise(fit.terms, value(sizes, std::abs(u)) / weight);
+    raise(error,
+          std::abs(value(a, u) - moment_factor(u, inverse_powers, k)) / moment_factor(u, inverse_powers, 0));
   }
-  return fit;
+  return error;
+}
+
+Coefficients sizes_of(const Coefficients &a) {
+  Coefficients sizes{};
+  std::ranges::transform(a, sizes.begin(), [](double coefficient) { return std::abs(coefficient); });
+  return sizes;
+}
+
+// As the shader bounds |u|.
+double largest_u(double radius_m, double rho_m) {
+  const double t = radius_m / rho_m;
+  return 1.000001 * t * (t + 2.0);
+}
+
+// `of_moments`: sizes of the coefficients of each.
+double path_terms_m(std::span<const Coefficients> of_moments, const PathDifference &reach,
+                    double wavenumber_rad_m) {
+  double most_m = 0.0;
+  for (std::uint32_t i = 0; i < probes; ++i) {
+    const double rho_m =
+        reach.range_m * std::pow(reach.farthest_m / reach.range_m, static_cast<double>(i) / (probes - 1));
+    const double u = largest_u(reach.radius_m, rho_m);
+    double sum_m = 0.0, phase_power = rho_m; // (kappa rho)^k / k! over kappa
+    for (std::size_t k = 1; k < of_moments.size(); ++k) {
+      sum_m += phase_power * value(of_moments[k], u);
+      phase_power *= wavenumber_rad_m * rho_m / static_cast<double>(k + 1);
+    }
+    raise(most_m, sum_m / value(of_moments[0], u));
+  }
+  return most_m;
 }
 
 // A run's polynomials, judged.
 struct Run {
   MomentPolynomials::Table table{};
-  double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
+  double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0, path_terms_m = 0.0;
 };
 
 Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments,
              std::uint32_t powers, double wavenumber_rad_m) {
   Run run;
   const Interval interval = interval_of(reach);
-  const double largest = std::max(std::sqrt(1.0 + interval.high) - 1.0, 1.0 - std::sqrt(1.0 + interval.low));
-  double phase_power = 1.0, largest_power = 1.0; // (kappa rho)^k / k!, and of e / rho
+  std::vector<Coefficients> sizes;
+  double phase_power = 1.0; // (kappa rho)^k / k!
   for (std::uint32_t k = 0; k < moments; ++k) {
     const Coefficients a = interpolate(interval, inverse_powers, k, powers);
     for (std::uint32_t i = 0; i < powers; ++i)
       run.table[shader::largest_powers / 4 * k + i / 4][static_cast<int>(i % 4)] = static_cast<float>(a[i]);
-    const Fit fit = judge(a, interval, inverse_powers, k);
-    if (fit.terms > 0.0)
-      raise(run.growth, fit.terms / largest_power);
-    (k == 0 ? run.weight_error : run.angle_error_rad) += phase_power * fit.error;
+    sizes.push_back(sizes_of(a));
+    (k == 0 ? run.weight_error : run.angle_error_rad) +=
+        phase_power * error_of(a, interval, inverse_powers, k);
     phase_power *= wavenumber_rad_m * reach.farthest_m / (k + 1);
-    largest_power *= largest;
   }
+  raise(run.growth, value(sizes[0], largest_u(reach.radius_m, reach.range_m)) /
+                        moment_factor(interval.high, inverse_powers, 0));
+  raise(run.path_terms_m, path_terms_m(sizes, reach, wavenumber_rad_m));
   return run;
 }
 
@@ -170,6 +194,7 @@ MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::
     sums.weight_error = std::max(sums.weight_error, run.weight_error);
     sums.angle_error_rad = std::max(sums.angle_error_rad, run.angle_error_rad);
     sums.growth = std::max(sums.growth, run.growth);
+    sums.path_terms_m = std::max(sums.path_terms_m, run.path_terms_m);
   }
   const bool fits = std::ranges::all_of(reaches, [&](const PathDifference &reach) {
     return fits_floats(reach, inverse_powers - 2, sums.powers, least_intensity);

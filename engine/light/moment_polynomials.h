@@ -32,9 +32,12 @@ struct MomentPolynomials {
   // (point_polynomials.h); 0 where the loop over the diodes is shorter.
   std::uint32_t point_dimensions = 0;
   // At most, of any run. What the polynomials are off by, of the sum of the weights: by itself, and as an
-  // angle at the highest frequency; and what rounding grows by, as the terms of a moment's sum over i, all
-  // taken as positive, may come to more than the weights times the largest |e|^k.
-  double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0;
+  // angle at the highest frequency.
+  double weight_error = 0.0, angle_error_rad = 0.0;
+  // Likewise, of the moments' sums over i, all terms taken as positive: those of the weights, over the
+  // weights (a sample's own is growth_at in shaders/light/moments.glsl); and what those of e, e^2, ... turn
+  // the return by, over kappa and those of the weights, m.
+  double growth = 1.0, path_terms_m = 0.0;
 };
 
 // `reaches` are the runs'; `moments` and wavenumber_rad_m as in SourceGroups, `least_intensity` that of a

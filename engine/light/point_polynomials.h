@@ -16,6 +16,10 @@ namespace pmdsim {
 // are shorter than the loop over the diodes; else 0.
 std::uint32_t point_dimensions(const SourceGroups &groups, const SumModel &model);
 
+// What rounding does to the sums of so many powers, in units of float's, relative to their terms taken as
+// positive: to a coefficient, by Horner's rule, and to the products with heights and their sum.
+constexpr double beforehand_error_u(std::uint32_t powers) { return 3.0 * powers + 11.0; }
+
 // Of all runs, one after the other, as the shader reads them (PointPolynomials in shaders/shared/interface.h,
 // the coefficients behind it).
 std::vector<float> point_polynomials(const SourceGroups &groups, const SumModel &model,

@@ -15,4 +15,7 @@ inline constexpr std::uint32_t most_direct_frequencies = 8;
 std::shared_ptr<const SumOutput> direct_pixels(const PassSetup &on, const SourceGroups &groups,
                                                const SumScope &scope);
 
+// Whether what each pixel may be off by is asked for, or has to be held against what was.
+bool holds_pixels(const Modulation &modulation);
+
 } // namespace pmdsim

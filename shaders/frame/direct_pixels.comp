@@ -9,6 +9,7 @@
 #include "shaders/view/points.glsl"
 
 layout(constant_id = constant_one_backscatter) const uint one_backscatter = 0;
+layout(constant_id = constant_holds_pixels) const uint holds_pixels = 0;
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer DirectPixelsOf {
   DirectPixels at;
   Frequency of[]; // here, as lavapipe loads once for all lanes only what push constants lead to
@@ -24,12 +25,26 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
   return backscatter_of(direct.shapes, direct.surfaces, ray, point, triangle, plane);
 }
 
+// What a return may be off by, in place of its sum; negative where that is not within what was asked for.
+void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, float terms, float size) {
+  if (holds_pixels == 0)
+    return;
+  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0));
+  store_bound(to, frequency, pixel, size, errors);
+  vec2 held = vec2(errors.distance_m, errors.amplitude);
+  if (!is_kept(frequency, errors)) // it may be no number
+    held = vec2(errors.distance_m > 0.0 ? -errors.distance_m : -1.0, errors.amplitude > 0.0 ? -errors.amplitude : -1.0);
+  store_words(direct.errors, t * constants.plane + pixel, floatBitsToUint(held));
+}
+
 void store_nothing(uint i, DirectPixelsOf output_of) {
   PixelSum sum;
   see_nothing(sum);
   Channels to = Channels(output_of.at.channels, constants.plane);
-  [[unroll]] for (uint t = 0; t < tones; ++t)
+  [[unroll]] for (uint t = 0; t < tones; ++t) {
     store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    hold(to, output_of.at, t, output_of.of[t], i, 0.0, 0.0);
+  }
   if (lit_is_kept != 0)
     store_lit(to, output_of.of[0].lit_channel, output_of.of[0].diodes, i, sum);
 }
@@ -47,7 +62,8 @@ void main() {
   Real3 ray, position;
   ReferencePath path = load_point(i, run, point, ray, position);
   float moment[moments];
-  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
+  Weights weights;
+  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment, weights);
 
   float backscatter = backscatter_at(direct, record, high3(ray), position);
   bool hits = high(position.z) != 0.0, shines = hits && backscatter > 0.0; // black may not be a number
@@ -56,10 +72,12 @@ void main() {
   sum.hits = hits ? 1u : 0u;
   sum.reference_m = sum.range = path.range;
   Channels to = Channels(direct.channels, constants.plane);
+  float terms = shines ? backscatter * terms_of(weights, point, run) : 0.0;
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     vec2 z = tone_return(moment, path, run, Tones(constants.tones).at[t]);
     sum.z[0] = vec4(shines ? backscatter * z : vec2(0.0), 0.0, 0.0);
-    store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    float size = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    hold(to, direct, t, output_of.of[t], i, terms, size);
   }
   if (lit_is_kept != 0) {
     sum.lit = hits ? Words(direct.lit).at[record] : 0u;

@@ -108,8 +108,9 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
     Point point;
     ReferencePath path = see_point(position, surface, run, point);
     float moment[moments];
-    sum_run(0u, point, run, constants.diodes, r * blocks_per_run, blocks_per_run, moment);
-    terms += backscatter > 0.0 ? backscatter * terms_of(moment[0], point.rho, point.height, run) : 0.0;
+    Weights weights;
+    sum_run(0u, point, run, constants.diodes, r * blocks_per_run, blocks_per_run, moment, weights);
+    terms += backscatter > 0.0 ? backscatter * terms_of(weights, point, run) : 0.0;
     [[unroll]] for (uint t = 0; t < tones; ++t) {
       vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
       z[t] = compensated_add(z[t], backscatter > 0.0 ? backscatter * value : vec2(0.0)); // black may not be a number
@@ -209,12 +210,6 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
   return kept;
 }
 
-void defer(uint list, uint pixel) {
-  PixelLists to = PixelLists(Works(constants.work).at.lists[list]);
-  uint at = atomicAdd(to.head.count, 1u);
-  to.pixels[at] = pixel;
-}
-
 // From the pixel's centre to the next sample, in a ray (x, y, 1).
 vec3 half_step(uint axis, uvec2 pixel) {
   if (general_chip == 0)
@@ -267,6 +262,6 @@ void main() {
     uint list = seen.lit && lists_pixels != lists_in_rest ? list_unshadowed : list_rest;
     if (lists_pixels == lists_in_three)
       list = seen.alike && seen.lit ? list_refined : list;
-    defer(list, pixel);
+    append_pixel(PixelLists(Works(constants.work).at.lists[list]), pixel);
   }
 }

@@ -24,10 +24,11 @@ void main() {
   Point point;
   ReferencePath path = load_point(i, run, point);
   float moment[moments];
-  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment);
+  Weights weights;
+  sum_run(i, point, run, constants.diodes, 0u, constants.blocks, moment, weights);
 
   float backscatter = load_backscatter(i);
-  add_terms(i, backscatter, terms_of(moment[0], point.rho, point.height, run));
+  add_terms(i, backscatter, terms_of(weights, point, run));
   if (tones <= unrolled_tones) {
     [[unroll]] for (uint t = 0; t < tones; ++t)
       add_tone(t, i, moment, path, run, backscatter);

@@ -48,10 +48,28 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
     total[k] += part[k];
 }
 
+// What a run's diodes come to without their phases, and what rounding grows by, as the terms of their polynomial in u, all taken
+// as positive, may come to more: |u| <= t^2 + 2 t |P - G| / rho, t the run's radius over rho, where only what the diodes' plane
+// sees of P counts.
+struct Weights {
+  float sum, growth;
+};
+
+float growth_at(Point point, LightRun run) {
+  float inverse = 1.0 / point.rho, t = run.radius_m * inverse;
+  float u = t * (t + 2.0 * (coplanar != 0 ? length(point.position.xy) * inverse : 1.0));
+  float sum = 0.0;
+  [[unroll]] for (uint down = 0; down < powers; ++down) {
+    uint i = powers - 1 - down;
+    sum = sum * u + abs(run.moments_of_powers[i / 4][i % 4]);
+  }
+  return sum;
+}
+
 // With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
 // `unit_m2`: of the sums, by their power of q.
-void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments]) {
+void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments], out Weights weights) {
   float scale = 1.0 / (point.rho * point.rho), inverse_rho2 = unit_m2 * scale;
   uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   if (powers > 0)
@@ -59,6 +77,9 @@ void find_moments(float total[sums], float unit_m2, Point point, LightRun run, o
       scale /= point.rho;
   if (equal_weights != 0 && point_dimensions == 0)
     total[0] = run.intensity; // those that pad a run have none, and q = 0
+  weights = Weights(total[0], 1.0);
+  if (powers > 0)
+    weights = Weights(scale * total[0], growth_at(point, run));
   if (linear_known && point_dimensions == 0)
     [[unroll]] for (uint k = 1; k < min(2, sums); ++k)
       total[k] = dot(run.detours.xyz, point.position) + run.detours.w;
@@ -141,12 +162,13 @@ void add_block_of_run(inout float total[sums], inout float stretch[sums], Point 
 
 // The moments of a run whose diodes begin with block `first`, at sample i. `blocks`: of it, for the looped form. Long runs are
 // summed stretch by stretch, so that rounding is no worse than of short ones.
-void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments]) {
+void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments],
+             out Weights weights) {
   float total[sums], stretch[sums];
   if (point_dimensions > 0) {
     float unit_m2;
     sum_beforehand(point, diodes, total, unit_m2);
-    find_moments(total, unit_m2, point, run, moment);
+    find_moments(total, unit_m2, point, run, moment, weights);
     return;
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
@@ -160,7 +182,11 @@ void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint b
   }
   [[unroll]] for (uint k = 0; k < sums; ++k)
     total[k] += stretch[k];
-  find_moments(total, 1.0, point, run, moment);
+  find_moments(total, 1.0, point, run, moment, weights);
+}
+
+float terms_of(Weights weights, Point point, LightRun run) {
+  return weights.growth * terms_of(weights.sum, point.rho, point.height, run);
 }
 
 // sum_k (j kappa)^k / k! * moment[k], by Horner's rule.

@@ -15,6 +15,7 @@ layout(constant_id = constant_pattern_model) const uint pattern_model = pattern_
 layout(constant_id = constant_cosine_order) const uint cosine_order = 1;
 layout(constant_id = constant_blocks_per_run) const uint blocks_per_run = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
+layout(constant_id = constant_beam_edges) const uint beam_edges = 1;
 layout(constant_id = constant_shadowed) const uint shadowed = 0;
 layout(constant_id = constant_powers) const uint powers = 0;
 layout(constant_id = constant_equal_weights) const uint equal_weights = 0;
@@ -118,7 +119,7 @@ float terms_of(float weights, float rho, float height, LightRun run) {
   }
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse;
-  if (pattern_model != pattern_isotropic && pattern_model != pattern_axial)
+  if (beam_edges != 0)
     terms += beam_edge_terms(weights, height, inverse, run);
   return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
 }

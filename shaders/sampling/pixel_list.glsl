@@ -15,6 +15,11 @@ uint listed_pixel(PixelLists list, uint at, uint padded_pixels) {
   return at < list.head.count ? list.pixels[at] : padded_pixels - workgroup_size + at % workgroup_size;
 }
 
+void append_pixel(PixelLists list, uint pixel) {
+  uint at = atomicAdd(list.head.count, 1u);
+  list.pixels[at] = pixel;
+}
+
 uint padded_count(PixelLists list) { return (list.head.count + workgroup_size - 1) / workgroup_size * workgroup_size; }
 
 // The sample of an invocation, where there is one for each.

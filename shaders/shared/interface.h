@@ -439,9 +439,22 @@ struct DepthSumConstants {
 // Behind it each Frequency.
 struct DirectPixels {
   uvec2 channels, shapes, surfaces, lit; // as in DepthDemodulationConstants
+  uvec2 errors; // out, where terms are kept: vec2 of each tone and pixel, what it may be off by (ClaimsConstants)
   float backscatter;
-  uint padding_1, padding_2, padding_3;
+  uint padding;
 };
+
+// What becomes of what the pixels may be off by.
+struct ClaimsConstants {
+  uvec2 errors; // in, of each tone plane by plane: distance, m, and relative amplitude, both negative where they are not
+                // within what was asked for
+  uvec2 violations, later; // as in DemodulationConstants
+  uint pixels;             // of the strip
+  uint plane;
+  uint tones;
+  uint padding;
+};
+PMDSIM_CONSTANT claims_per_invocation = 64; // pixels
 
 struct DepthDemodulationConstants {
   SampleGrid grid;

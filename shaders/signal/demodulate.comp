@@ -71,9 +71,7 @@ void pass_on(uint pixel) {
   if (terms.at[pixel] < 0.0)
     return;
   terms.at[pixel] = -1.0;
-  PixelLists to = PixelLists(constants.later);
-  uint at = atomicAdd(to.head.count, 1u);
-  to.pixels[at] = pixel;
+  append_pixel(PixelLists(constants.later), pixel);
 }
 
 // What was asked for of a return holds, or the pixel passes on, or it is counted.

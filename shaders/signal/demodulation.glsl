@@ -7,6 +7,7 @@
 #include "shaders/shared/elementary.glsl"
 #include "shaders/shared/real.glsl"
 #include "shaders/shared/constants.h"
+#include "shaders/signal/violations.glsl"
 
 layout(local_size_x = workgroup_size) in;
 layout(constant_id = constant_planes) const uint planes = 1;
@@ -18,7 +19,6 @@ layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 layout(constant_id = constant_keeps_bounds) const uint keeps_bounds = 0;
-layout(constant_id = constant_reports_kept) const uint reports_kept = 0;
 
 // The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
 // of each frequency. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores lane by lane, two
@@ -194,12 +194,7 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
-// The bound (Frequency): what a pixel may be off by, as distance and as relative amplitude, given what is known to add to
-// the sum's own error. Nothing where there is no light at all.
-struct Errors {
-  float distance_m, amplitude;
-};
-
+// The bound (Frequency), given what is known to add to the sum's own error.
 Errors errors_of(Frequency frequency, float terms, float size, Errors added) {
   float condition = terms > 0.0 ? terms / size : 0.0; // infinite where all cancels
   // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
@@ -223,29 +218,6 @@ float largest_amplitude(uvec2 harmonics) {
 
 bool is_kept(Frequency frequency, Errors errors) {
   return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
-}
-
-layout(buffer_reference, std430, buffer_reference_align = 16) buffer ViolationWords {
-  uint returns, worst_m, amplitude, kept_m, kept_amplitude;
-};
-
-void report_violation(uvec2 violations, Errors errors) {
-  ViolationWords words = ViolationWords(violations);
-  atomicAdd(words.returns, 1u);
-  atomicMax(words.worst_m, floatBitsToUint(errors.distance_m));
-  atomicMax(words.amplitude, floatBitsToUint(errors.amplitude));
-}
-
-// Few pixels are the worst so far, and looking is cheaper than an atomic.
-void report_kept(uvec2 violations, Errors errors) {
-  if (reports_kept == 0)
-    return;
-  ViolationWords words = ViolationWords(violations);
-  uint distance_m = floatBitsToUint(errors.distance_m), amplitude = floatBitsToUint(errors.amplitude);
-  if (distance_m > words.kept_m)
-    atomicMax(words.kept_m, distance_m);
-  if (amplitude > words.kept_amplitude)
-    atomicMax(words.kept_amplitude, amplitude);
 }
 
 // Of a return; not known where there is none.

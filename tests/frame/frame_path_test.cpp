@@ -35,7 +35,8 @@ const std::vector<Form> forms{
     {"depth records", &PathForms::depth_records, 1, Mode::exact, "record"},
     {"one backscatter", &PathForms::one_backscatter, 1, Mode::exact, "record"},
     {"uniform pixels", &PathForms::uniform_pixels, 2, Mode::automatic, "pixels"},
-    {"uniform pixels of one sample", &PathForms::uniform_single_samples, 1, Mode::automatic, "pixels"},
+    {"uniform pixels of one sample", &PathForms::uniform_single_samples, 1, Mode::reduced, "pixels"},
+    {"direct pixels within an error", &PathForms::direct_pixels, 1, Mode::automatic, "record"},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels, 2, Mode::automatic, "pixels"},
     {"the sweep on the host", &PathForms::host_sweep, 1, Mode::exact, "visibility"},
 };

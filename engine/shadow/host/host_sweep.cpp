@@ -125,8 +125,11 @@ struct HostSweep::State {
   std::optional<ChipGrid> records;
   std::optional<shader::ChipPlace> chip;
   glm::dvec2 slope;
-  bool has_fp64, tiled, all_facing, fills_all;
+  bool has_fp64, tiled, all_facing, fills_all, clears_bits;
   std::uint32_t shining = 0; // diodes of all windows
+  // Tiles whose words say already that every diode reaches all of their samples, in a strip of that extent.
+  std::vector<std::uint8_t> filled = {};
+  glm::uvec2 filled_extent = {};
   std::size_t most_blocks = 1;
   DecideTile decide_tile;
   std::vector<std::unique_ptr<OnBoard>> boards;
@@ -135,7 +138,8 @@ struct HostSweep::State {
   void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups,
                  const std::vector<SourceWindow> &of_frame);
   SampleSource samples_of(const shader::Strip &strip) const;
-  void store(const shader::Strip &strip, std::size_t window, const TileBits &bits) const;
+  void begin_tiles(const shader::Strip &strip);
+  void store(const shader::Strip &strip, std::size_t window, std::uint32_t tile, const TileBits &bits);
 };
 
 void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
@@ -186,16 +190,27 @@ SampleSource HostSweep::State::samples_of(const shader::Strip &strip) const {
   return source;
 }
 
-void HostSweep::State::store(const shader::Strip &strip, std::size_t window, const TileBits &bits) const {
+// Other windows' words are in the same place, and what has holes takes bits away.
+void HostSweep::State::begin_tiles(const shader::Strip &strip) {
+  const glm::uvec2 extent(strip.columns, strip.rows);
+  if (windows.size() > 1 || clears_bits || filled_extent != extent)
+    filled.assign(tile_count(sample_strip(strip, records.has_value())), 0);
+  filled_extent = extent;
+}
+
+void HostSweep::State::store(const shader::Strip &strip, std::size_t window, std::uint32_t tile,
+                             const TileBits &bits) {
   const SilhouetteBoard &board = *windows[window].board;
   const std::size_t plane = sample_count(strip);
   auto *const words = host_memory<std::uint32_t>(buffers.visibility);
   auto *const lit = host_memory<std::uint32_t>(buffers.lit);
+  const bool fills = bits.is_shaded || (fills_all && filled[tile] == 0);
+  filled[tile] = fills_all && !bits.is_shaded;
   for (std::size_t i = 0; i < shader::tile_samples; ++i) {
     if (!bits.is_there[i])
       continue;
     const std::size_t at = bits.index[i];
-    if (bits.is_shaded || fills_all)
+    if (fills)
       for (std::size_t w = 0; w < board.bundles; ++w)
         words[w * plane + at] = bits.words[i][w];
     lit[at] = (window == 0 ? shining : lit[at]) - (bits.is_shaded ? bits.missing[i] : 0);
@@ -214,6 +229,7 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                                            .tiled = is_tiled(on.sensor),
                                            .all_facing = on.model.backscatter == shader::backscatter_flat,
                                            .fills_all = fills_all,
+                                           .clears_bits = !occluders.with_holes.empty(),
                                            .decide_tile = widest_decide_tile(on.options.host_vector_bits),
                                            .boards = {},
                                            .windows = {}})) {
@@ -235,7 +251,8 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
 HostSweep::~HostSweep() = default;
 
 void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
-  const State &state = *state_;
+  State &state = *state_;
+  state.begin_tiles(strip);
   const SilhouetteBoard &board = *state.windows[window].board;
   const SampleSource samples = state.samples_of(strip);
   const std::uint32_t tiles = tile_count(samples.strip);
@@ -251,7 +268,7 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
     Memory &own = memory.local();
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
       state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
-      state.store(strip, window, own.bits);
+      state.store(strip, window, tile, own.bits);
     }
   });
 }

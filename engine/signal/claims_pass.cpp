@@ -1,0 +1,120 @@
+#include "engine/signal/claims_pass.h"
+
+#include "engine/sampling/pixel_lists.h"
+#include "engine/vulkan/commands.h"
+#include "shaders/shared/constants.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace pmdsim {
+namespace {
+
+template <class T>
+T *host_memory(const vulkan::Buffer &buffer) {
+  return reinterpret_cast<T *>(buffer.mapped().data());
+}
+
+// Like claims.comp.
+class HostClaims {
+public:
+  HostClaims(const PassSetup &on, const vulkan::Buffer *later)
+      : errors_(on.buffers.sum), violations_(on.buffers.violations), later_(later),
+        tones_(on.modulation.frequencies()), reports_kept_(on.modulation.reports_kept) {}
+
+  void settle(const shader::Strip &strip) const {
+    // Bits of floats compare as the floats do, where these are not negative, and all others are below 0.
+    glm::ivec2 kept(0), least(0);
+    for (std::uint32_t tone = 0; tone < tones_; ++tone)
+      for (const glm::ivec2 &errors : errors_of(strip, tone)) {
+        kept = glm::max(kept, errors);
+        least = glm::min(least, errors);
+      }
+    auto &words = *host_memory<shader::BudgetViolations>(violations_);
+    if (reports_kept_) {
+      words.kept_m = std::max(words.kept_m, std::bit_cast<float>(kept.x));
+      words.kept_amplitude = std::max(words.kept_amplitude, std::bit_cast<float>(kept.y));
+    }
+    for (std::uint32_t pixel = 0; least.x < 0 && pixel < strip.columns * strip.rows; ++pixel)
+      settle_pixel(strip, pixel, words);
+  }
+
+private:
+  std::span<const glm::ivec2> errors_of(const shader::Strip &strip, std::uint32_t tone) const {
+    return {host_memory<const glm::ivec2>(errors_) + std::size_t{tone} * sample_count(strip),
+            std::size_t{strip.columns} * strip.rows};
+  }
+
+  void settle_pixel(const shader::Strip &strip, std::uint32_t pixel, shader::BudgetViolations &words) const {
+    bool passes = false;
+    for (std::uint32_t tone = 0; tone < tones_; ++tone) {
+      const glm::ivec2 &errors = errors_of(strip, tone)[pixel];
+      if (errors.x >= 0)
+        continue;
+      passes = true;
+      if (later_)
+        continue;
+      ++words.returns;
+      words.worst_m = std::max(words.worst_m, -std::bit_cast<float>(errors.x));
+      words.amplitude = std::max(words.amplitude, -std::bit_cast<float>(errors.y));
+    }
+    if (later_ && passes) {
+      auto &list = *host_memory<shader::PixelList>(*later_);
+      reinterpret_cast<std::uint32_t *>(&list + 1)[list.count++] = pixel;
+    }
+  }
+
+  const vulkan::Buffer &errors_, &violations_;
+  const vulkan::Buffer *later_;
+  std::uint32_t tones_;
+  bool reports_kept_;
+};
+
+// lavapipe takes its time for atomics and gathers; the host reads the same memory at once.
+Pass host_claims_pass(const PassSetup &on, const vulkan::Buffer *later) {
+  return {.name = "accumulate",
+          .reads = sums,
+          .writes = later ? pixel_lists : no_resource,
+          .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
+          .store = [claims = HostClaims(on, later)](const Recording &at,
+                                                    Measurement &) { claims.settle(at.of_strip()); }};
+}
+
+bool is_shared_with_host(const PassSetup &on, const vulkan::Buffer *later) {
+  return on.device.is_cpu() && on.options.allowed.host_sweep && on.buffers.sum.is_mapped() &&
+         on.buffers.violations.is_mapped() && (!later || later->is_mapped());
+}
+
+} // namespace
+
+Pass claims_pass(const PassSetup &on, const vulkan::Buffer *later) {
+  if (is_shared_with_host(on, later))
+    return host_claims_pass(on, later);
+  const auto pipeline = std::make_shared<const vulkan::ComputePipeline>(
+      on.device, vulkan::shader_module(on.device, SamplePrecision::automatic, "claims"),
+      sizeof(shader::ClaimsConstants),
+      vulkan::Specialization{{shader::constant_passes_on, later != nullptr},
+                             {shader::constant_reports_kept, on.modulation.reports_kept}});
+  return {.name = "accumulate",
+          .reads = sums,
+          .writes = later ? pixel_lists : no_resource,
+          .record = [=, &buffers = on.buffers, tones = on.modulation.frequencies()](const Recording &at) {
+            const shader::Strip &strip = at.of_strip();
+            const std::uint32_t pixels = strip.columns * strip.rows;
+            const shader::ClaimsConstants constants{buffers.sum.words(),
+                                                    buffers.violations.words(),
+                                                    address_of(later),
+                                                    pixels,
+                                                    sample_count(strip),
+                                                    tones,
+                                                    0};
+            const std::uint32_t invocations =
+                (pixels + shader::claims_per_invocation - 1) / shader::claims_per_invocation;
+            pipeline->dispatch(at.commands, constants, padded(invocations), shader::workgroup_size);
+          }};
+}
+
+} // namespace pmdsim

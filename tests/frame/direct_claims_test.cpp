@@ -1,0 +1,112 @@
+// What goes from records to channels at once within an error: every pixel's bound holds, and the frame's
+// claim and the pixels that are summed again are the same whether the host finds them or the device.
+
+#include "tests/comparison/light_formula.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// Of widths that no block of samples fits: a wall, one that shades it, and a floor that light grazes.
+struct Room {
+  Scene scene;
+  Sensor sensor;
+  Illuminator light;
+};
+
+Room room(double cosine_order) {
+  SceneBuilder builder;
+  builder.add_wall({2.0});
+  builder.add_wall({1.2, {.reflectivity = 0.3}, {0.1, -0.2}, {0.35, 0.15}});
+  builder.add_triangle({-3, 0.16, 0.3}, {0, 0.2, 3}, {3, 0.16, 0.3});
+  Sensor sensor = wide_sensor();
+  sensor.resolution = {61, 45};
+  sensor.modulation_hz = {20e6, 31e6};
+  return {builder.scene(), sensor, light_at(ring(100, 0.15), 0.0, {Pattern::Kind::cosine, cosine_order})};
+}
+
+Accuracy within(double max_error_m, std::optional<Precision> precision = {}) {
+  Accuracy accuracy;
+  accuracy.mode = Mode::automatic;
+  accuracy.max_error_m = max_error_m;
+  accuracy.precision = precision;
+  return accuracy;
+}
+
+Measurement measured(const Room &room, const Accuracy &accuracy, bool on_host = true) {
+  SimulatorOptions options;
+  options.loop = DiodeLoop::looped; // compiles faster
+  options.keep_error_bound = true;
+  options.allowed.host_sweep = on_host;
+  Simulator simulator = make_simulator(options);
+  simulator.prepare(room.scene, room.sensor, {room.light}, Backscatter::lambert, Shadows::automatic,
+                    accuracy);
+  if (accuracy.mode == Mode::automatic)
+    for (const auto &[name, value] : simulator.path())
+      if (name == "record")
+        REQUIRE(value.find("to channels at once") != std::string::npos);
+  return simulator.measure();
+}
+
+void check_the_same(const Measurement &host, const Measurement &device) {
+  CHECK(host.accuracy.claimed_m == device.accuracy.claimed_m);
+  CHECK(host.accuracy.claimed_amplitude == device.accuracy.claimed_amplitude);
+  CHECK(host.accuracy.unpromised == device.accuracy.unpromised);
+  for (std::size_t f = 0; f < host.returns.size(); ++f)
+    for (std::size_t i = 0; i < host.range_m.size(); ++i) {
+      const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+      REQUIRE(same(host.returns[f].distance_m[i], device.returns[f].distance_m[i]));
+      REQUIRE(same(host.returns[f].error_bound_m[i], device.returns[f].error_bound_m[i]));
+    }
+}
+
+} // namespace
+
+TEST_CASE("every pixel that goes to channels at once keeps its bound") {
+  fmt::print("\n{:30} {:>12} {:>12}\n", "direct pixels", "largest um", "bound um");
+  for (const double order : {1.0, 3.0}) {
+    const Room at = room(order);
+    Accuracy precise;
+    precise.precision = Precision::fp64;
+    const Measurement exact = measured(at, precise), frame = measured(at, within(1e-4));
+    double largest_m = 0.0, bound_m = 0.0;
+    for (std::size_t f = 0; f < frame.returns.size(); ++f)
+      for (std::size_t i = 0; i < frame.range_m.size(); ++i) {
+        const Return &is = frame.returns[f], &should = exact.returns[f];
+        if (!(should.amplitude[i] > 0.0f))
+          continue;
+        const double off_m = std::abs(double(is.distance_m[i]) - double(should.distance_m[i]));
+        REQUIRE(off_m <= double(is.error_bound_m[i]) + 0x1p-24 * double(should.distance_m[i]));
+        REQUIRE(double(is.error_bound_m[i]) <= *frame.accuracy.claimed_m);
+        largest_m = std::max(largest_m, off_m);
+        bound_m = std::max(bound_m, double(is.error_bound_m[i]));
+      }
+    CHECK(bound_m == Approx(*frame.accuracy.claimed_m));
+    fmt::print("{:30} {:12.4f} {:12.4f}\n", fmt::format("cos^{}", order), 1e6 * largest_m, 1e6 * bound_m);
+  }
+}
+
+TEST_CASE("the host and the device come to the same claim") {
+  const Room at = room(1.0);
+  const Measurement all = measured(at, within(1e-4));
+  check_the_same(all, measured(at, within(1e-4), false));
+  // So that some pixels are beyond it, for a class in double, and without one.
+  const double less_m = 0.8 * *all.accuracy.claimed_m;
+  const Measurement with_double = measured(at, within(less_m));
+  CHECK(with_double.accuracy.unpromised == 0);
+  CHECK(*with_double.accuracy.claimed_m < less_m);
+  check_the_same(with_double, measured(at, within(less_m), false));
+  const Accuracy in_float = within(less_m, Precision::fp32);
+  const Measurement only_float = measured(at, in_float);
+  CHECK(only_float.accuracy.unpromised > 0);
+  check_the_same(only_float, measured(at, in_float, false));
+}
