@@ -16,7 +16,8 @@ using namespace pmdsim::test;
 
 namespace {
 
-// Of widths that no block of samples fits: a wall, one that shades it, and a floor that light grazes.
+// Of widths that no block of samples fits: a wall, a board that shades it, a floor that light grazes, and on
+// the right nothing.
 struct Room {
   Scene scene;
   Sensor sensor;
@@ -25,8 +26,8 @@ struct Room {
 
 Room room(double cosine_order) {
   SceneBuilder builder;
-  builder.add_wall({2.0});
-  builder.add_wall({1.2, {.reflectivity = 0.3}, {0.1, -0.2}, {0.35, 0.15}});
+  builder.add_wall({2.0, {}, {-10.0, -10.0}, {0.7, 10.0}});
+  builder.add_wall({0.8, {.reflectivity = 0.3}, {0.0, -0.1}, {0.12, 0.08}});
   builder.add_triangle({-3, 0.16, 0.3}, {0, 0.2, 3}, {3, 0.16, 0.3});
   Sensor sensor = wide_sensor();
   sensor.resolution = {61, 45};
