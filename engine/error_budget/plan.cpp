@@ -61,8 +61,9 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   return rounding_bound(groups, view.visible, view.model, view.modulation, scope);
 }
 
-bool is_within(const RoundingBound &bound, const Accuracy &accuracy) {
-  return bound.distance_m(1.0) < accuracy.max_error_m && bound.amplitude(1.0) < accuracy.max_amplitude_error;
+bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double condition) {
+  return bound.distance_m(condition) < accuracy.max_error_m &&
+         bound.amplitude(condition) < accuracy.max_amplitude_error;
 }
 
 [[noreturn]] void refuse(const Accuracy &accuracy, const std::string &why) {
@@ -130,7 +131,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
     const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
-    if (bound && is_within(*bound, accuracy))
+    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
+    const double condition = view.sensor.samples > 1 ? groups.polynomials.growth : 1.0;
+    if (bound && is_within(*bound, accuracy, condition))
       return {precision, std::move(groups), *bound};
     last = bound;
   }

@@ -119,11 +119,6 @@ struct ClassLists {
   const vulkan::Buffer *list = nullptr, *later = nullptr;
 };
 
-std::uint32_t shining(const SourceGroups &groups) {
-  return static_cast<std::uint32_t>(std::ranges::count_if(
-      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
-}
-
 // A sum over all that every source reaches is taken beforehand where it can be.
 void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
              SumScope scope, FrameGraph &graph) {
@@ -137,18 +132,12 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
 }
 
 // Depth records block by block: those that every source reaches are summed as if there were no shadows.
-void list_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
-                 const SumScope &scope, FrameGraph &graph) {
-  const auto lists =
-      std::make_shared<const BlockLists>(on.device, on.buffers, on.strips, shining(groups), on.path.direct);
-  graph.add_to_window({.name = "accumulate",
-                       .reads = ids | visibility_counts,
-                       .writes = block_lists,
-                       .record = [lists](const Recording &at) { lists->record(at); }});
+void sum_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                const SumScope &scope, const BlockLists &lists, FrameGraph &graph) {
   const auto add = [&](std::uint32_t kind) {
     SumScope of_kind = scope;
     of_kind.shadowed = kind == shader::blocks_shaded;
-    of_kind.blocks = lists->of(kind);
+    of_kind.blocks = lists.of(kind);
     add_sum(on, groups, windows, std::move(of_kind), graph);
   };
   add(shader::blocks_lit);
@@ -158,7 +147,8 @@ void list_blocks(const FrameBasis &on, const SourceGroups &groups, const std::ve
 }
 
 // A class of pixels, sample by sample: all of them, or those of a list.
-void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, FrameGraph &graph) {
+void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, const BlockLists *blocks,
+                FrameGraph &graph) {
   const PixelClass *pixels = on.path.of(who);
   if (!pixels)
     return;
@@ -177,7 +167,7 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, Fra
     graph.add_after(points_of(on, pixels->precision, list));
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
   if (pixels->shadowed && sums_records)
-    list_blocks(on, groups, of_windows, scope, graph);
+    sum_blocks(on, groups, of_windows, scope, *blocks, graph);
   else
     add_sum(on, groups, of_windows, scope, graph);
   if (sums_records && on.path.direct && holds_pixels(on.modulation))
@@ -205,7 +195,7 @@ Pass clear_pass(const std::shared_ptr<const PixelLists> &lists) {
 }
 
 // The classes of pixels, one after the other, each with the pixels that those before it have left.
-void list_classes(const FrameBasis &on, FrameGraph &graph) {
+void list_classes(const FrameBasis &on, const BlockLists *blocks, FrameGraph &graph) {
   const PixelClass *precise = on.path.of(PixelsOf::precise);
   std::shared_ptr<const PixelLists> lists;
   if (on.path.is_sorted() || precise)
@@ -214,19 +204,19 @@ void list_classes(const FrameBasis &on, FrameGraph &graph) {
   if (!on.path.is_sorted()) {
     if (precise) // of one window
       graph.add_to_window(clear_pass(lists));
-    list_class(on, PixelsOf::all, {nullptr, of_precise}, graph);
+    list_class(on, PixelsOf::all, {nullptr, of_precise}, blocks, graph);
   } else {
     const vulkan::Buffer *of_rest = &lists->of(shader::list_rest);
     list_sorting(on, lists, graph);
     list_class(on, PixelsOf::unshadowed, {&lists->of(shader::list_unshadowed), precise ? of_rest : nullptr},
-               graph);
+               nullptr, graph);
     if (precise)
       graph.add_after(count_pass(lists));
-    list_class(on, PixelsOf::rest, {of_rest, of_precise}, graph);
+    list_class(on, PixelsOf::rest, {of_rest, of_precise}, nullptr, graph);
   }
   if (precise) {
     graph.add_after(count_pass(lists));
-    list_class(on, PixelsOf::precise, {of_precise, nullptr}, graph);
+    list_class(on, PixelsOf::precise, {of_precise, nullptr}, nullptr, graph);
   }
 }
 
@@ -264,7 +254,7 @@ void list_check(const FrameBasis &on, const SpotCheck &check, const ShadowPasses
 AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   AccuracyReport report;
   report.precision = plan.precision;
-  report.diodes = shining(path.classes.front().reduced ? plan.reduced : plan.all);
+  report.diodes = shining_diodes(path.classes.front().reduced ? plan.reduced : plan.all);
   report.claimed_m = plan.claimed_m;
   report.claimed_amplitude = plan.claimed_amplitude;
   return report;
@@ -296,7 +286,7 @@ FramePasses make_passes(const FrameBasis &on, std::unique_ptr<FrameMemory> memor
     list_shadow_passes(on, shadow, graph);
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, sources));
-  list_classes(on, graph);
+  list_classes(on, shadow.blocks.get(), graph);
   graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
   if (on.path.check) {
     made.check.emplace(on, on.strips);

@@ -20,12 +20,19 @@ Pass sweep_pass(Resources samples, const std::shared_ptr<const SweepPass> &sweep
   return pass;
 }
 
-Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &sweep) {
+// `blocks`: where it lists them, too.
+Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &sweep,
+                     const std::shared_ptr<const BlockLists> &blocks) {
   return {.name = "lit",
           .reads = samples,
-          .writes = visibility_bits | visibility_counts,
+          .writes = visibility_bits | visibility_counts | block_lists,
           .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
-          .store = [=](const Recording &at, Measurement &) { sweep->decide(at.of_strip(), at.window); }};
+          .store =
+              [=](const Recording &at, Measurement &) {
+                sweep->decide(at.of_strip(), at.window);
+                if (blocks)
+                  blocks->write(at.of_strip(), sweep->block_kinds());
+              }};
 }
 
 } // namespace
@@ -45,13 +52,18 @@ ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGr
   if (on.path.holes)
     shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, on.windows,
                                                      on.strips, grid);
+  if (on.path.sums_records)
+    shadow.blocks = std::make_shared<const BlockLists>(on.device, on.buffers, on.strips,
+                                                       shining_diodes(on.plan.all), on.path.direct);
   return shadow;
 }
 
 void list_shadow_passes(const FrameBasis &on, const ShadowPasses &shadow, FrameGraph &graph) {
   const Resources samples = on.path.record == SampleRecord::depth ? Resources{ids} : ids | points;
-  graph.add_to_window(shadow.host ? host_sweep_pass(samples, shadow.host)
-                                  : sweep_pass(samples, shadow.sweep));
+  const bool host_lists = shadow.host && !shadow.holes;
+  graph.add_to_window(shadow.host
+                          ? host_sweep_pass(samples, shadow.host, host_lists ? shadow.blocks : nullptr)
+                          : sweep_pass(samples, shadow.sweep));
   if (shadow.holes)
     graph.add_to_window({.name = "lit",
                          .reads = samples | visibility_bits,
@@ -59,6 +71,11 @@ void list_shadow_passes(const FrameBasis &on, const ShadowPasses &shadow, FrameG
                          .record = [holes = shadow.holes](const Recording &at) {
                            holes->record(at.commands, at.of_strip(), at.window);
                          }});
+  if (shadow.blocks && !host_lists)
+    graph.add_to_window({.name = "lit",
+                         .reads = ids | visibility_counts,
+                         .writes = block_lists,
+                         .record = [blocks = shadow.blocks](const Recording &at) { blocks->record(at); }});
 }
 
 Pass visibility_read_back_pass(const FrameBasis &on, const std::shared_ptr<const SourceGroups> &sources) {

@@ -18,6 +18,7 @@ struct ShadowPasses {
   std::shared_ptr<const SweepPass> sweep;
   std::shared_ptr<const HostSweep> host; // in its place
   std::shared_ptr<const HolesPass> holes;
+  std::shared_ptr<const BlockLists> blocks; // of depth records, for the sum
 
   explicit operator bool() const { return sweep || host; }
 };

@@ -21,8 +21,8 @@ std::uint32_t lists_of(const UniformPixels &pixels) {
   return pixels.refines ? shader::lists_in_three : shader::lists_in_two;
 }
 
-vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &groups,
-                                    const ErrorBound &bound, const UniformPixels &pixels) {
+vulkan::Specialization constants_of(const PassSetup &on, const SourceGroups &groups, const ErrorBound &bound,
+                                    const UniformPixels &pixels) {
   return sum_constants(on, groups, {.bound = bound})
       .merge(demodulation_constants(on, {}, true))
       .merge({{shader::constant_surface_vectors, 1},

@@ -267,4 +267,9 @@ SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
   return grouped(illuminators, visible, wavenumber_rad_m, Precision::fp64, 0, groups.blocks_per_run);
 }
 
+std::uint32_t shining_diodes(const SourceGroups &groups) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      groups.positions, [](const SourcePosition &place) { return place.number != no_id; }));
+}
+
 } // namespace pmdsim

@@ -78,4 +78,7 @@ SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);
 
+// Those that are no padding.
+std::uint32_t shining_diodes(const SourceGroups &groups);
+
 } // namespace pmdsim

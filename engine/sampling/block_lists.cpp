@@ -3,6 +3,7 @@
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace pmdsim {
 namespace {
@@ -71,6 +72,30 @@ void BlockLists::record(const Recording &at) const {
   for (std::uint32_t kind = shader::blocks_lit; kind <= shader::block_lists; ++kind)
     constants.lists[kind - shader::blocks_lit] = lists_[index_of(kind)].words();
   sort_.dispatch(at.commands, constants, padded(block_count(strip)), shader::workgroup_size);
+}
+
+void BlockLists::write(const shader::Strip &strip, std::span<const std::uint8_t> kinds) const {
+  std::array<std::uint32_t, shader::block_lists> counts{};
+  std::array<std::uint32_t *, shader::block_lists> entries{};
+  for (std::size_t list = 0; list < entries.size(); ++list)
+    entries[list] =
+        reinterpret_cast<std::uint32_t *>(lists_[list].mapped().data() + sizeof(shader::WorkList));
+  const std::uint32_t columns = strip.columns * strip.samples, across = blocks_across(strip);
+  for (std::uint32_t row = 0; row < strip.rows * strip.samples; ++row)
+    for (std::uint32_t block = 0; block < across; ++block) {
+      const std::size_t list = index_of(kinds[std::size_t{row} * across + block]);
+      const std::uint32_t first = block * shader::block_samples;
+      entries[list][counts[list]++] = (row * columns + first) * shader::block_samples +
+                                      std::min(shader::block_samples, columns - first) - 1;
+    }
+  constexpr std::uint32_t of_group = shader::workgroup_size / shader::block_samples;
+  for (std::size_t list = 0; list < entries.size(); ++list) {
+    const std::uint32_t groups = (counts[list] + of_group - 1) / of_group;
+    const shader::WorkList head{1, std::min(groups, shader::workgroups_per_row),
+                                (groups + shader::workgroups_per_row - 1) / shader::workgroups_per_row,
+                                counts[list]};
+    std::memcpy(lists_[list].mapped().data(), &head, sizeof(head));
+  }
 }
 
 std::function<void(const Recording &)> fill_with_one(const SampleBlocks &blocks) {

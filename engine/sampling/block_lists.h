@@ -28,6 +28,10 @@ public:
   // Once it is known how many diodes reach each sample.
   void record(const Recording &at) const;
 
+  // The same by the host, whose memory the lists are in: `kinds` is one of shader::blocks_* for each block,
+  // row by row.
+  void write(const shader::Strip &strip, std::span<const std::uint8_t> kinds) const;
+
   SampleBlocks of(std::uint32_t kind) const { return {kind, &lists_[index_of(kind)]}; }
 
 private:

@@ -130,6 +130,7 @@ struct HostSweep::State {
   // Tiles whose words say already that every diode reaches all of their samples, in a strip of that extent.
   std::vector<std::uint8_t> filled = {};
   glm::uvec2 filled_extent = {};
+  std::vector<std::uint8_t> block_kinds = {};
   std::size_t most_blocks = 1;
   DecideTile decide_tile;
   std::vector<std::unique_ptr<OnBoard>> boards;
@@ -140,6 +141,7 @@ struct HostSweep::State {
   SampleSource samples_of(const shader::Strip &strip) const;
   void begin_tiles(const shader::Strip &strip);
   void store(const shader::Strip &strip, std::size_t window, std::uint32_t tile, const TileBits &bits);
+  void store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits);
 };
 
 void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
@@ -217,6 +219,25 @@ void HostSweep::State::store(const shader::Strip &strip, std::size_t window, std
   }
 }
 
+// Of depth records, whose blocks are a tile's rows.
+void HostSweep::State::store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits) {
+  static_assert(shader::block_samples == shader::tile_side);
+  for (std::uint32_t row = 0; row < shader::tile_side; ++row) {
+    const std::uint32_t first = row * shader::tile_side;
+    if (!bits.is_there[first])
+      return;
+    bool sees = false, shaded = false;
+    for (std::uint32_t i = first; i < first + shader::tile_side; ++i) {
+      sees = sees || (bits.is_there[i] && bits.sees[i]);
+      shaded = shaded || (bits.is_there[i] && bits.is_shaded && bits.missing[i] > 0);
+    }
+    block_kinds[(tile / tiles_across * shader::tile_side + row) * tiles_across + tile % tiles_across] =
+        static_cast<std::uint8_t>(!sees    ? shader::blocks_empty
+                                  : shaded ? shader::blocks_shaded
+                                           : shader::blocks_lit);
+  }
+}
+
 HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      const std::optional<ChipGrid> &records, bool fills_all)
@@ -256,6 +277,8 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
   const SilhouetteBoard &board = *state.windows[window].board;
   const SampleSource samples = state.samples_of(strip);
   const std::uint32_t tiles = tile_count(samples.strip);
+  if (state.records)
+    state.block_kinds.resize(std::size_t{tiles_across(samples.strip.columns)} * samples.strip.rows);
   struct Memory {
     std::vector<ListedBlock> edges, hidden;
     TileBits bits;
@@ -269,8 +292,12 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
       state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
       state.store(strip, window, tile, own.bits);
+      if (state.records)
+        state.store_kinds(tile, tiles_across(samples.strip.columns), own.bits);
     }
   });
 }
+
+std::span<const std::uint8_t> HostSweep::block_kinds() const { return state_->block_kinds; }
 
 } // namespace pmdsim

@@ -27,6 +27,9 @@ public:
   // As SweepPass::record(), at once; the device is done with the samples.
   void decide(const shader::Strip &strip, std::size_t window) const;
 
+  // Of the strip and window last decided, where samples are records: of each block (BlockLists), row by row.
+  std::span<const std::uint8_t> block_kinds() const;
+
 private:
   struct State;
   std::unique_ptr<State> state_;

@@ -111,7 +111,7 @@ struct SampleSource {
 struct TileBits {
   std::uint32_t words[shader::tile_samples][shader::bundles_per_window];
   std::uint32_t index[shader::tile_samples]; // of the sample, where it is there
-  bool is_there[shader::tile_samples];
+  bool is_there[shader::tile_samples], sees[shader::tile_samples];
   bool is_shaded; // some diode does not reach some sample that sees anything: then the following is there
   std::uint32_t missing[shader::tile_samples]; // diodes that shine, and do not reach the sample
 };

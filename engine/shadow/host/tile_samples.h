@@ -116,12 +116,13 @@ inline bool find_samples(const SilhouetteBoard &board, const SampleSource &of, s
              of_subsample / across * tile_side + i / tile_side, subsample % strip.samples,
              subsample / strip.samples, 0};
     bits.is_there[i] = at.column < strip.columns && at.row < strip.rows;
-    samples[i].sees = false;
+    samples[i].sees = bits.sees[i] = false;
     if (!bits.is_there[i])
       continue;
     at.index = subsample * strip.padded_pixels + at.row * strip.columns + at.column;
     bits.index[i] = at.index;
     find_sample(board, of, at, samples[i]);
+    bits.sees[i] = samples[i].sees;
     any = any || samples[i].sees;
   }
   return any;
