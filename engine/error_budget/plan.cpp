@@ -277,6 +277,10 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
     return;
   plan.precise = std::move(groups);
   plan.bound_of_precise = error_bound_of(accuracy, *rounding, whole_light(view.lights));
+  // Diagrams are looked up in float, which double does not help: only what is beyond the budget tries it.
+  if (std::ranges::any_of(plan.all.positions,
+                          [](const SourcePosition &place) { return place.law_error > 0.0; }))
+    return;
   const double usual_m = largest_m(plan, largest_growth(plan));
   const auto lower = [&](std::optional<ErrorBound> &bound) {
     if (bound)

@@ -98,8 +98,11 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
     add_precise(facts, plan, samples, classes);
     return classes;
   }
-  const bool sorted = can_sort(facts, windows) && (uniform_points(facts, plan, request, allowed) ||
-                                                   (plan.is_reduced() && has_rest(facts)));
+  // Of one sample a pixel, classes are worth their lists only where fewer sources do for some of them.
+  const bool is_thinned = request.sensor.samples > 1 && uniform_points(facts, plan, request, allowed);
+  const bool is_reduced =
+      plan.is_reduced() && (has_rest(facts) || uniform_points(facts, plan, request, allowed));
+  const bool sorted = can_sort(facts, windows) && (is_thinned || is_reduced);
   if (sorted)
     return sorted_classes(facts, plan, request, allowed);
   // Where all samples are alike, what stands in for the sources does so for all of them.
