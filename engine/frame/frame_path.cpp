@@ -131,7 +131,7 @@ bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePl
                    const Sensor &sensor, const PathForms &allowed) {
   const Modulation &modulation = facts.modulation;
   return allowed.direct_pixels && can_sum_records(path, plan, sensor, allowed) && sensor.samples == 1 &&
-         path.single_run && modulation.waveform == shader::waveform_sine && !modulation.keep_taps &&
+         path.single_run && modulation.waveform == shader::waveform_sine &&
          modulation.frequencies() <= most_direct_frequencies;
 }
 
