@@ -69,8 +69,11 @@ void check(const Case &of) {
   const Measurement exact = measure(of, {.device = {}, .keep_taps = true}, {.precision = Precision::fp64});
   for (const Variant &variant : variants) {
     INFO(of.name << variant.name);
-    const SimulatorOptions options{
-        .device = {}, .keep_taps = true, .precision = variant.precision, .loop = variant.loop};
+    const SimulatorOptions options{.device = {},
+                                   .keep_taps = true,
+                                   .precision = variant.precision,
+                                   .loop = variant.loop,
+                                   .allowed = {.direct_pixels = false}}; // which has no such pixels
     const Measurement automatic = measure(of, options, within(of));
     const FrameDifference apart = difference(automatic, exact, of.sensor);
     const AccuracyReport &report = automatic.accuracy;
