@@ -98,20 +98,31 @@ double largest_u(double radius_m, double rho_m) {
   return 1.000001 * t * (t + 2.0);
 }
 
-// `of_moments`: sizes of the coefficients of each.
-double path_terms_m(std::span<const Coefficients> of_moments, const PathDifference &reach,
-                    double wavenumber_rad_m) {
+// At one place and any smaller u; `of_moments`: sizes of the coefficients of each.
+double path_terms_at_m(std::span<const Coefficients> of_moments, double most_u, double rho_m,
+                       double wavenumber_rad_m) {
+  constexpr int steps = 3;
   double most_m = 0.0;
-  for (std::uint32_t i = 0; i < probes; ++i) {
-    const double rho_m =
-        reach.range_m * std::pow(reach.farthest_m / reach.range_m, static_cast<double>(i) / (probes - 1));
-    const double u = largest_u(reach.radius_m, rho_m);
+  for (int step = 1; step <= steps; ++step) {
+    const double u = most_u * step / steps;
     double sum_m = 0.0, phase_power = rho_m; // (kappa rho)^k / k! over kappa
     for (std::size_t k = 1; k < of_moments.size(); ++k) {
       sum_m += phase_power * value(of_moments[k], u);
       phase_power *= wavenumber_rad_m * rho_m / static_cast<double>(k + 1);
     }
     raise(most_m, sum_m / value(of_moments[0], u));
+  }
+  return most_m;
+}
+
+double path_terms_m(std::span<const Coefficients> of_moments, const PathDifference &reach,
+                    double wavenumber_rad_m) {
+  constexpr int places = 32;
+  double most_m = 0.0;
+  for (int i = 0; i <= places && std::isfinite(reach.range_m); ++i) { // nothing is seen where it is not
+    const double rho_m =
+        reach.range_m * std::pow(reach.farthest_m / reach.range_m, static_cast<double>(i) / places);
+    raise(most_m, path_terms_at_m(of_moments, largest_u(reach.radius_m, rho_m), rho_m, wavenumber_rad_m));
   }
   return most_m;
 }

@@ -68,24 +68,7 @@ constexpr std::uint32_t angle_bins = 4096;
 
 // A window of diodes on its board.
 struct SilhouetteBoard {
-  // Of SweepBoard.
-  double rotation[3][3], translation_m[3]; // board_from_camera
-  float supports[8];                       // +x, -x, +y, -y, (1, 1), (-1, -1), (1, -1), (-1, 1)
-  float lens_z, radius, highest, diodes_low, diodes_high, nearest;
-  double world_rounding_m;
-  bool leaves_none; // no tile may be left out
-  bool exact_only;  // every sample is decided by tetrahedra
-  bool lens_apart;  // from the board's plane
-  bool all_facing;  // nothing turns away from a diode
-  std::uint32_t shining[shader::bundles_per_window];
-  std::uint32_t shining_count;
-  std::uint32_t bundles;
-  ItemTree edges, hidden;
-  const EdgePlanes *planes; // beside the edges
-  const shader::Piercer *piercers;
-  std::uint32_t piercer_count;
   // The diodes in the order of their angles about the centre, and where each bit's diode is in that order.
-  std::uint32_t diodes; // 32 a bundle
   alignas(64) float x_m[most_diodes], y_m[most_diodes];
   alignas(64) double exact_m[3][most_diodes];
   alignas(64) std::int32_t rank_of_bit[most_diodes];
@@ -94,6 +77,22 @@ struct SilhouetteBoard {
   alignas(64) float class_turn[most_diodes + 1];
   std::int32_t class_rank[most_diodes + 1];
   std::int32_t class_of_bin[angle_bins];
+  // Of SweepBoard, and more.
+  double rotation[3][3], translation_m[3]; // board_from_camera
+  float supports[8];                       // +x, -x, +y, -y, (1, 1), (-1, -1), (1, -1), (-1, 1)
+  double world_rounding_m;
+  ItemTree edges, hidden;
+  const EdgePlanes *planes; // beside the edges
+  const shader::Piercer *piercers;
+  std::uint32_t shining[shader::bundles_per_window];
+  std::uint32_t diodes; // 32 a bundle
+  std::uint32_t bundles;
+  std::uint32_t piercer_count;
+  float lens_z, radius, highest, diodes_low, diodes_high, nearest;
+  bool leaves_none; // no tile may be left out
+  bool exact_only;  // every sample is decided by tetrahedra
+  bool lens_apart;  // from the board's plane
+  bool all_facing;  // nothing turns away from a diode
 };
 
 // Where a strip's samples lie, as the device left them.
