@@ -99,9 +99,9 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
     return classes;
   }
   // Of one sample a pixel, classes are worth their lists only where fewer sources do for some of them.
-  const bool is_thinned = request.sensor.samples > 1 && uniform_points(facts, plan, request, allowed);
-  const bool is_reduced =
-      plan.is_reduced() && (has_rest(facts) || uniform_points(facts, plan, request, allowed));
+  const bool uniform = uniform_points(facts, plan, request, allowed).has_value();
+  const bool is_thinned = uniform && request.sensor.samples > 1;
+  const bool is_reduced = plan.is_reduced() && (uniform || has_rest(facts));
   const bool sorted = can_sort(facts, windows) && (is_thinned || is_reduced);
   if (sorted)
     return sorted_classes(facts, plan, request, allowed);

@@ -3,13 +3,9 @@
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace pmdsim {
 namespace {
-
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 
 // In a row of the strip's samples.
 std::uint32_t blocks_across(const shader::Strip &strip) {
@@ -33,18 +29,6 @@ vulkan::Buffer make_largest_block_list(const vulkan::Device &device, std::span<c
   return make_block_list(device, most);
 }
 
-// Before and after the head of a list is written from here.
-void barrier_before_head(const vk::raii::CommandBuffer &commands) {
-  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
-                         Stage::eTransfer, Access::eTransferWrite);
-}
-
-void barrier_after_head(const vk::raii::CommandBuffer &commands) {
-  vulkan::memory_barrier(
-      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
-      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
-}
-
 } // namespace
 
 BlockLists::BlockLists(const vulkan::Device &device, const StripBuffers &buffers,
@@ -62,10 +46,10 @@ std::size_t BlockLists::index_of(std::uint32_t kind) const {
 
 void BlockLists::record(const Recording &at) const {
   const shader::Strip &strip = at.of_strip();
-  barrier_before_head(at.commands);
+  vulkan::barrier_before_update(at.commands);
   for (const vulkan::Buffer &list : lists_)
     at.commands.updateBuffer<shader::WorkList>(list.get(), 0, shader::WorkList{1, 0, 1, 0});
-  barrier_after_head(at.commands);
+  vulkan::barrier_after_update(at.commands);
   shader::BlockListConstants constants{
       buffers_.ids.words(),       buffers_.lit.words(), {},      strip.columns * strip.samples,
       strip.rows * strip.samples, blocks_across(strip), shining_};
@@ -79,7 +63,7 @@ void BlockLists::write(const shader::Strip &strip, std::span<const std::uint8_t>
   std::array<std::uint32_t *, shader::block_lists> entries{};
   for (std::size_t list = 0; list < entries.size(); ++list)
     entries[list] =
-        reinterpret_cast<std::uint32_t *>(lists_[list].mapped().data() + sizeof(shader::WorkList));
+        lists_[list].mapped_as<std::uint32_t>() + sizeof(shader::WorkList) / sizeof(std::uint32_t);
   const std::uint32_t columns = strip.columns * strip.samples, across = blocks_across(strip);
   for (std::uint32_t row = 0; row < strip.rows * strip.samples; ++row)
     for (std::uint32_t block = 0; block < across; ++block) {
@@ -94,16 +78,16 @@ void BlockLists::write(const shader::Strip &strip, std::span<const std::uint8_t>
     const shader::WorkList head{1, std::min(groups, shader::workgroups_per_row),
                                 (groups + shader::workgroups_per_row - 1) / shader::workgroups_per_row,
                                 counts[list]};
-    std::memcpy(lists_[list].mapped().data(), &head, sizeof(head));
+    *lists_[list].mapped_as<shader::WorkList>() = head;
   }
 }
 
 std::function<void(const Recording &)> fill_with_one(const SampleBlocks &blocks) {
   return [blocks](const Recording &at) {
-    barrier_before_head(at.commands);
+    vulkan::barrier_before_update(at.commands);
     at.commands.updateBuffer<std::uint32_t>(blocks.list->get(), 0,
                                             std::array<std::uint32_t, 5>{1, 1, 1, 1, 0});
-    barrier_after_head(at.commands);
+    vulkan::barrier_after_update(at.commands);
   };
 }
 

@@ -14,21 +14,6 @@ vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixel
 
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
-// Before and after a list is written from here.
-void barrier_before(const vk::raii::CommandBuffer &commands) {
-  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
-                         Stage::eTransfer, Access::eTransferWrite);
-}
-
-void barrier_after(const vk::raii::CommandBuffer &commands) {
-  vulkan::memory_barrier(
-      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
-      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
-}
-
 vulkan::Buffer make_largest_list(const vulkan::Device &device, const std::vector<PlannedStrip> &strips) {
   const auto pixels = [](const PlannedStrip &planned) { return planned.strip.padded_pixels; };
   return make_pixel_list(device, pixels(std::ranges::max(strips, {}, pixels)));
@@ -46,12 +31,12 @@ void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &
                  std::span<const std::uint32_t> pixels, std::uint32_t samples) {
   const auto count = static_cast<std::uint32_t>(pixels.size());
   const std::uint32_t groups = (count + shader::workgroup_size - 1) / shader::workgroup_size;
-  barrier_before(commands);
+  vulkan::barrier_before_update(commands);
   const shader::PixelList head{groups * samples, 1, 1, groups, 1, 1, count, 0};
   commands.updateBuffer<shader::PixelList>(list.get(), 0, head);
   if (count > 0)
     commands.updateBuffer<std::uint32_t>(list.get(), sizeof(head), pixels);
-  barrier_after(commands);
+  vulkan::barrier_after_update(commands);
 }
 
 std::function<void(const Recording &)> fill_with_one(const vulkan::Buffer *list) {
@@ -64,11 +49,11 @@ std::function<void(const Recording &)> fill_with_one(const vulkan::Buffer *list)
 }
 
 void PixelLists::record_clear(const vk::raii::CommandBuffer &commands) const {
-  barrier_before(commands);
+  vulkan::barrier_before_update(commands);
   const shader::PixelList empty{0, 1, 1, 0, 1, 1, 0, 0};
   for (const vulkan::Buffer &list : lists_)
     commands.updateBuffer<shader::PixelList>(list.get(), 0, empty);
-  barrier_after(commands);
+  vulkan::barrier_after_update(commands);
 }
 
 void PixelLists::record_count(const vk::raii::CommandBuffer &commands, std::uint32_t samples) const {

@@ -203,15 +203,11 @@ shader::HolesConstants HolesPass::State::constants(const shader::Strip &strip, s
 
 void HolesPass::State::record_batch(const vk::raii::CommandBuffer &commands,
                                     const shader::HolesConstants &plain, std::size_t window) const {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
-  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Access::eShaderStorageWrite,
-                         Stage::eTransfer, Access::eTransferWrite);
+  vulkan::barrier_before_update(commands);
   shader::HolesWork nothing{};
   std::ranges::fill(nothing.ranges, shader::WorkList{shader::tile_samples, 0, 1, 0});
   commands.updateBuffer<shader::HolesWork>(work.get(), 0, nothing);
-  vulkan::memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
-                         Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  vulkan::barrier_after_update(commands);
   const Window &of = windows[window];
   list_tiles.dispatch(commands, plain, padded(plain.tiles), shader::workgroup_size, &of.texels);
   shader::HolesConstants of_range = plain;

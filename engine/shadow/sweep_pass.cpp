@@ -162,10 +162,7 @@ shader::SweepConstants SweepPass::State::constants(const shader::Strip &strip, s
 
 void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                                     std::size_t window) const {
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
-  vulkan::memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
-                         Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
+  vulkan::barrier_before_update(commands);
   const vk::DeviceSize word = sizeof(std::uint32_t),
                        tiles = tile_count(sample_strip(strip, records.has_value()));
   commands.fillBuffer(buffers.visibility.get(), 0, windows[window].bundles * word * sample_count(strip), ~0u);
@@ -184,9 +181,7 @@ void SweepPass::State::record_reset(const vk::raii::CommandBuffer &commands, con
           work.get(), round * sizeof(shader::SweepRound) + offsetof(shader::SweepRound, sample_groups_x),
           std::array<std::uint32_t, 4>{windows[window].bundles, 0, 1, 0});
   }
-  vulkan::memory_barrier(
-      commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader | Stage::eDrawIndirect,
-      Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+  vulkan::barrier_after_update(commands);
 }
 
 void SweepPass::State::record_count(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,

@@ -13,11 +13,6 @@
 namespace pmdsim {
 namespace {
 
-template <class T>
-T *host_memory(const vulkan::Buffer &buffer) {
-  return reinterpret_cast<T *>(buffer.mapped().data());
-}
-
 // Like claims.comp.
 class HostClaims {
 public:
@@ -33,7 +28,7 @@ public:
         kept = glm::max(kept, errors);
         least = glm::min(least, errors);
       }
-    auto &words = *host_memory<shader::BudgetViolations>(violations_);
+    auto &words = *violations_.mapped_as<shader::BudgetViolations>();
     if (reports_kept_) {
       words.kept_m = std::max(words.kept_m, std::bit_cast<float>(kept.x));
       words.kept_amplitude = std::max(words.kept_amplitude, std::bit_cast<float>(kept.y));
@@ -44,7 +39,7 @@ public:
 
 private:
   std::span<const glm::ivec2> errors_of(const shader::Strip &strip, std::uint32_t tone) const {
-    return {host_memory<const glm::ivec2>(errors_) + std::size_t{tone} * sample_count(strip),
+    return {errors_.mapped_as<const glm::ivec2>() + std::size_t{tone} * sample_count(strip),
             std::size_t{strip.columns} * strip.rows};
   }
 
@@ -62,7 +57,7 @@ private:
       words.amplitude = std::max(words.amplitude, -std::bit_cast<float>(errors.y));
     }
     if (later_ && passes) {
-      auto &list = *host_memory<shader::PixelList>(*later_);
+      auto &list = *later_->mapped_as<shader::PixelList>();
       reinterpret_cast<std::uint32_t *>(&list + 1)[list.count++] = pixel;
     }
   }

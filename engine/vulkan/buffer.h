@@ -42,6 +42,12 @@ public:
   bool is_mapped() const { return mapped_ != nullptr; }
   std::span<std::byte> mapped() const { return {mapped_, static_cast<std::size_t>(bytes_)}; }
 
+  // The same, from its beginning, as what it holds.
+  template <class T>
+  T *mapped_as() const {
+    return reinterpret_cast<T *>(mapped_);
+  }
+
 private:
   vk::DeviceSize bytes_ = 0;
   std::uint32_t memory_type_ = 0;

@@ -59,6 +59,21 @@ void compute_barrier(const vk::raii::CommandBuffer &commands) {
                  Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
 }
 
+void barrier_before_update(const vk::raii::CommandBuffer &commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  memory_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eTransfer,
+                 Access::eShaderStorageWrite, Stage::eTransfer, Access::eTransferWrite);
+}
+
+void barrier_after_update(const vk::raii::CommandBuffer &commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  memory_barrier(commands, Stage::eTransfer, Access::eTransferWrite,
+                 Stage::eComputeShader | Stage::eDrawIndirect,
+                 Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+}
+
 void host_barrier(const vk::raii::CommandBuffer &commands) {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;

@@ -38,6 +38,11 @@ void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFl
 // do.
 void compute_barrier(const vk::raii::CommandBuffer &commands);
 
+// Before and after the host's commands write (fill, update) what compute passes work on, as data or to know
+// how much to do.
+void barrier_before_update(const vk::raii::CommandBuffer &commands);
+void barrier_after_update(const vk::raii::CommandBuffer &commands);
+
 // What shaders and rasters wrote may be read by the host, once it knows that they are done.
 void host_barrier(const vk::raii::CommandBuffer &commands);
 

@@ -103,11 +103,6 @@ void describe(const Board &board, SilhouetteBoard &to) {
   to.lens_apart = std::abs(board.lens_z_m) > 1e-9;
 }
 
-template <class T>
-T *host_memory(const vulkan::Buffer &buffer) {
-  return reinterpret_cast<T *>(buffer.mapped().data());
-}
-
 } // namespace
 
 struct HostSweep::State {
@@ -182,7 +177,7 @@ SampleSource HostSweep::State::samples_of(const shader::Strip &strip) const {
   source.strip = sample_strip(strip, records.has_value());
   source.ids = buffers.ids.mapped().data();
   source.position = records ? nullptr : buffers.position.mapped().data();
-  source.planes = host_memory<shader::TrianglePlane>(scene.planes);
+  source.planes = scene.planes.mapped_as<shader::TrianglePlane>();
   source.chip = chip ? &*chip : nullptr;
   source.slope[0] = slope.x;
   source.slope[1] = slope.y;
@@ -204,8 +199,8 @@ void HostSweep::State::store(const shader::Strip &strip, std::size_t window, std
                              const TileBits &bits) {
   const SilhouetteBoard &board = *windows[window].board;
   const std::size_t plane = sample_count(strip);
-  auto *const words = host_memory<std::uint32_t>(buffers.visibility);
-  auto *const lit = host_memory<std::uint32_t>(buffers.lit);
+  auto *const words = buffers.visibility.mapped_as<std::uint32_t>();
+  auto *const lit = buffers.lit.mapped_as<std::uint32_t>();
   const bool fills = bits.is_shaded || (fills_all && filled[tile] == 0);
   filled[tile] = fills_all && !bits.is_shaded;
   for (std::size_t i = 0; i < shader::tile_samples; ++i) {
