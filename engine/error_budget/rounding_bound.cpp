@@ -102,7 +102,10 @@ double power_weight_error(const SourceGroups &groups, const SumModel &model, con
   double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
                  polynomial_error(groups, scope) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
-  error += model.order * (along_error_u(t) / least_cosine + 1.0);
+  if (model.pattern == shader::pattern_power)
+    error += model.order * (along_error_u(t) / least_cosine + 1.0);
+  else
+    error += law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
     error += 2.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
   return error;

@@ -2,6 +2,7 @@
 
 #include "engine/frame/shadow_passes.h"
 #include "engine/frame/uniform_pixels_pass.h"
+#include "engine/light/host/host_sum.h"
 #include "engine/sampling/raster_blocks.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/signal/claims_pass.h"
@@ -59,6 +60,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
+          .run_sums = path.host_sum ? path.powers * plan.all.runs.size() : 0,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
           .sum_planes = modulation.sum_planes(),
           .channels = ChannelLayout(modulation).channels(),
@@ -166,7 +168,12 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
   if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
-  if (pixels->shadowed && sums_records)
+  if (sums_records && on.path.host_sum) {
+    graph.add_to_window(host_sum_pass(on, groups, *scope.depth_records, scope.shadowed));
+    scope.by_host = true;
+    scope.shadowed = false;
+    add_sum(on, groups, of_windows, scope, graph);
+  } else if (pixels->shadowed && sums_records)
     sum_blocks(on, groups, of_windows, scope, *blocks, graph);
   else
     add_sum(on, groups, of_windows, scope, graph);

@@ -1,5 +1,6 @@
 #include "engine/frame/frame_path.h"
 
+#include "engine/light/host/host_sum.h"
 #include "engine/sampling/sample_grid.h"
 #include "engine/signal/direct_pixels.h"
 #include "shaders/shared/interface.h"
@@ -122,7 +123,7 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
 
 bool can_sum_records(const FramePath &path, const FramePlan &plan, const Sensor &sensor,
                      const PathForms &allowed) {
-  const bool reads_depths = path.windows == 0 || path.single_run;
+  const bool reads_depths = path.windows == 0 || path.single_run || path.host_sum;
   return allowed.depth_records && reads_depths && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
@@ -187,7 +188,9 @@ std::string summation_text(const FramePath &path) {
   case Summation::polynomial_moments:
     return fmt::format("{} moments from {} powers{}{}{}", path.moments, path.powers,
                        path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "",
-                       path.point_dimensions > 0 ? ", summed beforehand" : "");
+                       path.point_dimensions > 0 ? ", summed beforehand"
+                       : path.host_sum           ? ", on the host"
+                                                 : "");
   case Summation::moments:
     return fmt::format("{} moments", path.moments);
   case Summation::per_diode:
@@ -233,6 +236,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.equal_weights = plan.all.polynomials.equal_weights;
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
+  path.host_sum = path.windows <= 1 && facts.host_is_device && allowed.host_sum &&
+                  path.summation == Summation::polynomial_moments && can_sum_on_host(plan.all);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
   const bool direct = can_be_direct(path, facts, plan, sensor, allowed) &&
@@ -242,6 +247,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.sums_records = direct || (!reports && !path.is_sorted() && !plan.is_reduced() &&
                                  can_sum_records(path, plan, sensor, allowed));
   path.direct = direct;
+  path.host_sum = path.host_sum && path.sums_records;
   path.record = path.sums_records || begins_with_depths(path, sensor, allowed) ? SampleRecord::depth
                                                                                : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);

@@ -58,6 +58,7 @@ struct FramePath {
   bool equal_weights, coplanar;
   std::uint32_t
       point_dimensions;  // of the polynomials that unshadowed samples' sums are; 0: loops over sources
+  bool host_sum;         // of all samples, by the host
   bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
   bool sums_records;     // the class of all pixels is summed from depth records

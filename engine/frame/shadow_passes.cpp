@@ -52,7 +52,7 @@ ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGr
   if (on.path.holes)
     shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, on.windows,
                                                      on.strips, grid);
-  if (on.path.sums_records)
+  if (on.path.sums_records && !on.path.host_sum)
     shadow.blocks = std::make_shared<const BlockLists>(on.device, on.buffers, on.strips,
                                                        shining_diodes(on.plan.all), on.path.direct);
   return shadow;

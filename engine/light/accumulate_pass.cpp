@@ -79,6 +79,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
           {shader::constant_coplanar, groups.polynomials.coplanar},
           {shader::constant_point_dimensions, scope.beforehand ? groups.polynomials.point_dimensions : 0},
+          {shader::constant_summed_by_host, scope.by_host},
           {shader::constant_backscatter_model, on.model.backscatter},
           {shader::constant_pattern_model, on.model.pattern},
           {shader::constant_cosine_order, on.model.order},
@@ -159,6 +160,8 @@ private:
   std::uint32_t blocks_per_run_, bundles_per_run_;
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
   std::uint32_t planes_;     // of the sum, of each frequency
+  bool by_host_;
+  std::uint32_t sums_; // of each run, where the host makes them
   vulkan::Buffer tones_, diodes_, diagrams_;
   vk::DeviceSize run_bytes_;      // of the diodes of each run
   vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
@@ -180,7 +183,7 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
                                  light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
-      planes_(on.modulation.planes), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
+      planes_(on.modulation.planes), by_host_(scope.by_host), sums_(groups.polynomials.powers), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
       diodes_(upload_sum(on, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
       run_bytes_(diodes_.bytes() / groups.runs.size()), first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)
@@ -245,7 +248,9 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
                                             scene_.planes.words(),
                                             output_ ? output_->record.words() : buffers_.sum.words(),
                                             light_runs_.words(run * sizeof(shader::LightRun)),
-                                            diodes_.words(run * run_bytes_),
+                                            by_host_ ? buffers_.run_sums.words(vk::DeviceSize{run} * sums_ * plane *
+                                                                               sizeof(float))
+                                                     : diodes_.words(run * run_bytes_),
                                             tones_.words(),
                                             diagrams_.words(),
                                             blocks_per_run_,
@@ -267,7 +272,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.list ? pixel_lists : no_resource) | (scope.blocks ? block_lists : no_resource) |
+                   (scope.by_host ? run_sums : no_resource) | (scope.list ? pixel_lists : no_resource) | (scope.blocks ? block_lists : no_resource) |
                    (scope.output && on.modulation.lit ? visibility_counts : no_resource),
           .writes = scope.output ? channels | sums : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },

@@ -131,7 +131,8 @@ std::vector<double> coefficients(const SourceGroups &groups, const SumModel &mod
 } // namespace
 
 std::uint32_t point_dimensions(const SourceGroups &groups, const SumModel &model) {
-  if (groups.polynomials.powers == 0 || groups.diodes.empty())
+  const bool knows_law = model.pattern == shader::pattern_isotropic || model.pattern == shader::pattern_power;
+  if (!knows_law || groups.polynomials.powers == 0 || groups.diodes.empty())
     return 0;
   if (model.pattern == shader::pattern_power &&
       !std::ranges::all_of(groups.runs, [&](const SourceRun &run) { return share_an_axis(groups, run); }))

@@ -78,10 +78,15 @@ double real_power_rounding_u(double order, double t, double cosine) {
 
 double cosine_rounding_u(float order, const LawRounding &sum) {
   const double t = sum.radius_over_range;
-  if (sum.pattern != shader::pattern_power)
-    return real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
   const double cosine = along_error_u(t) / sum.least_cosine;
-  return static_cast<double>(order) * (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
+  const double whole = static_cast<double>(order) *
+                       (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
+  if (sum.pattern == shader::pattern_power)
+    return whole;
+  const double real = real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
+  // Beside diagrams the host may multiply it out.
+  const bool is_multiplied = sum.pattern == shader::pattern_any && order <= largest_whole_power;
+  return is_multiplied ? std::max(real, whole) : real;
 }
 
 // At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
@@ -115,7 +120,7 @@ void describe_diagram(const Diode &diode, DiagramTables &tables, shader::GroupSo
 }
 
 LawForm diagram_form(const Pattern &pattern) {
-  return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any, {}};
+  return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any, 0};
 }
 
 // Of the interpolation; what the direction is off by is in the table's error.
@@ -212,7 +217,9 @@ LawForm form_of(const std::vector<CameraIlluminator> &illuminators) {
       all = form;
       beside_others = std::max(beside_others, law.form_beside_others);
     }
-  return alike ? all.value() : LawForm{beside_others, {}};
+  if (alike)
+    return all.value();
+  return {beside_others, beside_others == shader::pattern_any ? std::optional(0u) : std::nullopt};
 }
 
 double pattern_slope(const std::vector<CameraIlluminator> &illuminators,

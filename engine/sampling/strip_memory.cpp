@@ -61,6 +61,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.lit = storage(&B::lit, lit_bytes, Usage::eTransferDst);
   made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
   made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
+  made.run_sums = storage(&B::run_sums, samples * layout.run_sums * sizeof(float));
   made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);
@@ -94,6 +95,20 @@ std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, 
   constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
   return std::min({usual, buffer_bytes / (sum_planes * plane_bytes),
                    buffer_bytes / (channels * channel_bytes) * samples_per_pixel});
+}
+
+shader::Strip sample_strip(const shader::Strip &strip, bool depth_records) {
+  if (!depth_records)
+    return strip;
+  const std::uint32_t s = strip.samples;
+  return {s * strip.column,
+          s * strip.row,
+          s * strip.columns,
+          s * strip.rows,
+          s * strip.resolution_x,
+          s * strip.resolution_y,
+          1,
+          sample_count(strip)};
 }
 
 } // namespace pmdsim

@@ -25,6 +25,7 @@ struct StripBuffers {
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
   vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
+  vulkan::Buffer run_sums;   // of each run and power a plane, a float a sample; where the host sums
   vulkan::Buffer sum;        // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
   vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
@@ -55,6 +56,7 @@ struct SampleLayout {
   std::size_t position_bytes; // likewise, from here on
   std::size_t backscatter_bytes;
   std::size_t surface_vectors;
+  std::size_t run_sums;  // by the host
   std::size_t sum_bytes; // of each plane
   std::uint32_t sum_planes;
   std::uint32_t channels;
@@ -75,5 +77,8 @@ std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, 
 inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;
 }
+
+// The strip as tiles are cut: depth records lie row by row.
+shader::Strip sample_strip(const shader::Strip &strip, bool depth_records);
 
 } // namespace pmdsim

@@ -19,18 +19,4 @@ std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips) {
   return most;
 }
 
-shader::Strip sample_strip(const shader::Strip &strip, bool depth_records) {
-  if (!depth_records)
-    return strip;
-  const std::uint32_t s = strip.samples;
-  return {s * strip.column,
-          s * strip.row,
-          s * strip.columns,
-          s * strip.rows,
-          s * strip.resolution_x,
-          s * strip.resolution_y,
-          1,
-          sample_count(strip)};
-}
-
 } // namespace pmdsim

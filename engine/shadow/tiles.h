@@ -16,7 +16,4 @@ std::uint32_t tile_count(const shader::Strip &strip);
 // Of any of the strips.
 std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips);
 
-// The strip as tiles are cut: depth records lie row by row.
-shader::Strip sample_strip(const shader::Strip &strip, bool depth_records);
-
 } // namespace pmdsim

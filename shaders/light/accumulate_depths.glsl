@@ -42,6 +42,9 @@ uint visibility_of_block(uint i, uint block) {
   return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
+// Where the host has summed the diodes, plane by plane.
+float sum_of_run(uint i, uint k) { return Floats(constants.diodes).at[k * constants.plane + i]; }
+
 // `ray` leads to the point, at its depth.
 ReferencePath load_point(uint i, LightRun run, out Point point, out Real3 ray, out Real3 position) {
   uvec2 at = row_by_row(i, constants.grid.columns, constants.grid.inverse_columns);

@@ -17,6 +17,8 @@ const bool linear_known = equal_weights != 0 && powers > 2;
 
 // Of a run, the diodes summed beforehand (engine/light/point_polynomials.h).
 layout(constant_id = constant_point_dimensions) const uint point_dimensions = 0;
+// Or the host has summed them, sample by sample (engine/light/host/law_sums.h).
+layout(constant_id = constant_summed_by_host) const uint summed_by_host = 0;
 
 // Of equal weights only the places are there.
 GroupSource load_diode(uvec2 diodes, uint i) {
@@ -149,6 +151,11 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
 #define VISIBILITY_OF_BLOCK(i, block) 0u
 #endif
 
+// S_k of the run at sample i; only asked where `summed_by_host`.
+#ifndef SUM_OF_RUN
+#define SUM_OF_RUN(i, k) 0.0
+#endif
+
 // Adds a block to a stretch, and the stretch, where it ends, to the run's sums.
 void add_block_of_run(inout float total[sums], inout float stretch[sums], Point point, uvec2 diodes, uint first, uint block,
                       uint reached) {
@@ -165,6 +172,12 @@ void add_block_of_run(inout float total[sums], inout float stretch[sums], Point 
 void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint blocks, out float moment[moments],
              out Weights weights) {
   float total[sums], stretch[sums];
+  if (summed_by_host != 0) {
+    [[unroll]] for (uint k = 0; k < sums; ++k)
+      total[k] = SUM_OF_RUN(i, k);
+    find_moments(total, 1.0, point, run, moment, weights);
+    return;
+  }
   if (point_dimensions > 0) {
     float unit_m2;
     sum_beforehand(point, diodes, total, unit_m2);

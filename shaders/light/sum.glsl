@@ -66,6 +66,10 @@ vec2 strength_and_detour(Point point, GroupSource diode, bool reached) {
   }
   if (pattern_model == pattern_power)
     strength *= whole_power(max(0.0, dot(diode.axis.xyz, point.position) - diode.axis.w));
+  else if (pattern_model != pattern_isotropic) {
+    float r2 = point.rho * point.rho + q, inverse_r2 = 1.0 / r2, r = sqrt(r2);
+    strength *= radiation(point, diode, r, r * inverse_r2, inverse_r2);
+  }
   if (shadowed != 0)
     strength = reached ? strength : 0.0;
   return vec2(strength, q);

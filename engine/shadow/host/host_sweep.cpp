@@ -1,6 +1,7 @@
 #include "engine/shadow/host/host_sweep.h"
 
 #include "engine/model/instruction_sets.h"
+#include "engine/sampling/host/host_samples.h"
 #include "engine/shadow/host/silhouette_tree.h"
 #include "engine/shadow/sweep_tables.h"
 #include "engine/shadow/tiles.h"
@@ -116,11 +117,8 @@ struct HostSweep::State {
   };
 
   const StripBuffers &buffers;
-  const SceneBuffers &scene;
-  std::optional<ChipGrid> records;
-  std::optional<shader::ChipPlace> chip;
-  glm::dvec2 slope;
-  bool has_fp64, tiled, all_facing, fills_all, clears_bits;
+  HostSamples samples;
+  bool all_facing, fills_all, clears_bits;
   std::uint32_t shining = 0; // diodes of all windows
   // Tiles whose words say already that every diode reaches all of their samples, in a strip of that extent.
   std::vector<std::uint8_t> filled = {};
@@ -133,7 +131,6 @@ struct HostSweep::State {
 
   void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups,
                  const std::vector<SourceWindow> &of_frame);
-  SampleSource samples_of(const shader::Strip &strip) const;
   void begin_tiles(const shader::Strip &strip);
   void store(const shader::Strip &strip, std::size_t window, std::uint32_t tile, const TileBits &bits);
   void store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits);
@@ -172,26 +169,11 @@ void HostSweep::State::add_board(const PassSetup &on, const Board &board, const 
   boards.push_back(std::move(on_board));
 }
 
-SampleSource HostSweep::State::samples_of(const shader::Strip &strip) const {
-  SampleSource source{};
-  source.strip = sample_strip(strip, records.has_value());
-  source.ids = buffers.ids.mapped().data();
-  source.position = records ? nullptr : buffers.position.mapped().data();
-  source.planes = scene.planes.mapped_as<shader::TrianglePlane>();
-  source.chip = chip ? &*chip : nullptr;
-  source.slope[0] = slope.x;
-  source.slope[1] = slope.y;
-  source.records = records.has_value();
-  source.has_fp64 = has_fp64;
-  source.tiled = tiled;
-  return source;
-}
-
 // Other windows' words are in the same place, and what has holes takes bits away.
 void HostSweep::State::begin_tiles(const shader::Strip &strip) {
   const glm::uvec2 extent(strip.columns, strip.rows);
   if (windows.size() > 1 || clears_bits || filled_extent != extent)
-    filled.assign(tile_count(sample_strip(strip, records.has_value())), 0);
+    filled.assign(tile_count(sample_strip(strip, samples.are_records())), 0);
   filled_extent = extent;
 }
 
@@ -237,29 +219,18 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      const std::optional<ChipGrid> &records, bool fills_all)
     : state_(std::make_unique<State>(State{.buffers = on.buffers,
-                                           .scene = on.scene,
-                                           .records = records,
-                                           .chip = {},
-                                           .slope = {},
-                                           .has_fp64 = vulkan::uses_fp64(on.device, on.options.precision),
-                                           .tiled = is_tiled(on.sensor),
+                                           .samples = {on.buffers, on.scene.planes, on.sensor, records,
+                                                       vulkan::uses_fp64(on.device, on.options.precision)},
                                            .all_facing = on.model.backscatter == shader::backscatter_flat,
                                            .fills_all = fills_all,
                                            .clears_bits = !occluders.with_holes.empty(),
                                            .decide_tile = widest_decide_tile(on.options.host_vector_bits),
                                            .boards = {},
                                            .windows = {}})) {
-  if (!on.buffers.ids.is_mapped() || !on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
+  if (!on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
     throw std::logic_error("the host does not share the device's memory");
   State &state = *state_;
   state.windows.resize(windows.size());
-  if (records) {
-    const shader::vec4 &slope = records->slope();
-    state.slope = {static_cast<double>(slope.x) + static_cast<double>(slope.y),
-                   static_cast<double>(slope.z) + static_cast<double>(slope.w)};
-    if (!records->is_nominal())
-      state.chip = records->place();
-  }
   for (const Board &board : find_boards(groups, windows))
     state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups, windows);
 }
@@ -270,9 +241,9 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
   State &state = *state_;
   state.begin_tiles(strip);
   const SilhouetteBoard &board = *state.windows[window].board;
-  const SampleSource samples = state.samples_of(strip);
+  const SampleSource samples = state.samples.of(strip);
   const std::uint32_t tiles = tile_count(samples.strip);
-  if (state.records)
+  if (state.samples.are_records())
     state.block_kinds.resize(std::size_t{tiles_across(samples.strip.columns)} * samples.strip.rows);
   struct Memory {
     std::vector<ListedBlock> edges, hidden;
@@ -287,7 +258,7 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
       state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
       state.store(strip, window, tile, own.bits);
-      if (state.records)
+      if (state.samples.are_records())
         state.store_kinds(tile, tiles_across(samples.strip.columns), own.bits);
     }
   });

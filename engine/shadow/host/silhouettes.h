@@ -2,6 +2,7 @@
 // What the host's sweep works on, as plain arrays: its loops are compiled once for each instruction set, so
 // they share no code with the rest of the program.
 
+#include "engine/sampling/host/sample_source.h"
 #include "shaders/shadow/sweep_interface.h"
 
 #include <cstddef>
@@ -93,17 +94,6 @@ struct SilhouetteBoard {
   bool exact_only;  // every sample is decided by tetrahedra
   bool lens_apart;  // from the board's plane
   bool all_facing;  // nothing turns away from a diode
-};
-
-// Where a strip's samples lie, as the device left them.
-struct SampleSource {
-  shader::Strip strip;       // as tiles are cut
-  const std::byte *ids;      // records, or IDs
-  const std::byte *position; // Real[3] a sample, where these are no records
-  const shader::TrianglePlane *planes;
-  const shader::ChipPlace *chip; // of records, where the chip is not nominal
-  double slope[2];               // of records otherwise
-  bool records, has_fp64, tiled;
 };
 
 // What becomes known of a tile. Bits as StripBuffers::visibility has them, word by word of a sample.

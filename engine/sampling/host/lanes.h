@@ -39,6 +39,7 @@ inline void store(T *to, const V &values) {
 inline Floats all(float value) { return value - Floats{}; }
 inline Ints all(std::int32_t value) { return value - Ints{}; }
 
+// b where neither is.
 template <class V>
 inline V smaller(const V &a, const V &b) {
   return a < b ? a : b;
@@ -47,6 +48,23 @@ template <class V>
 inline V larger(const V &a, const V &b) {
   return a > b ? a : b;
 }
+#if defined(__AVX512F__)
+inline Floats smaller(const Floats &a, const Floats &b) {
+  return reinterpret_cast<Floats>(
+      _mm512_maskz_min_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+inline Floats larger(const Floats &a, const Floats &b) {
+  return reinterpret_cast<Floats>(
+      _mm512_maskz_max_ps(0xffff, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+#elif defined(__AVX2__)
+inline Floats smaller(const Floats &a, const Floats &b) {
+  return reinterpret_cast<Floats>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
+}
+inline Floats larger(const Floats &a, const Floats &b) {
+  return reinterpret_cast<Floats>(_mm256_max_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
+}
+#endif
 inline Floats absolute(const Floats &v) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & 0x7fffffff);
 }
@@ -85,6 +103,48 @@ inline Floats gathered(const float *from, const Ints &at) {
     values[i] = from[at[i]];
   return values;
 #endif
+}
+
+// Of each lane one of the values of both tables, whose numbers go on from the first to the second.
+inline Floats picked(const Floats (&tables)[2], const Ints &at) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Floats>(
+      _mm512_permutex2var_ps(reinterpret_cast<__m512>(tables[0]), reinterpret_cast<__m512i>(at),
+                             reinterpret_cast<__m512>(tables[1])));
+#elif defined(__AVX2__)
+  const __m256i lane = reinterpret_cast<__m256i>(at);
+  return reinterpret_cast<Floats>(
+      _mm256_blendv_ps(_mm256_permutevar8x32_ps(reinterpret_cast<__m256>(tables[0]), lane),
+                       _mm256_permutevar8x32_ps(reinterpret_cast<__m256>(tables[1]), lane),
+                       reinterpret_cast<__m256>(at << 28)));
+#else
+  Floats values;
+  for (int i = 0; i < lanes; ++i)
+    values[i] = tables[at[i] / lanes & 1][at[i] % lanes];
+  return values;
+#endif
+}
+
+// Square roots of what is above 0, to 2e-7 of them.
+inline Floats guessed_inverse_root(const Floats &v) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Floats>(_mm512_maskz_rsqrt14_ps(0xffff, reinterpret_cast<__m512>(v)));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Floats>(_mm256_rsqrt_ps(reinterpret_cast<__m256>(v)));
+#else
+  Floats guess;
+  for (int i = 0; i < lanes; ++i)
+    guess[i] = 1.0f / __builtin_sqrtf(v[i]);
+  return guess;
+#endif
+}
+inline Floats inverse_root(const Floats &v) {
+  const Floats guess = guessed_inverse_root(v);
+  return guess + guess * (0.5f - 0.5f * v * guess * guess);
+}
+inline Floats root(const Floats &v) {
+  const Floats guess = guessed_inverse_root(v), near = v * guess;
+  return near + near * (0.5f - near * (0.5f * guess));
 }
 
 // A bit for each lane of a comparison.

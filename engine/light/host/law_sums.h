@@ -1,0 +1,73 @@
+#pragma once
+// What the host's sums over the sources work on, as plain arrays: its loops are compiled once for each
+// instruction set, so they share no code with the rest of the program.
+
+#include "engine/sampling/host/sample_source.h"
+
+#include <cstdint>
+
+namespace pmdsim {
+
+// A measured diagram on even grids, linear between; 0 outside of the angles that it has.
+struct LawTable {
+  // Of one that is the same for all phi: J at each step of theta, and what it rises by to the next one.
+  // table_margin zeros stand before the first and behind the last.
+  const float *values = nullptr, *rises = nullptr;
+  // Of any other: of each cell, row by row of phi, its corner of least angles, what J rises by along theta
+  // and phi, and that of the latter along theta.
+  const float *cells = nullptr;
+  float first_step = 0.0f; // theta's, from 0 rad
+  float steps_per_rad = 1.0f;
+  std::int32_t steps = 0;
+  std::int32_t phi_steps = 0; // of a turn
+};
+constexpr std::int32_t table_margin = 40;
+
+// Beyond these powers of q a sum is the device's.
+constexpr std::uint32_t most_host_powers = 12;
+
+// A source in its batch's frame, m, from the run's reference point.
+struct BatchSource {
+  float x_m, y_m;
+  float square_m2; // of its distance from the reference point
+  float intensity; // as GroupSource::intensity
+};
+
+// Sources of one law that look along one axis and stand in one plane across it.
+struct SourceBatch {
+  const LawTable *table;  // nullptr: J = cos^power
+  std::uint32_t power;    // 0: J = 1
+  double rotation[3][3];  // batch_from_camera: where phi is 0, where it is 90 degrees, the axis
+  double along_m;         // the plane's distance along the axis from the reference point
+  float radius_m;         // of the sources about the reference point, across the axis
+  const BatchSource *sources;
+  const std::uint32_t *bits; // of each source, among all that a sample has
+  std::uint32_t count;
+};
+
+struct RunOfBatches {
+  double reference_m[3]; // camera frame
+  const SourceBatch *batches;
+  std::uint32_t count;
+};
+
+// Sums S_i = sum W q^i (moment_polynomials.h) of each run at each sample.
+struct LawSums {
+  SampleSource samples; // records
+  const RunOfBatches *runs;
+  std::uint32_t run_count;
+  std::uint32_t powers; // i < powers
+  bool lambert;         // W has the cosine's height over the surface; else only sources in front count
+  const std::uint32_t *visibility; // a word a sample and 32 sources, plane by plane; nullptr: all reach it
+  const std::uint32_t *lit;        // sources that reach the sample
+  std::uint32_t shining;           // all of them
+  std::uint32_t plane;             // words of one
+  float *sums;                     // out: a plane of each run and power
+};
+
+// Of some samples, row by row, the last one excluded: `first` a multiple of samples_per_part, and what is
+// beyond the last one padding. One of each instruction set.
+constexpr std::uint32_t samples_per_part = 16;
+using SumSamples = void (*)(const LawSums &of, std::uint32_t first, std::uint32_t last);
+
+} // namespace pmdsim

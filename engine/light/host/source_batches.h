@@ -1,0 +1,49 @@
+#pragma once
+// The sources of a frame as the host sums them: in batches that are alike but for their places.
+
+#include "engine/light/host/law_sums.h"
+#include "engine/light/source_groups.h"
+
+#include <deque>
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace pmdsim {
+
+// Whether the host knows a source's law.
+bool is_known_to_host(const shader::GroupSource &source);
+bool has_diagram(const shader::GroupSource &source);
+
+class SourceBatches {
+public:
+  // `run_bits`: visibility bits of a run.
+  SourceBatches(const SourceGroups &groups, std::uint32_t run_bits);
+  SourceBatches(const SourceBatches &) = delete;
+  SourceBatches &operator=(const SourceBatches &) = delete;
+
+  std::span<const RunOfBatches> runs() const { return runs_; }
+
+private:
+  struct Table {
+    std::vector<float> values, rises, cells;
+    LawTable table;
+  };
+  struct Batch {
+    shader::GroupSource like; // one of its sources
+    double along_m;
+    std::vector<BatchSource> sources;
+    std::vector<std::uint32_t> bits;
+  };
+
+  void add_run(const SourceGroups &groups, const SourceRun &run, std::uint32_t first_bit);
+  SourceBatch view_of(const Batch &batch) const;
+
+  std::map<std::uint32_t, Table> tables_; // by GroupSource::diagram
+  std::deque<std::deque<Batch>> batches_; // of each run
+  std::deque<std::vector<SourceBatch>> views_;
+  std::vector<RunOfBatches> runs_;
+};
+
+} // namespace pmdsim

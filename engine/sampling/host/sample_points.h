@@ -1,0 +1,75 @@
+#pragma once
+// A sample's point, from what the device has left of it.
+
+#include "engine/sampling/host/sample_source.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace pmdsim::PMDSIM_INSTRUCTION_SET {
+
+struct Place {
+  std::uint32_t column, row; // in the strip
+  std::uint32_t subsample_x, subsample_y;
+  std::uint32_t index;
+};
+
+inline double real_at(const std::byte *from, bool has_fp64) {
+  if (has_fp64) {
+    double value;
+    std::memcpy(&value, from, sizeof(value));
+    return value;
+  }
+  float pair[2];
+  std::memcpy(pair, from, sizeof(pair));
+  return static_cast<double>(pair[0]) + static_cast<double>(pair[1]);
+}
+
+// The ray (x, y, 1) of a depth record; `place` in half samples from the frame's middle.
+inline void find_ray(const SampleSource &of, double column, double row, double (&ray)[2]) {
+  if (!of.chip) {
+    ray[0] = column * of.slope[0];
+    ray[1] = row * of.slope[1];
+    return;
+  }
+  const shader::ChipPlace &chip = *of.chip;
+  double at[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto of_pair = [i](const shader::vec4 &hi, const shader::vec4 &lo) {
+      return static_cast<double>(hi[i]) + static_cast<double>(lo[i]);
+    };
+    at[i] = of_pair(chip.origin_hi, chip.origin_lo) +
+            column * of_pair(chip.half_step_x_hi, chip.half_step_x_lo) +
+            row * of_pair(chip.half_step_y_hi, chip.half_step_y_lo);
+  }
+  ray[0] = at[0] / at[2];
+  ray[1] = at[1] / at[2];
+}
+
+// Camera frame, m; 0 where it sees nothing.
+inline void find_point(const SampleSource &of, const Place &at, double (&point)[3], std::uint32_t &shape) {
+  const shader::Strip &strip = of.strip;
+  if (!of.records) {
+    for (std::size_t i = 0; i < 3; ++i)
+      point[i] = real_at(of.position + (std::size_t{3} * at.index + i) * sizeof(double), of.has_fp64);
+    const std::size_t columns = strip.columns, samples = strip.samples;
+    const std::size_t x =
+        of.tiled ? at.subsample_x * columns + at.column : at.column * samples + at.subsample_x;
+    const std::size_t y =
+        of.tiled ? at.subsample_y * std::size_t{strip.rows} + at.row : at.row * samples + at.subsample_y;
+    std::memcpy(&shape, of.ids + (y * columns * samples + x) * sizeof(shader::uvec2) + 4, sizeof(shape));
+    return;
+  }
+  const std::byte *record = of.ids + std::size_t{at.index} * sizeof(shader::uvec4);
+  std::memcpy(&shape, record + 4, sizeof(shape));
+  const double depth = real_at(record + 8, of.has_fp64);
+  double ray[2];
+  find_ray(of, 2.0 * (strip.column + at.column) + 1.0 - strip.resolution_x,
+           2.0 * (strip.row + at.row) + 1.0 - strip.resolution_y, ray);
+  point[0] = ray[0] * depth;
+  point[1] = ray[1] * depth;
+  point[2] = depth;
+}
+
+} // namespace pmdsim::PMDSIM_INSTRUCTION_SET
