@@ -45,7 +45,8 @@ ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGr
   if (on.path.host_sweep)
     shadow.host = std::make_shared<const HostSweep>(
         on, facts.occluders, facts.camera, on.request.scene, on.plan.all, on.windows, grid,
-        !on.path.keeps_depths_only() || on.path.holes || on.path.check || on.options.keep_visibility);
+        !on.path.keeps_depths_only() || on.path.host_sum || on.path.holes || on.path.check ||
+            on.options.keep_visibility);
   else
     shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
                                                      on.plan.all, on.windows, on.strips, grid);

@@ -183,9 +183,10 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
                                  light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
-      planes_(on.modulation.planes), by_host_(scope.by_host), sums_(groups.polynomials.powers), tones_(vulkan::upload(on.device, on.modulation.all_tones())),
-      diodes_(upload_sum(on, groups, scope)), diagrams_(vulkan::upload(on.device, groups.diagrams)),
-      run_bytes_(diodes_.bytes() / groups.runs.size()), first_(make_pipeline(on, groups, scope, true)) {
+      planes_(on.modulation.planes), by_host_(scope.by_host), sums_(groups.polynomials.powers),
+      tones_(vulkan::upload(on.device, on.modulation.all_tones())), diodes_(upload_sum(on, groups, scope)),
+      diagrams_(vulkan::upload(on.device, groups.diagrams)), run_bytes_(diodes_.bytes() / groups.runs.size()),
+      first_(make_pipeline(on, groups, scope, true)) {
   if (runs_.size() > 1 && !depth_records_)
     later_ = make_pipeline(on, groups, scope, false);
 }
@@ -242,23 +243,23 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
 void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
-  const shader::DepthSumConstants constants{depth_records_->of(strip),
-                                            depth_records_->chip(),
-                                            buffers_.ids.words(),
-                                            scene_.planes.words(),
-                                            output_ ? output_->record.words() : buffers_.sum.words(),
-                                            light_runs_.words(run * sizeof(shader::LightRun)),
-                                            by_host_ ? buffers_.run_sums.words(vk::DeviceSize{run} * sums_ * plane *
-                                                                               sizeof(float))
-                                                     : diodes_.words(run * run_bytes_),
-                                            tones_.words(),
-                                            diagrams_.words(),
-                                            blocks_per_run_,
-                                            plane,
-                                            strip.columns * strip.rows * strip.samples * strip.samples,
-                                            run == 0 ? 1u : 0u,
-                                            buffers_.visibility.words(),
-                                            blocks_ ? blocks_->list->words() : shader::uvec2(0)};
+  const shader::DepthSumConstants constants{
+      depth_records_->of(strip),
+      depth_records_->chip(),
+      buffers_.ids.words(),
+      scene_.planes.words(),
+      output_ ? output_->record.words() : buffers_.sum.words(),
+      light_runs_.words(run * sizeof(shader::LightRun)),
+      by_host_ ? buffers_.run_sums.words(vk::DeviceSize{run} * sums_ * plane * sizeof(float))
+               : diodes_.words(run * run_bytes_),
+      tones_.words(),
+      diagrams_.words(),
+      blocks_per_run_,
+      plane,
+      strip.columns * strip.rows * strip.samples * strip.samples,
+      run == 0 ? 1u : 0u,
+      buffers_.visibility.words(),
+      blocks_ ? blocks_->list->words() : shader::uvec2(0)};
   if (blocks_)
     first_.dispatch_indirect(at.commands, constants, *blocks_->list, 0);
   else
@@ -272,7 +273,8 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.by_host ? run_sums : no_resource) | (scope.list ? pixel_lists : no_resource) | (scope.blocks ? block_lists : no_resource) |
+                   (scope.by_host ? run_sums : no_resource) | (scope.list ? pixel_lists : no_resource) |
+                   (scope.blocks ? block_lists : no_resource) |
                    (scope.output && on.modulation.lit ? visibility_counts : no_resource),
           .writes = scope.output ? channels | sums : sums | terms,
           .record = [sum](const Recording &at) { sum->record(at); },

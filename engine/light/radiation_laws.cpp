@@ -79,8 +79,8 @@ double real_power_rounding_u(double order, double t, double cosine) {
 double cosine_rounding_u(float order, const LawRounding &sum) {
   const double t = sum.radius_over_range;
   const double cosine = along_error_u(t) / sum.least_cosine;
-  const double whole = static_cast<double>(order) *
-                       (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
+  const double whole =
+      static_cast<double>(order) * (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
   if (sum.pattern == shader::pattern_power)
     return whole;
   const double real = real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);

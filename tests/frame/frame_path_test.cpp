@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -39,6 +40,7 @@ const std::vector<Form> forms{
     {"direct pixels within an error", &PathForms::direct_pixels, 1, Mode::automatic, "record"},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels, 2, Mode::automatic, "pixels"},
     {"the sweep on the host", &PathForms::host_sweep, 1, Mode::exact, "visibility"},
+    {"the sum on the host", &PathForms::host_sum, 1, Mode::exact, "sum"},
 };
 
 struct Taken {
@@ -57,6 +59,10 @@ Taken take(const Form &form, bool allowed) {
   accuracy.mode = form.mode;
   accuracy.max_error_m = asked_for_m;
   const bool shaded = form.of == "visibility";
+  Pattern pattern;
+  if (form.allowed == &PathForms::host_sum)
+    pattern = {Pattern::Kind::diagram, 0.0,
+               std::make_shared<const Diagram>(Diagram{{0.0, 1.5}, {0.0}, {1.0, 0.1}})};
   SceneBuilder builder;
   builder.add_wall({2.0});
   if (shaded)
@@ -65,7 +71,7 @@ Taken take(const Form &form, bool allowed) {
   Sensor sensor = wide_sensor();
   sensor.samples = form.samples;
   Simulator simulator = make_simulator(options);
-  simulator.prepare(scene, sensor, {light_at(ring(48, 0.1), 0.0)}, Backscatter::constant,
+  simulator.prepare(scene, sensor, {light_at(ring(48, 0.1), 0.0, pattern)}, Backscatter::constant,
                     shaded ? Shadows::automatic : Shadows::off, accuracy);
   const auto path = simulator.path();
   const auto of = std::ranges::find(path, form.of, &std::pair<std::string, std::string>::first);

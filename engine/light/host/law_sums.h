@@ -35,11 +35,11 @@ struct BatchSource {
 
 // Sources of one law that look along one axis and stand in one plane across it.
 struct SourceBatch {
-  const LawTable *table;  // nullptr: J = cos^power
-  std::uint32_t power;    // 0: J = 1
-  double rotation[3][3];  // batch_from_camera: where phi is 0, where it is 90 degrees, the axis
-  double along_m;         // the plane's distance along the axis from the reference point
-  float radius_m;         // of the sources about the reference point, across the axis
+  const LawTable *table; // nullptr: J = cos^power
+  std::uint32_t power;   // 0: J = 1
+  double rotation[3][3]; // batch_from_camera: where phi is 0, where it is 90 degrees, the axis
+  double along_m;        // the plane's distance along the axis from the reference point
+  float radius_m;        // of the sources about the reference point, across the axis
   const BatchSource *sources;
   const std::uint32_t *bits; // of each source, among all that a sample has
   std::uint32_t count;

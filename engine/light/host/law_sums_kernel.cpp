@@ -150,7 +150,9 @@ Tangents tangents_of(const SourceBatch &batch, const BatchView &at) {
 
 // The first step of a stretch of NearAngles::width that holds all angles, if there is one.
 bool find_stretch(const LawTable &table, const Tangents &tangents, std::int32_t &first) {
-  const auto step_of = [&](float tangent) { return std::atan(tangent) * table.steps_per_rad - table.first_step; };
+  const auto step_of = [&](float tangent) {
+    return std::atan(tangent) * table.steps_per_rad - table.first_step;
+  };
   const float low = std::floor(step_of(tangents.least) - 1e-3f), high = step_of(tangents.most) + 1e-3f;
   first = static_cast<std::int32_t>(std::max(low, -1.0f));
   return low >= -1.0f && high < static_cast<float>(std::min(first + 2 * lanes, table.steps + 1));
@@ -181,8 +183,9 @@ using AddBatch = void (*)(const SourceBatch &, const BatchView &, const Reach &,
 
 template <std::size_t powers>
 AddBatch add_batch_of(bool lambert, bool shadowed) {
-  return lambert ? shadowed ? add_batch<powers, true, true> : add_batch<powers, true, false>
-                 : shadowed ? add_batch<powers, false, true> : add_batch<powers, false, false>;
+  return lambert    ? shadowed ? add_batch<powers, true, true> : add_batch<powers, true, false>
+            : shadowed ? add_batch<powers, false, true>
+                    : add_batch<powers, false, false>;
 }
 
 AddBatch add_batch_of(std::uint32_t powers, bool lambert, bool shadowed) {
@@ -195,8 +198,7 @@ void store_sums(const LawSums &of, const Samples &samples, std::uint32_t first, 
                 const Floats *total) {
   const Ints sees = load<Ints>(samples.sees);
   for (std::uint32_t k = 0; k < of.powers; ++k)
-    store(of.sums + (std::size_t{run} * of.powers + k) * of.plane + first,
-          sees != 0 ? total[k] : all(0.0f));
+    store(of.sums + (std::size_t{run} * of.powers + k) * of.plane + first, sees != 0 ? total[k] : all(0.0f));
 }
 
 void sum_samples(const LawSums &of, std::uint32_t first, std::uint32_t last) {
@@ -208,7 +210,8 @@ void sum_samples(const LawSums &of, std::uint32_t first, std::uint32_t last) {
     if (sees) {
       fill_gaps(samples, seen);
       for (int lane = 0; lane < lanes && of.visibility; ++lane)
-        shadowed = shadowed || (samples.sees[lane] && of.lit[first + static_cast<std::uint32_t>(lane)] != of.shining);
+        shadowed = shadowed ||
+                   (samples.sees[lane] && of.lit[first + static_cast<std::uint32_t>(lane)] != of.shining);
     }
     const Reach reach{shadowed ? of.visibility + first : nullptr, of.plane};
     const AddBatch add = add_batch_of(of.powers, of.lambert, shadowed);

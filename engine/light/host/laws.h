@@ -24,15 +24,17 @@ struct Within16 {
 struct Within30 {
   static constexpr float largest = 0.58f;
   static Floats arctangent_over(const Floats &v) {
-    return 1.0f + v * (-0.3333280259f +
-                       v * (0.1998108525f + v * (-0.1403484958f + v * (0.09551853252f + v * -0.04211287692f))));
+    return 1.0f +
+           v * (-0.3333280259f +
+                v * (0.1998108525f + v * (-0.1403484958f + v * (0.09551853252f + v * -0.04211287692f))));
   }
 };
 struct Within45 {
   static constexpr float largest = 1.0f;
   static Floats arctangent_over(const Floats &v) {
     const Floats high =
-        0.106408912f + v * (-0.0750422082f + v * (0.04269082107f + v * (-0.0160682895f + v * 0.002849824162f)));
+        0.106408912f +
+        v * (-0.0750422082f + v * (0.04269082107f + v * (-0.0160682895f + v * 0.002849824162f)));
     return 1.0f + v * (-0.3333307323f + v * (0.1999261732f + v * (-0.1420363099f + v * high)));
   }
 };
@@ -82,8 +84,8 @@ inline Floats angle_to_axis(const Floats &along, const Floats &across) {
   const Floats t = smaller(forward, across) / (root(along * along + across * across) + longer);
   const Floats u = t * t;
   const Floats near =
-      t * (1.999999963f +
-           u * (-0.6666557154f + u * (0.3994816483f + u * (-0.2769698042f + u * 0.1595258361f))));
+      t *
+      (1.999999963f + u * (-0.6666557154f + u * (0.3994816483f + u * (-0.2769698042f + u * 0.1595258361f))));
   const Floats forwards = across > forward ? pi / 2.0f - near : near;
   return along < 0.0f ? pi - forwards : forwards;
 }
@@ -97,8 +99,7 @@ public:
     const Floats across = root(larger(x * x + y * y, all(tiny)));
     const Floats steps = angle_to_axis(along_, across) * table_.steps_per_rad - table_.first_step;
     // Negative ones, which would be rounded up, are all alike.
-    const Floats place =
-        smaller(larger(steps, all(-1.0f)), all(static_cast<float>(table_.steps + 1))) + 1.0f;
+    const Floats place = smaller(larger(steps, all(-1.0f)), all(static_cast<float>(table_.steps + 1))) + 1.0f;
     const Cell cell = cell_of(place);
     return gathered(table_.values - 1, cell.at) + cell.beyond * gathered(table_.rises - 1, cell.at);
   }
@@ -124,8 +125,7 @@ inline Floats angle_about_axis(const Floats &x, const Floats &y, const Floats &i
 class AroundAxis {
 public:
   AroundAxis(const LawTable &table, const Floats &along)
-      : table_(table), along_(along),
-        phi_steps_per_rad_(static_cast<float>(table.phi_steps) / (2.0f * pi)) {}
+      : table_(table), along_(along), phi_steps_per_rad_(static_cast<float>(table.phi_steps) / (2.0f * pi)) {}
 
   Floats operator()(const Floats &x, const Floats &y) const {
     const Floats square = larger(x * x + y * y, all(tiny)), across = root(square);

@@ -87,16 +87,15 @@ glm::dmat3 frame_of(const shader::GroupSource &source) {
 }
 
 // Of two sources at such distances along their axes, and so far from the reference point at most.
-bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, double apart_m, double distance_m) {
+bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, double apart_m,
+               double distance_m) {
   return a.order == b.order && a.diagram == b.diagram && glm::vec3(a.axis) == glm::vec3(b.axis) &&
          (!differs_about_axis(a) || a.across == b.across) && std::abs(apart_m) <= same_distance * distance_m;
 }
 
 } // namespace
 
-bool has_diagram(const shader::GroupSource &source) {
-  return law_of(source).kind == Pattern::Kind::diagram;
-}
+bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
 
 bool is_known_to_host(const shader::GroupSource &source) {
   switch (law_of(source).kind) {
@@ -132,8 +131,9 @@ void SourceBatches::add_run(const SourceGroups &groups, const SourceRun &run, st
     to.sources.push_back({static_cast<float>(in_frame_m.x), static_cast<float>(in_frame_m.y),
                           static_cast<float>(glm::dot(place_m, place_m)), source.intensity});
     to.bits.push_back(first_bit + i);
-    if (const auto [table, is_new] = tables_.try_emplace(source.diagram); is_new && has_diagram(source))
-      fill(source, groups.diagrams, table->second);
+    if (has_diagram(source))
+      if (const auto [table, is_new] = tables_.try_emplace(source.diagram); is_new)
+        fill(source, groups.diagrams, table->second);
   }
   std::vector<SourceBatch> &views = views_.emplace_back();
   for (const Batch &batch : batches)

@@ -108,9 +108,9 @@ inline Floats gathered(const float *from, const Ints &at) {
 // Of each lane one of the values of both tables, whose numbers go on from the first to the second.
 inline Floats picked(const Floats (&tables)[2], const Ints &at) {
 #if defined(__AVX512F__)
-  return reinterpret_cast<Floats>(
-      _mm512_permutex2var_ps(reinterpret_cast<__m512>(tables[0]), reinterpret_cast<__m512i>(at),
-                             reinterpret_cast<__m512>(tables[1])));
+  return reinterpret_cast<Floats>(_mm512_permutex2var_ps(reinterpret_cast<__m512>(tables[0]),
+                                                         reinterpret_cast<__m512i>(at),
+                                                         reinterpret_cast<__m512>(tables[1])));
 #elif defined(__AVX2__)
   const __m256i lane = reinterpret_cast<__m256i>(at);
   return reinterpret_cast<Floats>(

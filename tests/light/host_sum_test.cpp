@@ -1,0 +1,134 @@
+// The sum over sources with measured diagrams on the host, in vectors of every width, against the reference.
+
+#include "tests/comparison/comparison.h"
+#include "tests/comparison/light_formula.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+Pattern diagram(double theta_step_deg, int thetas, int phis, double first_theta_deg = 0.0) {
+  Diagram made;
+  for (int i = 0; i < thetas; ++i)
+    made.theta_rad.push_back((first_theta_deg + i * theta_step_deg) * degree);
+  for (int k = 0; k < phis; ++k)
+    made.phi_rad.push_back(k * full_turn_rad / phis);
+  for (const double theta : made.theta_rad)
+    for (const double phi : made.phi_rad)
+      made.relative.push_back(std::pow(0.6 + 0.4 * std::cos(theta), 4) *
+                              (1.0 + 0.3 * std::sin(theta) * std::cos(2.0 * phi - 0.4)));
+  return {Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>(made)};
+}
+
+struct HostCase {
+  std::string name;
+  std::vector<Illuminator> lights;
+};
+
+Illuminator turned(Illuminator light, const glm::dvec3 &axis) {
+  for (Diode &diode : light.diodes) {
+    diode.axis = glm::normalize(axis);
+    diode.across = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0), diode.axis));
+  }
+  return light;
+}
+
+Illuminator dome(Illuminator light) {
+  for (Diode &diode : light.diodes) {
+    diode.position_m.z = 0.1 - glm::length(diode.position_m);
+    diode.axis = glm::normalize(glm::dvec3(3.0 * diode.position_m.x, 2.0 * diode.position_m.y, 1.0));
+    diode.across = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), diode.axis));
+  }
+  return light;
+}
+
+Illuminator joined(Illuminator light, const Illuminator &other) {
+  light.diodes.insert(light.diodes.end(), other.diodes.begin(), other.diodes.end());
+  return light;
+}
+
+std::vector<HostCase> host_cases() {
+  const Pattern axial = diagram(1.0, 181, 1), around = diagram(1.0, 91, 72);
+  const auto places = ring(37, 0.12);
+  const Illuminator plain = light_at(places, 0.0, axial);
+  return {
+      {"in registers", {plain}},
+      {"across the view", {turned(plain, {1.0, 0.2, 0.2})}},
+      {"to the back", {turned(plain, {0.3, 0.2, -1.0})}},
+      {"steps of 0.02 degrees", {light_at(places, 0.0, diagram(0.02, 4501, 1))}},
+      {"nothing about the axis", {light_at(places, 0.0, diagram(1.0, 60, 1, 8.0))}},
+      {"a dome", {dome(plain)}},
+      {"all around", {turned(light_at(places, 0.0, around), {0.2, -0.1, 1.0})}},
+      {"a dome, all around", {dome(light_at(places, 0.0, around))}},
+      {"beside cosines",
+       {joined(joined(plain, light_at(ring(9, 0.05), 0.0)), light_at(ring(5, 0.08), 0.0, cosine(3.0)))}},
+      {"two lights", {plain, light_at(ring(20, 0.05), 0.7, around)}},
+  };
+}
+
+Scene slant_of(bool shaded) {
+  SceneBuilder builder;
+  builder.add_mesh({{-3, -3, 2.5}, {3, -3, 1.5}, {3, 3, 1.9}, {-3, 3, 2.9}}, {{0, 2, 1}, {0, 3, 2}});
+  if (shaded)
+    builder.add_wall({1.0, {}, {0.05, -0.1}, {0.2, 0.15}});
+  return builder.scene();
+}
+
+Sensor sensor_of(std::uint32_t samples) {
+  Sensor sensor = wide_sensor();
+  sensor.resolution = {43, 30};
+  sensor.samples = samples;
+  return sensor;
+}
+
+void check_host_sum(const HostCase &of, Backscatter backscatter, bool shaded, std::uint32_t samples) {
+  const Scene scene = slant_of(shaded);
+  const Sensor sensor = sensor_of(samples);
+  const Shadows shadows = shaded ? Shadows::automatic : Shadows::off;
+  const auto expected = reference::simulate(scene, sensor, of.lights, backscatter, {.shadows = shadows});
+  for (const std::uint32_t bits : {512u, 256u, 128u}) {
+    Simulator simulator = make_simulator({.device = {},
+                                          .max_strip_samples = bits == 256 ? 900u : 0u,
+                                          .keep_sample_ids = true,
+                                          .host_vector_bits = bits});
+    simulator.prepare(scene, sensor, of.lights, backscatter, shadows);
+    const auto path = simulator.path();
+    const auto sum = std::ranges::find(path, "sum", &std::pair<std::string, std::string>::first);
+    REQUIRE(sum != path.end());
+    CHECK(sum->second.find("on the host") != std::string::npos);
+    const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
+    fmt::print("{}", comparison_row(fmt::format("{}, {} bits", of.name, bits), comparison));
+    CHECK(comparison.pixels >= 900);
+    CHECK(comparison.distance_max_m <= 0.6e-6);
+    CHECK(comparison.amplitude_max_relative <= 5e-6);
+  }
+}
+
+} // namespace
+
+TEST_CASE("sources with measured diagrams, summed on the host") {
+  fmt::print("{}", comparison_heading());
+  for (const HostCase &of : host_cases()) {
+    INFO(of.name);
+    check_host_sum(of, Backscatter::lambert, false, 1);
+  }
+}
+
+TEST_CASE("sources with measured diagrams, summed on the host, shadows and samples", "[long]") {
+  fmt::print("{}", comparison_heading());
+  for (const HostCase &of : host_cases())
+    for (const bool shaded : {false, true})
+      for (const std::uint32_t samples : {1u, 2u}) {
+        INFO(of.name << (shaded ? ", shaded" : ""));
+        check_host_sum(of, samples == 1 ? Backscatter::constant : Backscatter::lambert, shaded, samples);
+      }
+}
