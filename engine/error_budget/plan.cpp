@@ -81,15 +81,6 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double cond
                   accuracy.max_amplitude_error, bound.amplitude(1.0)));
 }
 
-// Of pixels of which some keep the one and some the other.
-ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
-  for (const auto part : {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
-                          &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
-                          &ErrorBound::terms_of_beam_edges})
-    a.*part = std::max(a.*part, b.*part);
-  return a;
-}
-
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
                        Precision precision) {
   const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
@@ -131,8 +122,10 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
     const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
-    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
-    const double condition = view.sensor.samples > 1 ? groups.polynomials.growth : 1.0;
+    // Near ones may pass to a class in double; of several samples a pixel, where no shadows fall, that takes
+    // longer than to sum fewer diodes, and points, in double.
+    const double condition =
+        view.sensor.samples > 1 && !view.modulation.lit ? groups.polynomials.growth : 1.0;
     if (bound && is_within(*bound, accuracy, condition))
       return {precision, std::move(groups), *bound};
     last = bound;
@@ -328,6 +321,14 @@ std::string limits_text(const Accuracy &asked_for) {
 }
 
 } // namespace
+
+ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
+  for (const auto part : {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
+                          &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
+                          &ErrorBound::terms_of_beam_edges})
+    a.*part = std::max(a.*part, b.*part);
+  return a;
+}
 
 FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   if (accuracy.mode == Mode::exact)

@@ -59,6 +59,9 @@ struct FramePlan {
   bool is_reduced() const { return reduced.diodes.size() < all.diodes.size(); }
 };
 
+// Of pixels of which some keep the one and some the other.
+ErrorBound worse_of(ErrorBound a, const ErrorBound &b);
+
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;
 

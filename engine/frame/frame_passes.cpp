@@ -62,10 +62,10 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .surface_vectors = depth_only ? 0 : surface_vectors,
           .run_sums = path.host_sum ? path.powers * plan.all.runs.size() : 0,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
-          .sum_planes = modulation.sum_planes(),
+          .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
           .channels = ChannelLayout(modulation).channels(),
           .visibility_words = modulation.lit ? shader::bundles_per_window : 0,
-          .keeps_terms = modulation.keeps_terms};
+          .held_errors = modulation.keeps_terms ? modulation.frequencies() : 0};
 }
 
 // The points of all samples, or those of `list`, for a sum of that precision.
@@ -177,10 +177,17 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
     sum_blocks(on, groups, of_windows, scope, *blocks, graph);
   else
     add_sum(on, groups, of_windows, scope, graph);
-  if (sums_records && on.path.direct && holds_pixels(on.modulation))
-    graph.add_to_window(claims_pass(on, later));
-  if (!sums_records || !on.path.direct)
-    graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  const bool settles = sums_records && holds_pixels(on.modulation);
+  if (sums_records && on.path.direct) {
+    if (settles)
+      graph.add_to_window(claims_pass(on, errors_of_direct_pixels(on.buffers), later));
+    return;
+  }
+  if (sums_records && on.plan.bound_beforehand)
+    scope.bound = worse_of(*pixels->bound, *on.plan.bound_beforehand);
+  graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  if (settles)
+    graph.add_after(claims_pass(on, errors_of_demodulation(on.buffers), later));
 }
 
 // How much there is to do for the classes that follow, which the last one has listed pixels for.

@@ -90,10 +90,10 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
 }
 
 std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &plan,
-                                   const FrameRequest &request, std::size_t windows, bool direct,
+                                   const FrameRequest &request, std::size_t windows, bool unsorted,
                                    const PathForms &allowed) {
   const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
-  if (direct) {
+  if (unsorted) {
     std::vector<PixelClass> classes{
         {PixelsOf::all, false, samples, plan.precision, facts.modulation.lit, plan.bound_of_all}};
     add_precise(facts, plan, samples, classes);
@@ -140,17 +140,28 @@ bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePl
 std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
   const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
   const bool is_plain = !path.is_sorted() && !path.classes.front().reduced &&
-                        (path.direct || !facts.modulation.keeps_terms) && plan.precision == Precision::fp32 &&
-                        path.summation == Summation::polynomial_moments;
+                        (path.sums_records || !facts.modulation.keeps_terms) &&
+                        plan.precision == Precision::fp32 && path.summation == Summation::polynomial_moments;
   return takes_all && is_plain ? plan.all.polynomials.point_dimensions : 0;
 }
 
 // Within an error sorting pixels and reducing the sources costs more than it saves where sums beforehand do
-// not depend on how many there are, or where few sources less do.
-bool is_better_direct(const FrameFacts &facts, const FramePlan &plan) {
+// not depend on how many there are, or where few sources less do; of several samples a pixel, where no point
+// of it stands in for them, or shadows fall on many pixels.
+bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
+                        const PathForms &allowed) {
   const bool beforehand =
       plan.all.polynomials.point_dimensions > 0 && (facts.modulation.lit || facts.model.all_facing);
-  return beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size();
+  const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
+                         uniform_points(facts, plan, request, allowed).has_value();
+  return !thins_out && (beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size());
+}
+
+// Whether what was asked for can be held against the sums of records.
+bool can_hold_records(const FrameFacts &facts, const FrameRequest &request) {
+  return request.accuracy.mode == Mode::automatic && !request.sensor.adaptive_samples &&
+         facts.modulation.waveform == shader::waveform_sine &&
+         facts.modulation.frequencies() <= most_direct_frequencies;
 }
 
 // Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
@@ -240,12 +251,14 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
                   path.summation == Summation::polynomial_moments && can_sum_on_host(plan.all);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
-  const bool direct = can_be_direct(path, facts, plan, sensor, allowed) &&
-                      (!reports || (request.accuracy.mode == Mode::automatic && !sensor.adaptive_samples &&
-                                    is_better_direct(facts, plan)));
-  path.classes = classes_of(facts, plan, request, windows, direct, allowed);
-  path.sums_records = direct || (!reports && !path.is_sorted() && !plan.is_reduced() &&
-                                 can_sum_records(path, plan, sensor, allowed));
+  const bool holds = reports && can_hold_records(facts, request) && can_sort(facts, windows) &&
+                     is_better_unsorted(facts, plan, request, allowed) &&
+                     can_sum_records(path, plan, sensor, allowed);
+  const bool direct = can_be_direct(path, facts, plan, sensor, allowed) && (!reports || holds);
+  path.classes = classes_of(facts, plan, request, windows, direct || holds, allowed);
+  path.sums_records =
+      direct || holds ||
+      (!reports && !path.is_sorted() && !plan.is_reduced() && can_sum_records(path, plan, sensor, allowed));
   path.direct = direct;
   path.host_sum = path.host_sum && path.sums_records;
   path.record = path.sums_records || begins_with_depths(path, sensor, allowed) ? SampleRecord::depth

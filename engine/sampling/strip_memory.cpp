@@ -48,7 +48,11 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize channel_bytes = pixels * layout.channels * sizeof(float);
   const vk::DeviceSize id_bytes = ids * layout.id_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
-  const vk::DeviceSize violation_bytes = layout.keeps_terms ? sizeof(shader::BudgetViolations) : 0;
+  const vk::DeviceSize term_bytes =
+      layout.held_errors > 0 ? std::max<vk::DeviceSize>(samples * sizeof(float),
+                                                        pixels * layout.held_errors * sizeof(shader::vec2))
+                             : 0;
+  const vk::DeviceSize violation_bytes = layout.held_errors > 0 ? sizeof(shader::BudgetViolations) : 0;
   const vk::DeviceSize visibility_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;
   B made;
@@ -59,7 +63,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
   made.visibility = storage(&B::visibility, visibility_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.lit = storage(&B::lit, lit_bytes, Usage::eTransferDst);
-  made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
+  made.terms = storage(&B::terms, term_bytes);
   made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.run_sums = storage(&B::run_sums, samples * layout.run_sums * sizeof(float));
   made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);

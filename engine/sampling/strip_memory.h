@@ -23,7 +23,9 @@ struct StripBuffers {
   vulkan::Buffer
       visibility;       // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
-  vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
+  // Sum of |terms|, a float a sample, or what pixels may be off by (ClaimsConstants), a vec2 of each
+  // frequency; empty unless an error was asked for.
+  vulkan::Buffer terms;
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
   vulkan::Buffer run_sums;   // of each run and power a plane, a float a sample; where the host sums
   vulkan::Buffer sum;        // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
@@ -61,7 +63,8 @@ struct SampleLayout {
   std::uint32_t sum_planes;
   std::uint32_t channels;
   std::uint32_t visibility_words; // 0: every diode reaches every sample
-  bool keeps_terms;               // and whether they break what was asked for
+  // Frequencies of which it is known what a pixel may be off by, beside the terms; 0: of none, and no terms.
+  std::uint32_t held_errors;
 };
 
 // Buffers of `previous`, whose contents are of no use any more, are taken where they have the right size.

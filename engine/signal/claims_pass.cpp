@@ -16,8 +16,8 @@ namespace {
 // Like claims.comp.
 class HostClaims {
 public:
-  HostClaims(const PassSetup &on, const vulkan::Buffer *later)
-      : errors_(on.buffers.sum), violations_(on.buffers.violations), later_(later),
+  HostClaims(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later)
+      : errors_(errors), violations_(on.buffers.violations), later_(later),
         tones_(on.modulation.frequencies()), reports_kept_(on.modulation.reports_kept) {}
 
   void settle(const shader::Strip &strip) const {
@@ -39,7 +39,7 @@ public:
 
 private:
   std::span<const glm::ivec2> errors_of(const shader::Strip &strip, std::uint32_t tone) const {
-    return {errors_.mapped_as<const glm::ivec2>() + std::size_t{tone} * sample_count(strip),
+    return {errors_.in.mapped_as<const glm::ivec2>() + std::size_t{tone} * errors_.plane(strip),
             std::size_t{strip.columns} * strip.rows};
   }
 
@@ -62,48 +62,52 @@ private:
     }
   }
 
-  const vulkan::Buffer &errors_, &violations_;
+  HeldErrors errors_;
+  const vulkan::Buffer &violations_;
   const vulkan::Buffer *later_;
   std::uint32_t tones_;
   bool reports_kept_;
 };
 
 // lavapipe takes its time for atomics and gathers; the host reads the same memory at once.
-Pass host_claims_pass(const PassSetup &on, const vulkan::Buffer *later) {
+Pass host_claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later) {
   return {.name = "accumulate",
-          .reads = sums,
+          .reads = errors.resource,
           .writes = later ? pixel_lists : no_resource,
           .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
-          .store = [claims = HostClaims(on, later)](const Recording &at,
-                                                    Measurement &) { claims.settle(at.of_strip()); }};
+          .store = [claims = HostClaims(on, errors, later)](const Recording &at,
+                                                            Measurement &) { claims.settle(at.of_strip()); }};
 }
 
-bool is_shared_with_host(const PassSetup &on, const vulkan::Buffer *later) {
-  return on.device.is_cpu() && on.options.allowed.host_sweep && on.buffers.sum.is_mapped() &&
+bool is_shared_with_host(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later) {
+  return on.device.is_cpu() && on.options.allowed.host_sweep && errors.in.is_mapped() &&
          on.buffers.violations.is_mapped() && (!later || later->is_mapped());
 }
 
 } // namespace
 
-Pass claims_pass(const PassSetup &on, const vulkan::Buffer *later) {
-  if (is_shared_with_host(on, later))
-    return host_claims_pass(on, later);
+HeldErrors errors_of_direct_pixels(const StripBuffers &buffers) { return {buffers.sum, sums, true}; }
+HeldErrors errors_of_demodulation(const StripBuffers &buffers) { return {buffers.terms, terms, false}; }
+
+Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later) {
+  if (is_shared_with_host(on, errors, later))
+    return host_claims_pass(on, errors, later);
   const auto pipeline = std::make_shared<const vulkan::ComputePipeline>(
       on.device, vulkan::shader_module(on.device, SamplePrecision::automatic, "claims"),
       sizeof(shader::ClaimsConstants),
       vulkan::Specialization{{shader::constant_passes_on, later != nullptr},
                              {shader::constant_reports_kept, on.modulation.reports_kept}});
   return {.name = "accumulate",
-          .reads = sums,
+          .reads = errors.resource,
           .writes = later ? pixel_lists : no_resource,
           .record = [=, &buffers = on.buffers, tones = on.modulation.frequencies()](const Recording &at) {
             const shader::Strip &strip = at.of_strip();
             const std::uint32_t pixels = strip.columns * strip.rows;
-            const shader::ClaimsConstants constants{buffers.sum.words(),
+            const shader::ClaimsConstants constants{errors.in.words(),
                                                     buffers.violations.words(),
                                                     address_of(later),
                                                     pixels,
-                                                    sample_count(strip),
+                                                    errors.plane(strip),
                                                     tones,
                                                     0};
             const std::uint32_t invocations =

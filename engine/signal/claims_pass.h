@@ -1,13 +1,26 @@
 #pragma once
-// What becomes of what the pixels of direct_pixels.h may be off by: the frame's claim, and the pixels that a
-// later class sums again.
+// What becomes of what the pixels of a frame of depth records may be off by: the frame's claim, and the
+// pixels that a later class sums again.
 
 #include "engine/light/accumulate_pass.h"
 
 namespace pmdsim {
 
-// Behind the sum. Those that may be beyond what was asked for are listed in `later`, or counted where there
-// is none.
-Pass claims_pass(const PassSetup &on, const vulkan::Buffer *later);
+// Where that has been left: as ClaimsConstants::errors, planes of samples or of pixels apart.
+struct HeldErrors {
+  const vulkan::Buffer &in;
+  Resources resource;
+  bool of_samples;
+
+  std::uint32_t plane(const shader::Strip &strip) const {
+    return of_samples ? sample_count(strip) : strip.padded_pixels;
+  }
+};
+HeldErrors errors_of_direct_pixels(const StripBuffers &buffers);
+HeldErrors errors_of_demodulation(const StripBuffers &buffers);
+
+// Behind those. Pixels that may be beyond what was asked for are listed in `later`, or counted where there is
+// none.
+Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later);
 
 } // namespace pmdsim

@@ -61,7 +61,7 @@ private:
   std::uint32_t frequencies_, at_once_;
   vk::DeviceSize sample_bytes_; // of the sum's planes of a frequency
   std::uint32_t lit_channel_, diodes_, side_;
-  bool single_run_;
+  bool single_run_, holds_;
   vulkan::Buffer records_, harmonics_; // shader::Frequency of each frequency; amplitudes
   vulkan::ComputePipeline first_;      // of the frequencies: stores the ground truth, too
   vulkan::ComputePipeline later_;      // all the others; empty where there are none
@@ -72,7 +72,7 @@ Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, cons
     : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.modulation.frequencies()),
       at_once_(frequencies_at_once(on.modulation, scope)),
       lit_channel_(ChannelLayout(on.modulation).lit_channel()), diodes_(groups.diode_count),
-      side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
+      side_(on.sensor.samples), single_run_(groups.runs.size() == 1), holds_(on.modulation.keeps_terms),
       records_(vulkan::upload(on.device, frequency_records(on.modulation, groups.largest_intensity_w_sr,
                                                            scope.bound, groups.diode_count))),
       harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
@@ -150,7 +150,7 @@ void Demodulation::record_depths(const Recording &at, std::uint32_t first_freque
       scene_.planes.words(),
       buffers_.sum.words(sample_bytes_ * plane * first_frequency),
       buffers_.channels.words(),
-      harmonics_.words(),
+      holds_ ? buffers_.terms.words() : harmonics_.words(),
       records_.words(first_frequency * sizeof(shader::Frequency)),
       scene_.paint.shapes.words(),
       scene_.paint.surfaces.words(),
@@ -172,7 +172,7 @@ Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const Su
           .reads = (scope.depth_records ? ids : ids | points) | sums | terms |
                    (on.modulation.lit ? visibility_counts : no_resource) |
                    (scope.list ? pixel_lists : no_resource),
-          .writes = channels | (scope.later ? pixel_lists | terms : no_resource),
+          .writes = channels | terms | (scope.later ? pixel_lists : no_resource),
           .record = [demodulation](const Recording &at) { demodulation->record(at); },
           .fill_list = fill_with_one(scope.list)};
 }

@@ -26,16 +26,13 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
   return backscatter_of(direct.shapes, direct.surfaces, ray, point, triangle, plane);
 }
 
-// What a return may be off by, in place of its sum; negative where that is not within what was asked for.
+// What a return may be off by, in place of its sum.
 void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, float terms, float size) {
   if (holds_pixels == 0)
     return;
   Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0));
   store_bound(to, frequency, pixel, size, errors);
-  vec2 held = vec2(errors.distance_m, errors.amplitude);
-  if (!is_kept(frequency, errors)) // it may be no number
-    held = vec2(errors.distance_m > 0.0 ? -errors.distance_m : -1.0, errors.amplitude > 0.0 ? -errors.amplitude : -1.0);
-  store_words(direct.errors, t * constants.plane + pixel, floatBitsToUint(held));
+  store_words(direct.errors, t * constants.plane + pixel, floatBitsToUint(held(frequency, errors)));
 }
 
 void store_nothing(uint i, DirectPixelsOf output_of) {

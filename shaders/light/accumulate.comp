@@ -16,6 +16,16 @@ void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRu
   add_to_plane(t, i, backscatter, tone_return(moment, path, run, Tones(constants.tones).at[t]));
 }
 
+#ifdef RECORD_DEPTH
+layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
+
+// In a plane of their own behind the tones'.
+void add_terms(uint i, float backscatter, float terms) {
+  if (keeps_terms != 0)
+    add_to_plane(tones, i, backscatter, vec2(terms, 0.0));
+}
+#endif
+
 // More of them would take long to compile, and are seldom.
 const uint unrolled_tones = 16;
 

@@ -463,7 +463,7 @@ struct DepthDemodulationConstants {
   uvec2 planes;
   uvec2 sum; // as in DemodulationConstants, from here on
   uvec2 channels;
-  uvec2 harmonics;
+  uvec2 harmonics_or_errors; // likewise; of sines, where terms are kept, out: as ClaimsConstants::errors
   uvec2 frequency;
   uvec2 shapes; // as in PointsConstants
   uvec2 surfaces;

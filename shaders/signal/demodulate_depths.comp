@@ -50,11 +50,20 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
         value = complex_multiply(value, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(of[f], p)))));
       z[f * planes + p] = compensated_add(z[f * planes + p], shines ? backscatter * value : vec2(0.0));
     }
+  if (keeps_terms != 0)
+    sum.terms += shines ? backscatter * load_sum(frequencies, 0, i).x : 0.0;
   sum.range = add(sum.range, hits ? range : real(0.0));
   sum.depth = add(sum.depth, hits ? depth : real(0.0));
   sum.hits += hits ? 1u : 0u;
   if (lit_is_kept != 0)
     sum.lit += hits ? Words(constants.lit).at[i] : 0u;
+}
+
+// Of frequency f.
+void hold(Channels to, Frequency frequency, uint f, uint pixel, float terms, float size) {
+  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0));
+  store_bound(to, frequency, pixel, size, errors);
+  store_words(constants.harmonics_or_errors, f * constants.padded_pixels + pixel, floatBitsToUint(held(frequency, errors)));
 }
 
 void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
@@ -83,7 +92,9 @@ void main() {
   [[unroll]] for (uint f = 0; f < frequencies; ++f) {
     [[unroll]] for (uint p = 0; p < planes; ++p)
       sum.z[p] = z[f * planes + p];
-    store_return(to, of[f], constants.harmonics, side * side, pixel, sum);
+    float size = store_return(to, of[f], constants.harmonics_or_errors, side * side, pixel, sum);
+    if (keeps_terms != 0)
+      hold(to, of[f], f, pixel, sum.terms, size);
   }
   if (ground_truth != 0)
     store_truth(to, pixel, first, sum);

@@ -220,6 +220,14 @@ bool is_kept(Frequency frequency, Errors errors) {
   return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
 }
 
+// What a return may be off by, for the frame's claim (ClaimsConstants): both negative where that is not within what was asked
+// for, or is no number.
+vec2 held(Frequency frequency, Errors errors) {
+  if (is_kept(frequency, errors))
+    return vec2(errors.distance_m, errors.amplitude);
+  return vec2(errors.distance_m > 0.0 ? -errors.distance_m : -1.0, errors.amplitude > 0.0 ? -errors.amplitude : -1.0);
+}
+
 // Of a return; not known where there is none.
 void store_bound(Channels to, Frequency frequency, uint pixel, float size, Errors errors) {
   if (keeps_bounds != 0)
