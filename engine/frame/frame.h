@@ -32,7 +32,9 @@ public:
   bool is_most_exact() const;
 
   // After it the frame is of no use any more.
-  SpareMemory release_memory() { return {std::move(on_.memory->buffers), on_.raster->release_images()}; }
+  SpareMemory release_memory() {
+    return {std::move(on_.memory->buffers), on_.raster ? on_.raster->release_images() : std::nullopt};
+  }
 
 private:
   void clear_violations(vulkan::PassRecorder &recorder) const;

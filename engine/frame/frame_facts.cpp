@@ -40,6 +40,7 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   facts.modulation.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   facts.model = sum_model(facts.lights, request.backscatter, facing);
   facts.paint = paint_use(facts.camera, request.scene);
+  facts.has_doubles = vulkan::uses_fp64(device, options.precision);
   facts.host_is_device = device.is_cpu();
   facts.largest_strip = largest_strip(device, facts.modulation, request.sensor);
   facts.projection = project_blocks(device, facts.camera, request.sensor, facts.largest_strip);

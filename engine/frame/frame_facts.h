@@ -33,6 +33,7 @@ struct FrameFacts {
   Projection projection;
   PaintUse paint;
   std::uint32_t largest_strip; // samples
+  bool has_doubles;            // what is done once a sample is done in them
   bool host_is_device;         // the device is the processor that the program runs on
 };
 

@@ -10,6 +10,7 @@
 #include "engine/signal/direct_pixels.h"
 #include "engine/signal/read_back.h"
 #include "engine/view/edge_settling.h"
+#include "engine/view/host/host_raster.h"
 #include "engine/view/lens_search_pass.h"
 #include "engine/view/points_pass.h"
 
@@ -74,17 +75,37 @@ Pass points_of(const FrameBasis &on, Precision precision, const vulkan::Buffer *
                      on.buffers, on.scene, list);
 }
 
+Pass host_raster_pass(const FrameBasis &on, const std::optional<ChipGrid> &grid) {
+  const auto raster =
+      std::make_shared<const HostRaster>(on.facts.projection, on.sensor, on.facts.camera, on.request.scene,
+                                         on.scene, grid, on.buffers.ids, on.options.host_vector_bits);
+  return {.name = "visibility",
+          .reads = no_resource,
+          .writes = ids,
+          .record = [](const Recording &) {},
+          .store = [=](const Recording &at, Measurement &) { raster->draw(at.planned); }};
+}
+
+Pass raster_pass(const FrameBasis &on, const std::shared_ptr<const IdRasterPass> &raster,
+                 const std::optional<ChipGrid> &grid) {
+  std::shared_ptr<const EdgeSettling> edges;
+  if (on.path.grid != SampleGrid::distorted)
+    edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
+                                                 on.request.scene, on.facts.projection.blocks, grid);
+  return {.name = "visibility",
+          .reads = no_resource,
+          .writes = ids,
+          .record = [=, &scene = on.scene, &buffers = on.buffers](const Recording &at) {
+            raster->record(at.commands, at.planned);
+            if (edges)
+              edges->record(at.commands, at.planned, scene.planes, buffers.ids);
+          }};
+}
+
 // What each sample sees, and where.
-void list_view(const FrameBasis &on, const std::shared_ptr<IdRasterPass> &raster,
-               const std::shared_ptr<const EdgeSettling> &edges, FrameGraph &graph) {
-  graph.add_before({.name = "visibility",
-                    .reads = no_resource,
-                    .writes = ids,
-                    .record = [=, &scene = on.scene, &buffers = on.buffers](const Recording &at) {
-                      raster->record(at.commands, at.planned);
-                      if (edges)
-                        edges->record(at.commands, at.planned, scene.planes, buffers.ids);
-                    }});
+void list_view(const FrameBasis &on, const std::shared_ptr<const IdRasterPass> &raster,
+               const std::optional<ChipGrid> &grid, FrameGraph &graph) {
+  graph.add_before(raster ? raster_pass(on, raster, grid) : host_raster_pass(on, grid));
   if (on.path.grid == SampleGrid::distorted)
     graph.add_before(lens_search_pass(on.device, on.options.precision, on.sensor, on.facts.camera,
                                       on.request.scene, on.facts.projection.blocks,
@@ -279,13 +300,11 @@ FramePasses make_passes(const FrameBasis &on, std::unique_ptr<FrameMemory> memor
   std::optional<ChipGrid> grid;
   if (on.path.record == SampleRecord::depth)
     grid.emplace(on.device, on.sensor);
-  auto raster =
-      std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, on.strips, on.scene,
-                                     on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
-  std::shared_ptr<const EdgeSettling> edges;
-  if (on.path.grid != SampleGrid::distorted)
-    edges = std::make_shared<const EdgeSettling>(on.device, on.options.precision, on.sensor, on.facts.camera,
-                                                 on.request.scene, on.facts.projection.blocks, grid);
+  std::shared_ptr<IdRasterPass> raster;
+  if (!on.path.host_raster)
+    raster =
+        std::make_shared<IdRasterPass>(on.device, on.facts.projection, on.sensor, on.strips, on.scene,
+                                       on.options.precision, grid, drawn_ids(on.buffers), std::move(images));
   const auto sources = std::make_shared<const SourceGroups>(on.plan.all);
   const ShadowPasses shadow = make_shadow_passes(on, grid);
   std::optional<TruthOfRecords> truth;
@@ -295,7 +314,7 @@ FramePasses make_passes(const FrameBasis &on, std::unique_ptr<FrameMemory> memor
   FramePasses made{on.path, on.sensor,         on.modulation, on.strips, on.windows.size(),
                    sources, std::move(memory), raster,        {},        report_of(on.plan, on.path)};
   FrameGraph &graph = made.graph;
-  list_view(on, raster, edges, graph);
+  list_view(on, raster, grid, graph);
   if (shadow)
     list_shadow_passes(on, shadow, graph);
   if (shadow && on.options.keep_visibility)

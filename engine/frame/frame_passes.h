@@ -27,7 +27,7 @@ struct FramePasses {
   std::size_t windows;                         // of visibility bits; 1 where there are none
   std::shared_ptr<const SourceGroups> sources; // all of them
   std::unique_ptr<FrameMemory> memory;
-  std::shared_ptr<IdRasterPass> raster;
+  std::shared_ptr<IdRasterPass> raster; // nothing where the host draws
   std::optional<SpotCheck> check;
   AccuracyReport report; // what is known before the frame
   FrameGraph graph{};

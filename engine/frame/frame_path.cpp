@@ -164,6 +164,13 @@ bool can_hold_records(const FrameFacts &facts, const FrameRequest &request) {
          facts.modulation.frequencies() <= most_direct_frequencies;
 }
 
+// The host's raster knows neither the holes of shapes nor tiles, and leaves doubles.
+bool can_raster_on_host(const FramePath &path, const FrameFacts &facts, const Sensor &sensor,
+                        const PathForms &allowed) {
+  return allowed.host_raster && facts.host_is_device && facts.has_doubles && !facts.paint.cutouts &&
+         is_even(path.grid, sensor);
+}
+
 // Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
 bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathForms &allowed) {
   return allowed.depth_records && path.is_sorted() && sensor.samples == 1 && is_even(path.grid, sensor);
@@ -236,6 +243,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   const Sensor &sensor = request.sensor;
   FramePath path{};
   path.grid = grid_of(sensor);
+  path.host_raster = can_raster_on_host(path, facts, sensor, allowed);
   path.windows = facts.modulation.lit ? static_cast<std::uint32_t>(windows) : 0;
   path.host_sweep = path.windows > 0 && facts.host_is_device && allowed.host_sweep;
   path.holes = path.windows > 0 && !facts.occluders.with_holes.empty();
@@ -277,6 +285,7 @@ std::vector<std::pair<std::string, std::string>> description(const FramePath &pa
   std::ranges::transform(path.classes, std::back_inserter(classes), text_of);
   return {{"grid", name_among(grid_names, path.grid)},
           {"record", record_text(path)},
+          {"raster", path.host_raster ? "host" : "device"},
           {"visibility_windows", fmt::format("{}", path.windows)},
           {"visibility", visibility_text(path)},
           {"surface", name_among(surface_names, path.backscatter)},

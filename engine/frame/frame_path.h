@@ -47,6 +47,7 @@ struct PixelClass {
 struct FramePath {
   SampleGrid grid;
   SampleRecord record;
+  bool host_raster;          // what samples see is found by the host
   bool points_first;         // every sample's point is made before the sum, not only those of a class
   std::uint32_t windows;     // of visibility bits; 0: every source reaches every sample
   bool host_sweep;           // what all others keep off is found by the host

@@ -39,6 +39,7 @@ const std::vector<Form> forms{
     {"uniform pixels of one sample", &PathForms::uniform_single_samples, 1, Mode::reduced, "pixels"},
     {"direct pixels within an error", &PathForms::direct_pixels, 1, Mode::automatic, "record"},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels, 2, Mode::automatic, "pixels"},
+    {"the raster on the host", &PathForms::host_raster, 1, Mode::exact, "raster"},
     {"the sweep on the host", &PathForms::host_sweep, 1, Mode::exact, "visibility"},
     {"the sum on the host", &PathForms::host_sum, 1, Mode::exact, "sum"},
 };

@@ -3,7 +3,7 @@
 // vector and a batch; `x` and `y` lead from the source to the samples across the batch's axis, m.
 
 #include "engine/light/host/law_sums.h"
-#include "engine/sampling/host/lanes.h"
+#include "engine/model/lanes.h"
 
 #include <cmath>
 #include <cstdint>

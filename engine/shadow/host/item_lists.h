@@ -11,6 +11,15 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
 constexpr int segment = 512; // items at a time
 
+// What tells whether items matter lies in other parts of memory for each block.
+inline void fetch_soon(const ItemTree &tree, std::uint32_t first, std::uint32_t blocks) {
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const ItemBlock &block = tree.items[first + static_cast<std::uint32_t>(std::countr_zero(blocks))];
+    for (std::uint32_t row = row_ax; row <= row_dz; ++row)
+      __builtin_prefetch(block.rows[row]);
+  }
+}
+
 // Lists the items that matter, block by block; returns how many blocks there are.
 template <class Matters>
 std::uint32_t list_items(const ItemTree &tree, const Ways &ways, Matters matters, ListedBlock *listed) {
@@ -25,6 +34,8 @@ std::uint32_t list_items(const ItemTree &tree, const Ways &ways, Matters matters
   while (depth > 0) {
     const Step step = stack[--depth];
     std::uint32_t met = meet(ways, tree.boxes[step.level][step.block]);
+    if (step.level == 0)
+      fetch_soon(tree, step.block * items_per_block, met);
     for (; met != 0; met &= met - 1) {
       const std::uint32_t below =
           step.block * items_per_block + static_cast<std::uint32_t>(std::countr_zero(met));

@@ -29,8 +29,8 @@ struct Sweep {
   float depth, reach, beside, tolerance;
   float to_lens[3];
   bool is_unclear, is_touched;
-  int base;                                     // surfaces before the board's centre
-  alignas(64) std::int32_t counts[most_diodes]; // surfaces before each diode, in the order of angles
+  int base;                                    // surfaces before the board's centre
+  alignas(64) std::int32_t counts[diode_room]; // surfaces before each diode, in the order of angles
 };
 
 inline void begin_sweep(const Sample &sample, const SilhouetteBoard &board, Sweep &sweep) {
@@ -250,17 +250,24 @@ inline void count_pair(const Pairs &pairs, int pair, int amount, const Rows &ite
   const Floats line_x = all(pairs.line_x[pair]), line_y = all(pairs.line_y[pair]),
                offset = all(pairs.offset[pair]), near_line = all(pairs.near_line[pair]);
   const Ints amounts = all(amount), numbers = lane_numbers();
-  // Of ranks from `first` on up to `end`.
+  const auto count_lanes = [&](std::int32_t d, const Ints &in_angle) {
+    const auto at = static_cast<std::uint32_t>(d);
+    const Floats f = line_x * load<Floats>(board.x_m + at) + line_y * load<Floats>(board.y_m + at) + offset;
+    Ints beyond = f < 0.0f;
+    if (const std::uint32_t close = bits_of(in_angle & (absolute(f) < near_line)); close != 0) [[unlikely]]
+      beyond = decide_close(pairs, pair, at, close, beyond, items, sample, board);
+    store(counts + at, load<Ints>(counts + at) + (beyond & in_angle & amounts));
+  };
+  // Of ranks from `first` on up to `end`. Most pairs end within two vectors; which of both, none can
+  // foretell.
   const auto count = [&](std::int32_t first, std::int32_t end) {
-    for (std::int32_t d = first & ~(lanes - 1); d < end; d += lanes) {
-      const auto at = static_cast<std::uint32_t>(d);
-      const Floats f = line_x * load<Floats>(board.x_m + at) + line_y * load<Floats>(board.y_m + at) + offset;
-      const Ints in_angle = (numbers >= first - d) & (numbers < end - d);
-      Ints beyond = f < 0.0f;
-      if (const std::uint32_t close = bits_of(in_angle & (absolute(f) < near_line)); close != 0) [[unlikely]]
-        beyond = decide_close(pairs, pair, at, close, beyond, items, sample, board);
-      store(counts + at, load<Ints>(counts + at) + (beyond & in_angle & amounts));
-    }
+    std::int32_t d = first & ~(lanes - 1);
+    count_lanes(d, (numbers >= first - d) & (numbers < end - d));
+    d += lanes;
+    do {
+      count_lanes(d, numbers < end - d);
+      d += lanes;
+    } while (d < end);
   };
   const std::int32_t from = pairs.from[pair], to = pairs.to[pair];
   count(from, pairs.wraps[pair] != 0 ? static_cast<std::int32_t>(board.diodes) : to);

@@ -65,14 +65,14 @@ void decide_exactly(Tile &tile, const Sample &sample, int hidden, Sweep &sweep) 
 }
 
 // The sample's bits; returns false where a count below zero tells that something was left out. Such a count
-// means nothing of a diode behind the sample's own surface.
+// means nothing of a diode behind the sample's own surface. `faces`: null where it faces all diodes.
 bool find_bits(const Sweep &sweep, const std::int32_t *faces, const SilhouetteBoard &board,
                std::uint32_t *words) {
   std::uint32_t below_zero = 0;
   std::memset(words, 0, shader::bundles_per_window * sizeof(*words));
   for (std::uint32_t d = 0; d < board.diodes; d += lanes) {
     const Ints ranks = load<Ints>(board.rank_of_bit + d);
-    const Ints count = gathered(sweep.counts, ranks), facing = gathered(faces, ranks);
+    const Ints count = gathered(sweep.counts, ranks), facing = faces ? gathered(faces, ranks) : all(-1);
     words[d / 32] |= bits_of((count == 0) & facing) << d % 32;
     below_zero |= bits_of((count < 0) & facing);
   }
@@ -86,10 +86,10 @@ void finish(Tile &tile, const Sample &sample, Sweep &sweep, std::uint32_t *words
             base = sweep.base + hidden;
   if (!sweep.is_touched && !sweep.is_unclear && !turns_away && base == 0)
     return;
-  alignas(64) std::int32_t faces[most_diodes];
-  std::memset(faces, -1, sizeof(faces));
+  alignas(64) std::int32_t facing[most_diodes];
+  const std::int32_t *const faces = turns_away ? facing : nullptr;
   if (turns_away)
-    find_facing(sample, board, faces);
+    find_facing(sample, board, facing);
   touch(sweep);
   if (base != 0)
     for (std::int32_t &count : sweep.counts)

@@ -65,12 +65,14 @@ struct EdgePlanes {
 
 // Diodes of one angle about the board's centre.
 constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
+// With a vector to spare, of the widest.
+constexpr std::uint32_t diode_room = most_diodes + 16;
 constexpr std::uint32_t angle_bins = 4096;
 
 // A window of diodes on its board.
 struct SilhouetteBoard {
   // The diodes in the order of their angles about the centre, and where each bit's diode is in that order.
-  alignas(64) float x_m[most_diodes], y_m[most_diodes];
+  alignas(64) float x_m[diode_room], y_m[diode_room];
   alignas(64) double exact_m[3][most_diodes];
   alignas(64) std::int32_t rank_of_bit[most_diodes];
   // Classes of one angle: each one's, a last one above all, and how many diodes have smaller ones. Of each

@@ -1,7 +1,7 @@
 #pragma once
 // What may lie between some samples and the board, by half-spaces that hold all ways from there.
 
-#include "engine/sampling/host/lanes.h"
+#include "engine/model/lanes.h"
 #include "engine/shadow/host/tile_samples.h"
 
 #include <cmath>

@@ -69,6 +69,24 @@ inline Floats absolute(const Floats &v) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & 0x7fffffff);
 }
 
+// a b + c, rounded once where the processor can: as LLVM, and so lavapipe, has it.
+inline Floats multiply_add(const Floats &a, const Floats &b, const Floats &c) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Floats>(
+      _mm512_fmadd_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), reinterpret_cast<__m512>(c)));
+#elif defined(__FMA__)
+  return reinterpret_cast<Floats>(
+      _mm256_fmadd_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(c)));
+#elif defined(__aarch64__)
+  Floats sum;
+  for (int i = 0; i < lanes; ++i)
+    sum[i] = __builtin_fmaf(a[i], b[i], c[i]);
+  return sum;
+#else
+  return a * b + c;
+#endif
+}
+
 // 0, 1, 2, ...
 inline Ints lane_numbers() {
   Ints numbers;

@@ -1,0 +1,75 @@
+// The host's raster leaves the bits of the device's.
+
+#include "tests/comparison/frame_bytes.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+#include "tests/support/units.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+Sensor drawing_sensor(std::uint32_t samples, const glm::dvec2 &fill_factor, const glm::dvec3 &rotation_rad) {
+  Sensor sensor;
+  sensor.resolution = {97, 83};
+  sensor.pixel_pitch_m = {1.1e-4, 1.3e-4};
+  sensor.focal_length_m = 0.005;
+  sensor.samples = samples;
+  sensor.fill_factor = fill_factor;
+  sensor.chip.rotation_rad = rotation_rad;
+  return sensor;
+}
+
+// From parts of a sample to most of the frame, with common edges, corners behind the lens, and intersections.
+Scene scene_of_all_sizes(std::uint32_t seed, const Sensor &sensor) {
+  Random random(seed);
+  Scene scene = random_triangles(random, 300, sensor.world_from_camera);
+  for (std::size_t i = 0; i < 20000; ++i) {
+    const double size_m = random.log_uniform(1e-3, 0.3);
+    const auto first = static_cast<std::uint32_t>(scene.positions_m.size());
+    const glm::dvec3 place_m = random.in_box({-1.2, -1.2, 0.8}, {1.2, 1.2, 3.0});
+    for (int k = 0; k < 4; ++k)
+      scene.positions_m.push_back(sensor.world_from_camera.point(place_m + size_m * random.unit_vector()));
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      Triangle triangle = scene.triangles.front();
+      triangle.vertices = {first + k, first + 1 + k, first + 2 + k};
+      scene.triangles.push_back(triangle);
+    }
+  }
+  return scene;
+}
+
+std::string drawn(const Scene &scene, const Sensor &sensor, bool on_host, std::uint32_t host_vector_bits,
+                  std::uint32_t max_strip_samples) {
+  SimulatorOptions options = keep_everything(max_strip_samples);
+  options.host_vector_bits = host_vector_bits;
+  options.allowed.host_raster = on_host;
+  Simulator simulator = make_simulator(options);
+  simulator.prepare(scene, sensor, {light_at(ring(24, 0.1), 0.0)}, Backscatter::constant);
+  return bytes_of(simulator.measure());
+}
+
+} // namespace
+
+TEST_CASE("the host draws what the device draws, in vectors of any width and strips of any height") {
+  const std::uint32_t samples = GENERATE(1u, 3u);
+  const glm::dvec2 fill_factor = GENERATE(glm::dvec2(1), glm::dvec2(0.6, 0.4));
+  const glm::dvec3 rotation_rad = GENERATE(glm::dvec3(0), glm::dvec3(9, -7, 20) * degree);
+  const Sensor sensor = drawing_sensor(samples, fill_factor, rotation_rad);
+  const Scene scene = scene_of_all_sizes(samples, sensor);
+  const std::uint32_t of_seven_rows = 7 * sensor.resolution.x * samples * samples;
+  for (const std::uint32_t max_strip_samples : {0u, of_seven_rows}) {
+    const std::string expected = drawn(scene, sensor, false, 512, max_strip_samples);
+    for (const std::uint32_t host_vector_bits : {512u, 256u, 128u}) {
+      INFO(fmt::format("S = {}, fill {} x {}, tilted {}, {} bits, strips of {}", samples, fill_factor.x,
+                       fill_factor.y, rotation_rad != glm::dvec3(0), host_vector_bits, max_strip_samples));
+      CHECK((drawn(scene, sensor, true, host_vector_bits, max_strip_samples) == expected));
+    }
+  }
+}
