@@ -122,8 +122,7 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
     const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
-    // Near ones may pass to a class in double; of several samples a pixel, where no shadows fall, that takes
-    // longer than to sum fewer diodes, and points, in double.
+    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
     const double condition =
         view.sensor.samples > 1 && !view.modulation.lit ? groups.polynomials.growth : 1.0;
     if (bound && is_within(*bound, accuracy, condition))

@@ -89,6 +89,8 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
           {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
           {shader::constant_taps, on.modulation.taps},
           {shader::constant_listed, scope.list != nullptr},
+          {shader::constant_depth_records,
+           on.buffers.id_bytes == sizeof(shader::uvec4) && on.sensor.samples > 1},
           {shader::constant_keeps_terms, on.modulation.keeps_terms}};
 }
 
@@ -235,7 +237,9 @@ void Sum::record_run(const Recording &at, std::uint32_t run) const {
         blocks_per_run_,
         plane,
         at.of_strip().padded_pixels,
-        d == 0 ? 1u : 0u};
+        d == 0 ? 1u : 0u,
+        at.of_strip().columns,
+        at.of_strip().samples};
     dispatch_listed(run == 0 ? first_ : later_, at.commands, constants, plane, list_, of_samples);
   }
 }

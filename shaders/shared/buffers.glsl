@@ -29,6 +29,13 @@ uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool til
   return at.y * extent.x * samples + at.x;
 }
 
+// Likewise of sample i, counted sub-sample by sub-sample, where samples are records and lie row by row.
+uint record_index(uint i, uint padded_pixels, uint columns, uint samples) {
+  uint pixel = i % padded_pixels, subsample = i / padded_pixels;
+  return id_index(uvec2(pixel % columns, pixel / columns), uvec2(subsample % samples, subsample / samples), uvec2(columns, 0),
+                  samples, false);
+}
+
 // Lavapipe fetches and stores lane by lane, a double as fast as a float: two floats at a time.
 #ifdef REAL_DOUBLE_FLOAT
 vec4 load_vec4(uvec2 address, uint i) { return Vec4s(address).at[i]; }

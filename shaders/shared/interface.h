@@ -346,6 +346,8 @@ struct AccumulateConstants {
   uint plane;  // elements of a plane of the sum
   uint padded_pixels;
   uint adds_terms; // 0: another dispatch for the same diodes does
+  uint columns;    // of the strip, pixels
+  uint samples;    // S
 };
 
 // How a modulation frequency becomes channels, and what was asked for of it: a distance within limit_m and an

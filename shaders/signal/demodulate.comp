@@ -51,7 +51,8 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
     sum.depth = add(sum.depth, position.z);
     sum.hits += 1u;
     if (lit_is_kept != 0)
-      sum.lit += Words(constants.lit).at[i];
+      sum.lit += Words(constants.lit).at[depth_records != 0 ? record_index(i, constants.padded_pixels, constants.columns, constants.samples)
+                                                             : i];
     if (keeps_terms != 0)
       sum.terms += max(0.0, Floats(constants.terms).at[i]);
   }
