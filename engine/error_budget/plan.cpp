@@ -123,8 +123,7 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
-    const double condition =
-        view.sensor.samples > 1 && !view.modulation.lit ? groups.polynomials.growth : 1.0;
+    const double condition = view.sensor.samples > 1 ? groups.polynomials.growth : 1.0;
     if (bound && is_within(*bound, accuracy, condition))
       return {precision, std::move(groups), *bound};
     last = bound;
