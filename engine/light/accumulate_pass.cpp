@@ -72,26 +72,26 @@ vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &g
 }
 
 vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
-  return {{shader::constant_straight, !scope.looped && is_straight(on.device, on.options, scope.precision)},
-          {shader::constant_blocks_per_run, groups.blocks_per_run},
-          {shader::constant_moments, groups.moments},
-          {shader::constant_powers, groups.polynomials.powers},
-          {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
-          {shader::constant_coplanar, groups.polynomials.coplanar},
-          {shader::constant_point_dimensions, scope.beforehand ? groups.polynomials.point_dimensions : 0},
-          {shader::constant_summed_by_host, scope.by_host},
-          {shader::constant_backscatter_model, on.model.backscatter},
-          {shader::constant_pattern_model, on.model.pattern},
-          {shader::constant_cosine_order, on.model.order},
-          {shader::constant_phased, groups.phased},
-          {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
-          {shader::constant_shadowed, scope.shadowed},
-          {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
-          {shader::constant_taps, on.modulation.taps},
-          {shader::constant_listed, scope.list != nullptr},
-          {shader::constant_depth_records,
-           on.buffers.id_bytes == sizeof(shader::uvec4) && on.sensor.samples > 1},
-          {shader::constant_keeps_terms, on.modulation.keeps_terms}};
+  return {
+      {shader::constant_straight, !scope.looped && is_straight(on.device, on.options, scope.precision)},
+      {shader::constant_blocks_per_run, groups.blocks_per_run},
+      {shader::constant_moments, groups.moments},
+      {shader::constant_powers, groups.polynomials.powers},
+      {shader::constant_equal_weights, sums_equal_weights(groups, scope)},
+      {shader::constant_coplanar, groups.polynomials.coplanar},
+      {shader::constant_point_dimensions, scope.beforehand ? groups.polynomials.point_dimensions : 0},
+      {shader::constant_summed_by_host, scope.by_host},
+      {shader::constant_backscatter_model, on.model.backscatter},
+      {shader::constant_pattern_model, on.model.pattern},
+      {shader::constant_cosine_order, on.model.order},
+      {shader::constant_phased, groups.phased},
+      {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
+      {shader::constant_shadowed, scope.shadowed},
+      {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
+      {shader::constant_taps, on.modulation.taps},
+      {shader::constant_listed, scope.list != nullptr},
+      {shader::constant_bits_by_row, on.buffers.id_bytes == sizeof(shader::uvec4) && on.sensor.samples > 1},
+      {shader::constant_keeps_terms, on.modulation.keeps_terms}};
 }
 
 std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound,

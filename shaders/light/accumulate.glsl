@@ -10,7 +10,7 @@
 layout(push_constant, std430) uniform Constants { AccumulateConstants constants; };
 layout(constant_id = constant_is_first) const uint is_first = 0;
 layout(constant_id = constant_listed) const uint listed = 0;
-layout(constant_id = constant_depth_records) const uint depth_records = 0; // of several samples a pixel
+layout(constant_id = constant_bits_by_row) const uint bits_by_row = 0;
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 
 #define DIAGRAM_VALUES constants.diagrams
@@ -26,7 +26,7 @@ uint visibility_of_block(uint i, uint block) {
   if (shadowed == 0)
     return 0u;
   uint first = block * diodes_per_block;
-  if (depth_records != 0)
+  if (bits_by_row != 0)
     i = record_index(i, constants.padded_pixels, constants.columns, constants.samples);
   return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
