@@ -27,8 +27,8 @@ constexpr double least_share_of_reduction = 0.02;
 // they can be: few are, and the frame claims what the worst of the others may be off by.
 constexpr double largest_bound_in_float = 2.0;
 
-// Of paint, texture and vignetting, relative.
-constexpr double painted_backscatter_error = 0x1p-21;
+// Relative, one rounding; of paint, texture and vignetting.
+constexpr double plain_backscatter_error = 0x1p-24, painted_backscatter_error = 0x1p-21;
 
 std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
   std::vector<double> result;
@@ -57,7 +57,9 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
   scope.beam_edges_are_terms = scope.emission_cosine < beam_cosine;
-  scope.backscatter_error = painted_backscatter_error;
+  scope.backscatter_error = view.painted || view.sensor.vignetting != Vignetting::none
+                                ? painted_backscatter_error
+                                : plain_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.modulation, scope);
 }
 
@@ -126,9 +128,8 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
 RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
-  for (const Precision wanted :
+  for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
@@ -267,8 +268,7 @@ double largest_m(const FramePlan &plan, double condition) {
 // the plan's sources.
 void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
   if (plan.surely_kept || plan.precision == Precision::fp64 || accuracy.precision ||
-      sum_precision(view.modulation, Precision::fp64) != Precision::fp64 || view.sensor.has_distortion() ||
-      (view.modulation.lit && plan_windows(plan.all).size() > 1))
+      view.sensor.has_distortion() || (view.modulation.lit && plan_windows(plan.all).size() > 1))
     return;
   SourceGroups groups =
       precise_groups(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m(), plan.all);
@@ -295,7 +295,7 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
 
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
   FramePlan plan;
-  plan.precision = sum_precision(view.modulation, accuracy.precision.value_or(Precision::fp32));
+  plan.precision = accuracy.precision.value_or(Precision::fp32);
   plan.all = plan.reduced = groups_of(view, view.lights, plan.precision);
   const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};

@@ -160,9 +160,8 @@ bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathF
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
-  return (facts.modulation.lit && !plan.precise) || sensor.has_distortion()
-             ? plan.precision
-             : sum_precision(facts.modulation, Precision::fp64);
+  return (facts.modulation.lit && !plan.precise) || sensor.has_distortion() ? plan.precision
+                                                                            : Precision::fp64;
 }
 
 // In the order of the numbers that they stand for.

@@ -168,7 +168,9 @@ struct PreciseSource {
   vec4 axis_rest;
   float intensity_rest;
   float order_rest;
-  float padding_1, padding_2;
+  uint diagram; // of a measured one, the index of its first number (engine/light/precise_diagrams.h)
+  float padding;
+  vec4 across_rest;
 };
 
 // What the diodes of a run share.

@@ -3,13 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/shared/buffers.glsl"
-#include "shaders/shared/real_elementary.glsl"
 #include "shaders/signal/demodulation.glsl"
 
 layout(push_constant, std430) uniform Constants { DemodulationConstants constants; };
 layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_depth_records) const uint depth_records = 0;
-layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 layout(constant_id = constant_passes_on) const uint passes_on = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
