@@ -251,6 +251,10 @@ private:
       amplitude = std::max(amplitude, any_rad);
     }
     RoundingBound bound = fixed(wavenumber_rad_m);
+    // Ranges count there and back, where a term is turned and where the sum's angle is taken.
+    bound.per_apart = modulation_.waveform == shader::waveform_harmonics
+                          ? std::numeric_limits<double>::infinity()
+                          : fundamental.weight + (phasor + angle) * u_;
     bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
@@ -272,6 +276,7 @@ private:
     const double z = 2.0 * (tap + (6.0 + modulation_.taps) * u_);
     // The wave's corners turn z at most twice as fast as the path's phase.
     const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
+    bound.per_apart = 2.0 * weight_ + angle * u_;
     bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
     bound.amplitude_per_condition = z + summation() + 2.0 * weight_;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
@@ -324,7 +329,7 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
     using Bound = RoundingBound;
     for (const auto part :
          {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
-          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error})
+          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error, &Bound::per_apart})
       largest.*part = std::max(largest.*part, of_frequency.*part);
   }
   return largest;

@@ -59,7 +59,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.backscatter = storage(&B::backscatter, samples * layout.backscatter_bytes);
   made.visibility = storage(&B::visibility, visibility_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.lit = storage(&B::lit, lit_bytes, Usage::eTransferDst);
-  made.terms = storage(&B::terms, layout.keeps_terms ? samples * sizeof(float) : 0);
+  made.terms = storage(&B::terms, layout.keeps_terms ? samples * 2 * sizeof(float) : 0);
   made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
   made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);

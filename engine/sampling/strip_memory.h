@@ -23,7 +23,7 @@ struct StripBuffers {
   vulkan::Buffer
       visibility;       // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
-  vulkan::Buffer terms; // sum of |terms|, a float a sample; empty unless an error was asked for
+  vulkan::Buffer terms; // sum of |terms|, a float a sample, then of their weights' own errors; empty unless an error was asked for
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
   vulkan::Buffer sum;        // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
   vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel

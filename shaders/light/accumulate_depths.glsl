@@ -63,7 +63,7 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 
 float load_backscatter(uint i) { return 1.0; }
 
-void add_terms(uint i, float backscatter, float terms) {}
+void add_terms(uint i, float backscatter, vec2 terms) {}
 
 void add_to_plane(uint plane, uint i, float backscatter, vec2 value) {
   uint at = plane * constants.plane + i;

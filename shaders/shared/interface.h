@@ -363,6 +363,11 @@ struct Frequency {
   float amplitude_limit, amplitude_fixed, amplitude_per_condition;
   uint diodes;      // of all illuminators
   uint lit_channel; // where the share of them that reaches a pixel goes
+  // Of samples at one range; and what per_condition_m grows by for each metre that they are apart.
+  float near_fixed_m, near_per_condition_m, per_apart;
+  // Of weights that are off, in units of engine/model/accuracy.h: as distance, the same of samples at one range, and
+  // as amplitude, which is what the second grows by a metre, too.
+  float per_weight_m, near_per_weight_m, per_weight;
 };
 
 struct DemodulationConstants {

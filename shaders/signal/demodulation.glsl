@@ -40,10 +40,11 @@ float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
   vec4 z[planes]; // compensated; of a tone relative to twice the reference range
-  float terms;    // sum of |terms| over the samples, where an error was asked for
+  vec2 terms;     // sum of |terms| over the samples, and of their weights' own errors, where an error was asked for
   Real range;     // sum over the hits, m
   Real depth;
   Real reference_m; // range of the first hit
+  vec2 apart_m;     // the least and the most that another's is beyond it, where an error was asked for
   uint hits;
   uint lit; // sum over the hits, diodes
 };
@@ -51,7 +52,8 @@ struct PixelSum {
 void see_nothing(out PixelSum sum) {
   [[unroll]] for (uint p = 0; p < planes; ++p)
     sum.z[p] = vec4(0.0);
-  sum.terms = 0.0;
+  sum.terms = vec2(0.0);
+  sum.apart_m = vec2(0.0);
   sum.range = sum.depth = sum.reference_m = real(0.0);
   sum.hits = sum.lit = 0u;
 }
@@ -248,13 +250,18 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
-// The bound (Frequency), given what is known to add to the sum's own error.
-Errors errors_of(Frequency frequency, float terms, float size, Errors added) {
-  float condition = terms > 0.0 ? terms / size : 0.0; // infinite where all cancels
+// The bound (Frequency), given what is known to add to the sum's own error, and how much the samples' ranges differ by.
+// `terms`: of the light, and of its weights' own errors.
+Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, float apart_m) {
+  float condition = terms.x > 0.0 ? terms.x / size : 0.0; // infinite where all cancels
+  float weights = terms.y > 0.0 ? terms.y / size : 0.0;
   // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
-  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition;
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * weights;
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
-  return Errors(frequency.fixed_m + (frequency.per_condition_m + added.distance_m) * condition * grown,
+  float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
+                 min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m) * weights;
+  float any_m = (frequency.per_condition_m + added.distance_m) * condition + frequency.per_weight_m * weights;
+  return Errors(min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
                 frequency.amplitude_fixed + relative);
 }
 

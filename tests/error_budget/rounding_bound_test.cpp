@@ -113,6 +113,25 @@ TEST_CASE("samples of one pixel at different ranges") {
   CHECK(smooth_m > bound_of(room)->per_condition_m);
 }
 
+TEST_CASE("what is known of samples at one range grows evenly as they part, at most") {
+  const Light room{diodes_at(pair), {{{-1.0, -1.0, 1.0}, {1.0, 1.0, 4.0}}}};
+  for (const Waveform &waveform : {Waveform{}, Waveform{Waveform::Kind::square, {}}}) {
+    Light light = room;
+    light.waveform = waveform;
+    const auto apart = [&](double spread_m) {
+      return bound_of(light, {.samples = 4, .sample_spread_m = spread_m}).value();
+    };
+    const RoundingBound near = apart(0.0);
+    for (const double spread_m : {0.001, 0.1, 1.0, 3.0}) {
+      const RoundingBound far = apart(spread_m);
+      const double per_apart_m = near.per_apart * spread_m;
+      CHECK(far.distance_m(1.0) <= near.distance_m(1.0) + per_apart_m);
+      CHECK(far.distance_m(1.0) >= near.distance_m(1.0) + 0.5 * std::min(per_apart_m, 1e-8));
+      CHECK(far.per_weight_m <= near.per_weight_m + near.amplitude_per_weight * spread_m * (1 + 1e-12));
+    }
+  }
+}
+
 TEST_CASE("samples of one pixel at one range, apart across the view of a lamp beside the lens") {
   // All are 2 m from the lens, but of a pixel of 0.2 rad some are 0.4 m nearer to the lamp than others.
   const Light beside{diodes_at({{3.0, 0.0, 0.0}, {3.001, 0.0, 0.0}})};
