@@ -27,8 +27,8 @@ constexpr double least_share_of_reduction = 0.02;
 // they can be: few are, and the frame claims what the worst of the others may be off by.
 constexpr double largest_bound_in_float = 2.0;
 
-// Of paint, texture and vignetting, relative.
-constexpr double painted_backscatter_error = 0x1p-21;
+// Relative, one rounding; of paint, texture and vignetting.
+constexpr double plain_backscatter_error = 0x1p-24, painted_backscatter_error = 0x1p-21;
 
 std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
   std::vector<double> result;
@@ -57,8 +57,17 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   scope.incidence_cosine = 1.0; // where light grazes a surface, the pixel's terms have it
   scope.emission_cosine = least_emission_cosine(groups, view.visible);
   scope.beam_edges_are_terms = scope.emission_cosine < beam_cosine;
-  scope.backscatter_error = painted_backscatter_error;
+  scope.backscatter_error = view.painted || view.sensor.vignetting != Vignetting::none
+                                ? painted_backscatter_error
+                                : plain_backscatter_error;
   return rounding_bound(groups, view.visible, view.model, view.modulation, scope);
+}
+
+// The same of pixels whose samples are at one range; nothing where there is only one.
+std::optional<RoundingBound> at_one_range(const LightFacts &view, const SourceGroups &groups,
+                                          Precision precision, std::uint32_t samples,
+                                          bool beforehand = false) {
+  return samples > 1 ? bound_of(view, groups, precision, samples, 0.0, beforehand) : std::nullopt;
 }
 
 bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double condition) {
@@ -117,9 +126,8 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
 RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
-  for (const Precision wanted :
+  for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    const Precision precision = sum_precision(view.modulation, wanted);
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
@@ -133,8 +141,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   refuse(accuracy, why_unbounded(view.lights));
 }
 
-ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding,
-                          const ReducedLight &light) {
+// `at_one_range`: the same of pixels whose samples are.
+ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light,
+                          const std::optional<RoundingBound> &at_one_range = std::nullopt) {
   ErrorBound bound{accuracy.max_error_m,
                    rounding.fixed_m,
                    rounding.per_condition_m + light.error_per_condition_m,
@@ -143,11 +152,13 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
                    rounding.amplitude_per_condition + light.amplitude_error_per_condition,
                    0.0,
                    0.0};
-  if (rounding.per_weight_m > 0.0)
-    bound.terms_per_weight_error = rounding.per_weight_m / bound.per_condition_m;
-  if (std::isfinite(bound.amplitude_limit))
-    bound.terms_per_weight_error =
-        std::max(bound.terms_per_weight_error, rounding.amplitude_per_weight / bound.amplitude_per_condition);
+  bound.per_weight_m = rounding.per_weight_m;
+  bound.amplitude_per_weight = rounding.amplitude_per_weight;
+  if (at_one_range && std::isfinite(rounding.per_apart))
+    bound.at_one_range = {at_one_range->fixed_m, at_one_range->per_condition_m + light.error_per_condition_m,
+                          at_one_range->per_weight_m, rounding.per_apart};
+  if (rounding.per_weight_m > 0.0 || std::isfinite(bound.amplitude_limit))
+    bound.terms_per_weight_error = 1.0 / weight_error_unit;
   bound.terms_of_beam_edges = bound.terms_per_weight_error * rounding.beam_edge_error;
   return bound;
 }
@@ -202,9 +213,12 @@ std::optional<ErrorBound> bound_beforehand(const LightFacts &view, const Accurac
                                            const FramePlan &plan) {
   if (plan.all.polynomials.point_dimensions == 0)
     return std::nullopt;
-  const auto rounding = bound_of(view, plan.all, plan.precision, view.sensor.samples, std::nullopt, true);
-  return rounding ? std::optional(error_bound_of(accuracy, *rounding, whole_light(view.lights)))
-                  : std::nullopt;
+  const std::uint32_t samples = view.sensor.samples;
+  const auto rounding = bound_of(view, plan.all, plan.precision, samples, std::nullopt, true);
+  if (!rounding)
+    return std::nullopt;
+  return error_bound_of(accuracy, *rounding, whole_light(view.lights),
+                        at_one_range(view, plan.all, plan.precision, samples, true));
 }
 
 ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
@@ -219,7 +233,7 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
 }
 
 bool is_kept_by_some(const ErrorBound &bound) {
-  return bound.fixed_m + bound.per_condition_m <= bound.limit_m &&
+  return bound.nearest().fixed_m + bound.nearest().per_condition_m <= bound.limit_m &&
          bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 
@@ -237,7 +251,8 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
     const auto rounding = bound_of(view, plan.uniform_groups, Precision::fp32, side, spread_m);
     if (!rounding)
       return std::nullopt;
-    const ErrorBound bound = error_bound_of(accuracy, *rounding, light);
+    const ErrorBound bound = error_bound_of(accuracy, *rounding, light,
+                                            at_one_range(view, plan.uniform_groups, Precision::fp32, side));
     return is_kept_by_some(bound) ? std::optional(bound) : std::nullopt;
   };
   plan.uniform_bound = bound_at(1, 0.0);
@@ -250,7 +265,8 @@ double largest_m(const FramePlan &plan, double condition) {
   double largest = 0.0;
   for (const auto *bound : {&plan.bound, &plan.bound_of_all, &plan.bound_beforehand})
     if (*bound)
-      largest = std::max(largest, (*bound)->fixed_m + (*bound)->per_condition_m * condition);
+      largest =
+          std::max(largest, (*bound)->nearest().fixed_m + (*bound)->nearest().per_condition_m * condition);
   return largest;
 }
 
@@ -258,8 +274,7 @@ double largest_m(const FramePlan &plan, double condition) {
 // the plan's sources.
 void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
   if (plan.surely_kept || plan.precision == Precision::fp64 || accuracy.precision ||
-      sum_precision(view.modulation, Precision::fp64) != Precision::fp64 || view.sensor.has_distortion() ||
-      (view.modulation.lit && plan_windows(plan.all).size() > 1))
+      view.sensor.has_distortion() || (view.modulation.lit && plan_windows(plan.all).size() > 1))
     return;
   SourceGroups groups =
       precise_groups(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m(), plan.all);
@@ -267,7 +282,9 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
   if (!rounding)
     return;
   plan.precise = std::move(groups);
-  plan.bound_of_precise = error_bound_of(accuracy, *rounding, whole_light(view.lights));
+  plan.bound_of_precise =
+      error_bound_of(accuracy, *rounding, whole_light(view.lights),
+                     at_one_range(view, *plan.precise, Precision::fp64, view.sensor.samples));
   // Diagrams are looked up in float, which double does not help: only what is beyond the budget tries it.
   if (std::ranges::any_of(plan.all.positions,
                           [](const SourcePosition &place) { return place.law_error > 0.0; }))
@@ -286,7 +303,7 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
 
 FramePlan exact_plan(const LightFacts &view, const Accuracy &accuracy) {
   FramePlan plan;
-  plan.precision = sum_precision(view.modulation, accuracy.precision.value_or(Precision::fp32));
+  plan.precision = accuracy.precision.value_or(Precision::fp32);
   plan.all = plan.reduced = groups_of(view, view.lights, plan.precision);
   const ReducedLight light = whole_light(view.lights);
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
@@ -321,10 +338,17 @@ std::string limits_text(const Accuracy &asked_for) {
 } // namespace
 
 ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
-  for (const auto part : {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
-                          &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
-                          &ErrorBound::terms_of_beam_edges})
+  for (const auto part :
+       {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
+        &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
+        &ErrorBound::terms_of_beam_edges, &ErrorBound::per_weight_m, &ErrorBound::amplitude_per_weight})
     a.*part = std::max(a.*part, b.*part);
+  using Near = ErrorBound::AtOneRange;
+  if (!b.at_one_range)
+    a.at_one_range.reset();
+  if (a.at_one_range)
+    for (const auto part : {&Near::fixed_m, &Near::per_condition_m, &Near::per_weight_m, &Near::per_apart})
+      (*a.at_one_range).*part = std::max((*a.at_one_range).*part, (*b.at_one_range).*part);
   return a;
 }
 
@@ -339,9 +363,14 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.reduced = groups_of(view, light.illuminators, plan.precision);
   plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
-  plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights));
-  const auto of_reduced = bound_of(view, plan.reduced, plan.precision, view.sensor.samples);
-  plan.bound = error_bound_of(accuracy, of_reduced.value_or(sum.bound), light);
+  const std::uint32_t samples = view.sensor.samples;
+  const auto of_all = at_one_range(view, plan.all, plan.precision, samples);
+  plan.bound_of_all = error_bound_of(accuracy, sum.bound, whole_light(view.lights), of_all);
+  if (const auto of_reduced = bound_of(view, plan.reduced, plan.precision, samples))
+    plan.bound = error_bound_of(accuracy, *of_reduced, light,
+                                at_one_range(view, plan.reduced, plan.precision, samples));
+  else
+    plan.bound = error_bound_of(accuracy, sum.bound, light, of_all);
   plan.bound_beforehand = bound_beforehand(view, accuracy, plan);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));

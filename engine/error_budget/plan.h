@@ -23,6 +23,7 @@ struct LightFacts {
   Backscatter backscatter;
   bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
   PathForms allowed = {};
+  bool painted = true; // some surface's backscatter is looked up
 };
 
 // What the uniform-pixel pass has to know of the light.

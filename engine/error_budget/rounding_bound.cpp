@@ -219,14 +219,16 @@ private:
 
   // What the camera takes from the sum.
   RoundingBound fixed(double wavenumber_rad_m) const {
-    const double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
+    double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
+    if (scope_.precision == Precision::fp64) // half a unit in the last place of the largest float below
+      ambiguity_m = std::exp2(std::floor(std::log2(ambiguity_m)));
     const double distance_m =
         groups_.phased
             ? ambiguity_m
             : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.path_difference_m);
     RoundingBound bound{};
     bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
-                    0.5 * angle * float_rounding * std::min(relative_m(), 1.0 / wavenumber_rad_m);
+                    0.5 * angle * u_ * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
     if (scope_.beam_edges_are_terms)
       bound.beam_edge_error =
@@ -237,8 +239,7 @@ private:
   // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
   // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
-    const double rotation =
-        modulation_.waveform == shader::waveform_harmonics ? phasor * float_rounding : 0.0;
+    const double rotation = modulation_.waveform == shader::waveform_harmonics ? phasor * u_ : 0.0;
     const TermError fundamental = of_tone(wavenumber_rad_m);
     double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
     double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;
@@ -253,6 +254,10 @@ private:
       amplitude = std::max(amplitude, any_rad);
     }
     RoundingBound bound = fixed(wavenumber_rad_m);
+    // Ranges count there and back, where a term is turned and where the sum's angle is taken.
+    bound.per_apart = modulation_.waveform == shader::waveform_harmonics
+                          ? std::numeric_limits<double>::infinity()
+                          : fundamental.weight + (phasor + angle) * u_;
     bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
@@ -269,12 +274,12 @@ private:
     const double turns_per_m = wavenumber_rad_m / (2.0 * std::numbers::pi);
     const double apart_turns = turns_per_m * groups_.path_difference_m;
     const double place_turns =
-        2.0 * float_rounding +
-        turns_per_m * u_ * (excess_error_m(groups_, scope_) + 2.0 * groups_.path_difference_m);
+        2.0 * u_ + turns_per_m * u_ * (excess_error_m(groups_, scope_) + 2.0 * groups_.path_difference_m);
     const double tap = 4.0 * place_turns + 4.0 * apart_turns * summation() + 6.0 * u_;
-    const double z = 2.0 * (tap + (6.0 + modulation_.taps) * float_rounding);
+    const double z = 2.0 * (tap + (6.0 + modulation_.taps) * u_);
     // The wave's corners turn z at most twice as fast as the path's phase.
     const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
+    bound.per_apart = 2.0 * weight_ + angle * u_;
     bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
     bound.amplitude_per_condition = z + summation() + 2.0 * weight_;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
@@ -327,7 +332,7 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
     using Bound = RoundingBound;
     for (const auto part :
          {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
-          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error})
+          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error, &Bound::per_apart})
       largest.*part = std::max(largest.*part, of_frequency.*part);
   }
   return largest;

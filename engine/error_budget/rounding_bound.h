@@ -24,6 +24,9 @@ struct RoundingBound {
   // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
   double beam_edge_error;
+  // For each metre that the ranges of a pixel's samples differ by, the first two together grow by no more, at
+  // any condition; infinite where that is not known.
+  double per_apart;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }

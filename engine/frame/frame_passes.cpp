@@ -334,9 +334,10 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                         const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
                         SpareMemory &&spare) {
   FrameFacts facts = look(device, options, request);
-  const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation,
-                                     facts.model, request.backscatter, device.is_cpu(), options.allowed},
-                                    request.accuracy, attempt);
+  const FramePlan plan =
+      plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation, facts.model,
+                  request.backscatter, device.is_cpu(), options.allowed, facts.paint.painted},
+                 request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
   facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
   facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;

@@ -179,9 +179,8 @@ bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathF
 // What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
 // plan's precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
-  return (facts.modulation.lit && !plan.precise) || sensor.has_distortion()
-             ? plan.precision
-             : sum_precision(facts.modulation, Precision::fp64);
+  return (facts.modulation.lit && !plan.precise) || sensor.has_distortion() ? plan.precision
+                                                                            : Precision::fp64;
 }
 
 // In the order of the numbers that they stand for.
@@ -259,7 +258,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
                   path.summation == Summation::polynomial_moments && can_sum_on_host(plan.all);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
-  const bool holds = reports && can_hold_records(facts, request) && can_sort(facts, windows) &&
+  const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) && can_sort(facts, windows) &&
                      is_better_unsorted(facts, plan, request, allowed) &&
                      can_sum_records(path, plan, sensor, allowed);
   const bool direct = can_be_direct(path, facts, plan, sensor, allowed) && (!reports || holds);

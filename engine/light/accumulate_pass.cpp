@@ -21,11 +21,12 @@ namespace {
 constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
-  return scope.output                         ? scope.output->module
-         : scope.depth_records                ? "accumulate_depths"
-         : !modulation.by_moments()           ? "accumulate_per_diode"
-         : scope.precision == Precision::fp64 ? "accumulate_precise"
-                                              : "accumulate";
+  const bool precise = scope.precision == Precision::fp64;
+  return scope.output              ? scope.output->module
+         : scope.depth_records     ? "accumulate_depths"
+         : modulation.by_moments() ? precise ? "accumulate_precise" : "accumulate"
+         : precise                 ? "accumulate_per_diode_precise"
+                                   : "accumulate_per_diode";
 }
 
 // Precise sums of pairs of floats would take minutes to compile as a straight line.

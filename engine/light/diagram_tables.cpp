@@ -123,14 +123,6 @@ double slope_in_phi(const Diagram &diagram) {
   return std::isfinite(slope) ? slope : std::numeric_limits<double>::infinity();
 }
 
-// What J changes by, at most, where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +
-// |dJ/dphi| / sin theta, the latter as directions near the axis are uncertain in phi. Infinite where J varies
-// about the axis itself. Where a table ends it may jump to 0; that is an edge like a shadow's.
-double diagram_slope(const Diagram &diagram) {
-  return std::numbers::pi * slope_in_theta(diagram) +
-         (diagram.phi_rad.size() > 1 ? slope_in_phi(diagram) : 0.0);
-}
-
 double error_of(const Diagram &diagram, const DiagramGrid &grid) {
   const double rounding = direction_rounding * diagram_slope(diagram);
   if (grid.row_length == 0)
@@ -171,6 +163,11 @@ void append_both(const Diagram &diagram, const ThetaPlace &theta_place, DiagramG
 }
 
 } // namespace
+
+double diagram_slope(const Diagram &diagram) {
+  return std::numbers::pi * slope_in_theta(diagram) +
+         (diagram.phi_rad.size() > 1 ? slope_in_phi(diagram) : 0.0);
+}
 
 DiagramGrid DiagramTables::grid_of(const std::shared_ptr<const Diagram> &diagram) {
   const auto [found, is_new] = grids_.try_emplace(diagram);

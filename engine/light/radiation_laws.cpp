@@ -106,17 +106,28 @@ double cosine_edge_rounding_u(const LawRounding &sum) {
 
 // A measured diagram: J from a table.
 
+// Turned so that phi counts from the diagram's first.
+glm::dvec3 first_across(const Diode &diode) {
+  const double first_phi_rad = diode.pattern.diagram->phi_rad.front();
+  return std::cos(first_phi_rad) * diode.across +
+         std::sin(first_phi_rad) * glm::cross(diode.axis, diode.across);
+}
+
 void describe_diagram(const Diode &diode, DiagramTables &tables, shader::GroupSource &record) {
   const DiagramGrid grid = tables.grid_of(diode.pattern.diagram);
-  // Turned so that phi counts from the grid's first.
-  const glm::dvec3 across = std::cos(grid.first_phi_rad) * diode.across +
-                            std::sin(grid.first_phi_rad) * glm::cross(diode.axis, diode.across);
   record.diagram = grid.first_value;
   record.theta_steps = static_cast<float>(grid.theta_steps);
   record.first_theta = static_cast<float>(grid.first_theta_rad);
   record.theta_steps_per_rad = static_cast<float>(grid.theta_steps_per_rad);
   record.row_length = grid.row_length;
-  record.across = glm::vec4(across, grid.phi_steps);
+  record.across = glm::vec4(first_across(diode), grid.phi_steps);
+}
+
+void describe_diagram_precisely(const Diode &diode, PreciseDiagrams &diagrams,
+                                shader::PreciseSource &record) {
+  record.diagram = diagrams.first_of(diode.pattern.diagram);
+  const glm::dvec3 across = first_across(diode);
+  record.across_rest = glm::vec4(across - glm::dvec3(glm::vec3(across)), 0.0f);
 }
 
 LawForm diagram_form(const Pattern &pattern) {
@@ -129,6 +140,8 @@ double diagram_rounding_u(float, const LawRounding &) { return 6.0; }
 double diagram_error(const Pattern &pattern, DiagramTables &tables) {
   return tables.grid_of(pattern.diagram).error;
 }
+
+double precise_error_of_diagram(const Pattern &pattern) { return precise_diagram_error(*pattern.diagram); }
 
 constexpr std::array laws{
     RadiationLaw{.kind = Kind::isotropic,
@@ -151,9 +164,11 @@ constexpr std::array laws{
     RadiationLaw{.kind = Kind::diagram,
                  .number = -2.0f,
                  .describe = describe_diagram,
+                 .describe_precisely = describe_diagram_precisely,
                  .form = diagram_form,
                  .rounding_u = diagram_rounding_u,
                  .error = diagram_error,
+                 .precise_error = precise_error_of_diagram,
                  .unbounded = "a measured diagram that varies about its own axis has no bound"},
 };
 
@@ -193,6 +208,13 @@ double law_error(const Pattern &pattern, DiagramTables &tables) {
   if (law.rounding_u == nullptr)
     return unbounded;
   return law.error != nullptr ? law.error(pattern, tables) : 0.0;
+}
+
+double precise_law_error(const Pattern &pattern) {
+  const RadiationLaw &law = law_of(pattern);
+  if (law.rounding_u == nullptr)
+    return unbounded;
+  return law.precise_error != nullptr ? law.precise_error(pattern) : 0.0;
 }
 
 std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode) {

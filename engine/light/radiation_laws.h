@@ -5,6 +5,7 @@
 
 #include "engine/light/camera_light.h"
 #include "engine/light/diagram_tables.h"
+#include "engine/light/precise_diagrams.h"
 #include "shaders/shared/interface.h"
 
 #include <optional>
@@ -50,6 +51,9 @@ struct RadiationLaw {
   float number;
   // Writes what J is made of into a diode's record, which has the law's number.
   void (*describe)(const Diode &, DiagramTables &, shader::GroupSource &) = nullptr;
+  // Likewise into the one that is summed in fp64, beside what rounding took from the other; left out:
+  // nothing.
+  void (*describe_precisely)(const Diode &, PreciseDiagrams &, shader::PreciseSource &) = nullptr;
   // The cheapest form for diodes that are alike in this; left out: pattern_any.
   LawForm (*form)(const Pattern &) = nullptr;
   // And the one beside others: shader::pattern_general, or pattern_any for what that does not know.
@@ -61,6 +65,7 @@ struct RadiationLaw {
   double (*rounding_u)(float order, const LawRounding &) = nullptr;
   // And beside that, as such; left out: 0. Infinite where there is no bound of it.
   double (*error)(const Pattern &, DiagramTables &) = nullptr;
+  double (*precise_error)(const Pattern &) = nullptr; // in fp64
   // Why an error cannot be promised where there is no bound.
   const char *unbounded = "a diode has a radiation law whose rounding has no bound";
   // Where beams have a rim: how steep it is, for GroupSource::order, nothing where it is an edge; and J's own
@@ -75,6 +80,7 @@ const RadiationLaw &law_of(const shader::GroupSource &diode);
 
 // What J of a diode is off by beside its rounding; infinite where its law claims nothing.
 double law_error(const Pattern &pattern, DiagramTables &tables);
+double precise_law_error(const Pattern &pattern); // in fp64
 
 // Of a diode's beam, and how the reduction expands its J; nothing where its law has none.
 std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode);

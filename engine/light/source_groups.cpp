@@ -92,7 +92,8 @@ glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
 
 // What rounding to `rounded` took; nothing of a dark one.
 shader::PreciseSource precise_diode(const shader::GroupSource &rounded, const Diode &diode,
-                                    const glm::dvec3 &reference_m, double largest_intensity_w_sr) {
+                                    const glm::dvec3 &reference_m, double largest_intensity_w_sr,
+                                    PreciseDiagrams &diagrams) {
   shader::PreciseSource record{};
   record.rounded = rounded;
   if (rounded.intensity == 0.0f)
@@ -104,6 +105,8 @@ shader::PreciseSource precise_diode(const shader::GroupSource &rounded, const Di
   record.intensity_rest = rest(diode.intensity_w_sr / largest_intensity_w_sr, rounded.intensity);
   if (rounded.order >= 0.0f)
     record.order_rest = rest(diode.pattern.order, rounded.order);
+  if (const RadiationLaw &law = law_of(rounded); law.describe_precisely != nullptr)
+    law.describe_precisely(diode, diagrams, record);
   return record;
 }
 
@@ -185,8 +188,15 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
-void add_runs(const Group &group, Precision precision, SourceGroups &result, DiagramTables &diagrams) {
+// Of all diodes, in both precisions.
+struct Diagrams {
+  DiagramTables in_float;
+  PreciseDiagrams precise;
+};
+
+void add_runs(const Group &group, Precision precision, SourceGroups &result, Diagrams &diagrams) {
   const std::size_t run_diodes = std::size_t{result.blocks_per_run} * shader::diodes_per_block;
+  const bool precise = precision == Precision::fp64;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
                            group.phase_turns, group.reach});
@@ -195,12 +205,13 @@ void add_runs(const Group &group, Precision precision, SourceGroups &result, Dia
       const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];
       result.diodes.push_back(
           dark ? dark_diode()
-               : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams));
-      if (precision == Precision::fp64)
-        result.precise_diodes.push_back(
-            precise_diode(result.diodes.back(), diode, group.reference_m, result.largest_intensity_w_sr));
-      result.positions.push_back(
-          {diode.position_m, dark ? no_id : diode.number, law_error(diode.pattern, diagrams)});
+               : group_diode(diode, group.reference_m, result.largest_intensity_w_sr, diagrams.in_float));
+      if (precise)
+        result.precise_diodes.push_back(precise_diode(result.diodes.back(), diode, group.reference_m,
+                                                      result.largest_intensity_w_sr, diagrams.precise));
+      const double error =
+          precise ? precise_law_error(diode.pattern) : law_error(diode.pattern, diagrams.in_float);
+      result.positions.push_back({diode.position_m, dark ? no_id : diode.number, error});
     }
   }
 }
@@ -245,10 +256,10 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
   }
   result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision));
   result.blocks_per_run = run_blocks ? *run_blocks : cheapest_run_blocks(grouping.groups(), most_blocks);
-  DiagramTables diagrams;
+  Diagrams diagrams;
   for (const Group &group : grouping.groups())
     add_runs(group, precision, result, diagrams);
-  result.diagrams = diagrams.values();
+  result.diagrams = precision == Precision::fp64 ? diagrams.precise.values() : diagrams.in_float.values();
   return result;
 }
 

@@ -50,7 +50,7 @@ struct SourceGroups {
   std::vector<shader::GroupSource> diodes;
   std::vector<shader::PreciseSource> precise_diodes; // the same; only for fp64
   std::vector<SourcePosition> positions; // beside `diodes`; those that stand together lie together
-  std::vector<glm::vec2> diagrams;       // the values of all, each with the next theta's
+  std::vector<glm::vec2> diagrams;       // of all: as in DiagramTables, of fp64 as in PreciseDiagrams
   std::uint32_t diode_count = 0;         // without the dark ones
   double path_difference_m =
       0.0;               // at most, of any group: |r_nm - rho| over its diodes and all that is visible

@@ -62,8 +62,4 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
     groups.polynomials.point_dimensions = point_dimensions(groups, model);
 }
 
-Precision sum_precision(const Modulation &modulation, Precision wanted) {
-  return modulation.by_moments() ? wanted : Precision::fp32;
-}
-
 } // namespace pmdsim

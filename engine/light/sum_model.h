@@ -39,7 +39,4 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);
 
-// Of the sum where `wanted` is asked for: what goes diode by diode is summed in float.
-Precision sum_precision(const Modulation &modulation, Precision wanted);
-
 } // namespace pmdsim

@@ -44,15 +44,30 @@ struct AccuracyReport {
   std::size_t unpromised = 0;
 };
 
+// Of what a weight is off by, relative: small, so that little light keeps its digits.
+inline constexpr double weight_error_unit = 0x1p-24;
+
 // What is asked for of every pixel: an error within the limit. It is off by fixed + per_condition * condition
 // at most, the condition being sum of |terms| / |sum| over its samples and diodes.
 struct ErrorBound {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
-  // A diode's weight that is off by its own size is as bad as this many times its term in the condition.
+  // What is off in single diodes' weights beside that is counted apart, in this part of them; 0: it is not.
   double terms_per_weight_error = 0.0;
   // Where beams may end in view: the same of what rounding does to a cosine to a diode's axis, of order 1.
   double terms_of_beam_edges = 0.0;
+  // As distance and as amplitude, of weights that are off by themselves, over |sum|.
+  double per_weight_m = 0.0, amplitude_per_weight = 0.0;
+  // The same of distance where a pixel's samples are at one range, and what the first two of these grow by
+  // together for each metre that their ranges differ by, at most; nothing where that is not known.
+  struct AtOneRange {
+    double fixed_m, per_condition_m, per_weight_m, per_apart;
+  };
+  std::optional<AtOneRange> at_one_range = std::nullopt;
+
+  AtOneRange nearest() const {
+    return at_one_range.value_or(AtOneRange{fixed_m, per_condition_m, per_weight_m, 0.0});
+  }
 };
 
 } // namespace pmdsim

@@ -26,6 +26,7 @@ struct PathForms {
   bool uniform_single_samples = true; // the same where pixels have one sample
   bool refined_uniform_pixels = true; // at four points of a pixel
   bool host_raster = true;            // of IDs, where the device is the host's processor
+  bool unsorted = true;               // within an error all pixels from depth records, in place of classes
   bool host_sweep = true;             // and claims: on the host, where the device is its processor
   bool host_sum = true;               // of sources with measured diagrams, likewise
 };

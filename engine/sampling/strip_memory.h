@@ -23,8 +23,8 @@ struct StripBuffers {
   vulkan::Buffer
       visibility;       // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
-  // Sum of |terms|, a float a sample, or what pixels may be off by (ClaimsConstants), a vec2 of each
-  // frequency; empty unless an error was asked for.
+  // Sum of |terms|, a float a sample, then of their weights' own errors; or what pixels may be off by
+  // (ClaimsConstants), a vec2 of each frequency. Empty unless an error was asked for.
   vulkan::Buffer terms;
   vulkan::Buffer violations; // shader::BudgetViolations; likewise
   vulkan::Buffer run_sums;   // of each run and power a plane, a float a sample; where the host sums

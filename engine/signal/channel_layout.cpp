@@ -101,6 +101,13 @@ std::vector<shader::Frequency> frequency_records(const Modulation &modulation, d
     record.limit_m = static_cast<float>(bound->limit_m);
     record.fixed_m = static_cast<float>(bound->fixed_m);
     record.per_condition_m = static_cast<float>(bound->per_condition_m);
+    const ErrorBound::AtOneRange nearest = bound->nearest();
+    record.near_fixed_m = static_cast<float>(nearest.fixed_m);
+    record.near_per_condition_m = static_cast<float>(nearest.per_condition_m);
+    record.per_apart = static_cast<float>(nearest.per_apart);
+    record.per_weight_m = static_cast<float>(weight_error_unit * bound->per_weight_m);
+    record.near_per_weight_m = static_cast<float>(weight_error_unit * nearest.per_weight_m);
+    record.per_weight = static_cast<float>(weight_error_unit * bound->amplitude_per_weight);
     record.amplitude_limit = static_cast<float>(bound->amplitude_limit);
     record.amplitude_fixed = static_cast<float>(bound->amplitude_fixed);
     record.amplitude_per_condition = static_cast<float>(bound->amplitude_per_condition);

@@ -27,10 +27,10 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
 }
 
 // What a return may be off by, in place of its sum.
-void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, float terms, float size) {
+void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, vec2 terms, float size) {
   if (holds_pixels == 0)
     return;
-  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0));
+  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0), 0.0);
   store_bound(to, frequency, pixel, size, errors);
   store_words(direct.errors, t * constants.plane + pixel, floatBitsToUint(held(frequency, errors)));
 }
@@ -41,7 +41,7 @@ void store_nothing(uint i, DirectPixelsOf output_of) {
   Channels to = Channels(output_of.at.channels, constants.plane);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
-    hold(to, output_of.at, t, output_of.of[t], i, 0.0, 0.0);
+    hold(to, output_of.at, t, output_of.of[t], i, vec2(0.0), 0.0);
   }
   if (lit_is_kept != 0)
     store_lit(to, output_of.of[0].lit_channel, output_of.of[0].diodes, i, sum);
@@ -70,7 +70,7 @@ void main() {
   sum.hits = hits ? 1u : 0u;
   sum.reference_m = sum.range = path.range;
   Channels to = Channels(direct.channels, constants.plane);
-  float terms = shines ? backscatter * terms_of(weights, point, run) : 0.0;
+  vec2 terms = shines ? backscatter * terms_of(weights, point, run) : vec2(0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     vec2 z = tone_return(moment, path, run, Tones(constants.tones).at[t]);
     sum.z[0] = vec4(shines ? backscatter * z : vec2(0.0), 0.0, 0.0);

@@ -20,9 +20,9 @@ void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRu
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 
 // In a plane of their own behind the tones'.
-void add_terms(uint i, float backscatter, float terms) {
+void add_terms(uint i, float backscatter, vec2 terms) {
   if (keeps_terms != 0)
-    add_to_plane(tones, i, backscatter, vec2(terms, 0.0));
+    add_to_plane(tones, i, backscatter, terms);
 }
 #endif
 

@@ -38,12 +38,16 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 float load_backscatter(uint i) { return Floats(constants.backscatter).at[i]; }
 
 // What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
-void add_terms(uint i, float backscatter, float terms) {
+void add_terms(uint i, float backscatter, vec2 terms) {
   if (keeps_terms == 0 || constants.adds_terms == 0)
     return;
   Floats sums = Floats(constants.terms);
-  float scattered = backscatter > 0.0 ? backscatter * terms : 0.0;
-  sums.at[i] = is_first != 0 ? scattered : sums.at[i] + scattered;
+  vec2 scattered = backscatter > 0.0 ? backscatter * terms : vec2(0.0);
+  uint weights = constants.plane + i;
+  if (is_first == 0)
+    scattered += vec2(sums.at[i], sums.at[weights]);
+  sums.at[i] = scattered.x;
+  sums.at[weights] = scattered.y;
 }
 
 // Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even

@@ -4,13 +4,7 @@
 // each tap; kappa |e| is at most 1/2 (source_groups.cpp), so no phase has to be wrapped inside the loop.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/light/accumulate.glsl"
-
-layout(constant_id = constant_taps) const uint taps = 4;
-
-// Of an even N the later half follows from the first.
-const uint distinct_taps = taps % 2 == 0 ? taps / 2 : taps;
-const uint totals = distinct_taps + 1; // of w times what (C + 1) / 4 differs by from that of the reference path, and of w
-const uint tap_planes = (distinct_taps + 1) / 2;
+#include "shaders/light/taps.glsl"
 
 // The reference path's phase less the tap's, in turns, in [-1/2, 1/2].
 void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phases[distinct_taps]) {

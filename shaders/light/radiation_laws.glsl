@@ -5,6 +5,7 @@
 #define PMDSIM_RADIATION_LAWS_GLSL
 
 #ifdef SUM_IN_REAL
+#include "shaders/light/precise_diagrams.glsl"
 #include "shaders/shared/real_elementary.glsl"
 
 Real half_of(Real a) { return multiply(a, real(0.5)); }
@@ -55,7 +56,7 @@ Real real_power(Real3 way, Real3 axis, Real order, Real along_m, Real r2) {
 #endif
 
 // A measured diagram: J from a table on even grids of theta, the angle to the diode's axis, and phi, the angle about it
-// (engine/light/diagram_tables.h). It holds floats, so there is no other form.
+// (engine/light/diagram_tables.h). It holds floats; precise_diagrams.glsl has the other form.
 
 // The angle of (x, y) in radians, 0 to pi, y >= 0 and `length` the length: twice the arctangent of its half within 45
 // degrees, to 2e-8 of it.
@@ -147,8 +148,8 @@ float diagram(Way way, GroupSource diode) {
   return theta.inside ? (axial ? of_theta : j) : 0.0;
 }
 
-// The laws of which there is a form for floats only.
-float law_of_floats(Way way, GroupSource diode) {
+// The laws that are tables.
+float law_of_table(Way way, GroupSource diode) {
   return pattern_model == pattern_axial ? axial_diagram(way, diode) : diagram(way, diode);
 }
 
@@ -159,20 +160,14 @@ float radiation(Point point, GroupSource diode, float r, float inverse_r, float 
   if (pattern_model == pattern_power)
     return whole_power(max(0.0, along_m * inverse_r));
   if (pattern_model == pattern_axial)
-    return law_of_floats(way_from(diode, point, along_m, r), diode);
+    return law_of_table(way_from(diode, point, along_m, r), diode);
   float j = diode.order < 0.0 ? 1.0 : real_power(point, diode, along_m, inverse_r2);
   if (pattern_model == pattern_any)
-    j = diode.order < -1.0 ? law_of_floats(way_from(diode, point, along_m, r), diode) : j;
+    j = diode.order < -1.0 ? law_of_table(way_from(diode, point, along_m, r), diode) : j;
   return j;
 }
 
 #ifdef SUM_IN_REAL
-Real law_of_floats(Real3 from_reference, GroupSource diode, Real along_m, Real r) {
-  Point rounded;
-  rounded.position = high3(from_reference);
-  return real(law_of_floats(way_from(diode, rounded, high(along_m), high(r)), diode));
-}
-
 // `from_reference`: P - G; `way`: from the diode to the point; m.
 Real radiation(Real3 from_reference, Real3 way, PreciseSource diode, Real r, Real r2) {
   Real3 axis = real3(diode.rounded.axis.xyz, diode.axis_rest.xyz);
@@ -180,11 +175,12 @@ Real radiation(Real3 from_reference, Real3 way, PreciseSource diode, Real r, Rea
   if (pattern_model == pattern_power)
     return whole_power(at_least_zero(divide(along_m, r)));
   if (pattern_model == pattern_axial)
-    return law_of_floats(from_reference, diode.rounded, along_m, r);
+    return precise_diagram(way, axis, diode, along_m);
   Real order = real(diode.rounded.order, diode.order_rest);
   Real j = diode.rounded.order < 0.0 ? real(1.0) : real_power(way, axis, order, along_m, r2);
   if (pattern_model == pattern_any)
-    j = diode.rounded.order < -1.0 ? law_of_floats(from_reference, diode.rounded, along_m, r) : j;
+    if (diode.rounded.order < -1.0)
+      j = precise_diagram(way, axis, diode, along_m);
   return j;
 }
 #endif

@@ -111,10 +111,10 @@ float beam_edge_terms(float weights, float height, float inverse, LightRun run) 
 }
 
 // What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, to the
-// rims of beams and to steep diagrams, counts as if it were light.
-float terms_of(float weights, float rho, float height, LightRun run) {
+// rims of beams and to steep diagrams, is counted apart (Frequency).
+vec2 terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
-  float terms = weights;
+  float terms = 0.0;
   if (backscatter_model == backscatter_lambert) {
     float any = run.heights * run.intensity * inverse * inverse * inverse;
     // In the dark beside a beam a height's rounding weighs no more than the light.
@@ -125,7 +125,7 @@ float terms_of(float weights, float rho, float height, LightRun run) {
     terms += run.diagrams * inverse * inverse;
   if (beam_edges != 0)
     terms += beam_edge_terms(weights, height, inverse, run);
-  return weights > 0.0 ? terms : 0.0; // where there is no light nothing can be off
+  return weights > 0.0 ? vec2(weights, terms) : vec2(0.0); // where there is no light nothing can be off
 }
 
 // The phase of a path at a tone, the illuminator's with it, in turns.

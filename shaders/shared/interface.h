@@ -168,7 +168,9 @@ struct PreciseSource {
   vec4 axis_rest;
   float intensity_rest;
   float order_rest;
-  float padding_1, padding_2;
+  uint diagram; // of a measured one, the index of its first number (engine/light/precise_diagrams.h)
+  float padding;
+  vec4 across_rest;
 };
 
 // What the diodes of a run share.
@@ -363,6 +365,11 @@ struct Frequency {
   float amplitude_limit, amplitude_fixed, amplitude_per_condition;
   uint diodes;      // of all illuminators
   uint lit_channel; // where the share of them that reaches a pixel goes
+  // Of samples at one range; and what per_condition_m grows by for each metre that they are apart.
+  float near_fixed_m, near_per_condition_m, per_apart;
+  // Of weights that are off, in units of engine/model/accuracy.h: as distance, the same of samples at one range, and
+  // as amplitude, which is what the second grows by a metre, too.
+  float per_weight_m, near_per_weight_m, per_weight;
 };
 
 struct DemodulationConstants {

@@ -3,6 +3,7 @@
 #ifndef PMDSIM_REAL_ELEMENTARY_GLSL
 #define PMDSIM_REAL_ELEMENTARY_GLSL
 
+#include "shaders/shared/elementary.glsl"
 #include "shaders/shared/real.glsl"
 
 struct RealComplex {
@@ -41,6 +42,14 @@ RealComplex real_unit_phasor(Real turns) {
   int q = int(quarter) & 3;
   RealComplex turned = RealComplex((q & 1) == 0 ? c : negate(s), (q & 1) == 0 ? s : c);
   return RealComplex((q & 2) == 0 ? turned.re : negate(turned.re), (q & 2) == 0 ? turned.im : negate(turned.im));
+}
+
+// The angle of z in turns, in [-1/2, 1/2]; z is not zero. What a float is off by is so small an angle that it is its tangent.
+Real real_angle_turns(RealComplex z) {
+  float near = angle_turns(vec2(high(z.re), high(z.im)));
+  RealComplex back = real_unit_phasor(real(-near));
+  RealComplex left = complex_multiply(z, back);
+  return add(real(near), multiply(divide(left.im, left.re), real(0.159154937, 6.42063824e-9)));
 }
 
 const vec2 log_series[4] = {vec2(0.666666687, -1.98682155e-8), vec2(0.400000006, -5.96046457e-9),

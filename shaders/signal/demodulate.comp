@@ -3,13 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_list.glsl"
 #include "shaders/shared/buffers.glsl"
-#include "shaders/shared/real_elementary.glsl"
 #include "shaders/signal/demodulation.glsl"
 
 layout(push_constant, std430) uniform Constants { DemodulationConstants constants; };
 layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_depth_records) const uint depth_records = 0;
-layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 layout(constant_id = constant_passes_on) const uint passes_on = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
@@ -46,15 +44,18 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
     Real range = length3(position);
     if (sum.hits == 0u)
       sum.reference_m = range;
-    add_return(sum, frequency, i, add(range, negate(sum.reference_m)));
+    Real excess_m = add(range, negate(sum.reference_m));
+    add_return(sum, frequency, i, excess_m);
     sum.range = add(sum.range, range);
     sum.depth = add(sum.depth, position.z);
     sum.hits += 1u;
     if (lit_is_kept != 0)
       sum.lit += Words(constants.lit).at[depth_records != 0 ? record_index(i, constants.padded_pixels, constants.columns, constants.samples)
                                                              : i];
-    if (keeps_terms != 0)
-      sum.terms += max(0.0, Floats(constants.terms).at[i]);
+    if (keeps_terms != 0) {
+      sum.terms += vec2(max(0.0, Floats(constants.terms).at[i]), Floats(constants.terms).at[constants.plane + i]);
+      sum.apart_m = vec2(min(sum.apart_m.x, high(excess_m)), max(sum.apart_m.y, high(excess_m)));
+    }
   }
 }
 
@@ -76,8 +77,10 @@ void pass_on(uint pixel) {
 }
 
 // What was asked for of a return holds, or the pixel passes on, or it is counted.
-void hold(Channels to, Frequency frequency, uint pixel, float terms, float size) {
-  Errors errors = errors_of(frequency, largest_amplitude(constants.harmonics) * terms, size, Errors(0.0, 0.0));
+void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, float size) {
+  vec2 terms = largest_amplitude(constants.harmonics) * sum.terms;
+  float apart_m = sum.apart_m.y - sum.apart_m.x;
+  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0), apart_m);
   store_bound(to, frequency, pixel, size, errors);
   if (is_kept(frequency, errors))
     report_kept(constants.violations, errors);
@@ -100,7 +103,7 @@ void main() {
   Channels to = Channels(constants.channels, constants.padded_pixels);
   float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
   if (keeps_terms != 0)
-    hold(to, frequency, pixel, sum.terms, size);
+    hold(to, frequency, pixel, sum, size);
   if (ground_truth != 0) {
     store_ground_truth(to, samples, pixel, sum);
     uvec2 ids = central_ids(pixel);

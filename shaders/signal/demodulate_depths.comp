@@ -50,8 +50,11 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
         value = complex_multiply(value, unit_phasor(turn_fraction(multiply(excess_m, turns_per_m(of[f], p)))));
       z[f * planes + p] = compensated_add(z[f * planes + p], shines ? backscatter * value : vec2(0.0));
     }
-  if (keeps_terms != 0)
-    sum.terms += shines ? backscatter * load_sum(frequencies, 0, i).x : 0.0;
+  if (keeps_terms != 0) {
+    float excess = hits ? high(excess_m) : 0.0;
+    sum.terms += shines ? backscatter * load_sum(frequencies, 0, i) : vec2(0.0);
+    sum.apart_m = vec2(min(sum.apart_m.x, excess), max(sum.apart_m.y, excess));
+  }
   sum.range = add(sum.range, hits ? range : real(0.0));
   sum.depth = add(sum.depth, hits ? depth : real(0.0));
   sum.hits += hits ? 1u : 0u;
@@ -60,8 +63,8 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
 }
 
 // Of frequency f.
-void hold(Channels to, Frequency frequency, uint f, uint pixel, float terms, float size) {
-  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0));
+void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, float size) {
+  Errors errors = errors_of(frequency, sum.terms, size, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
   store_bound(to, frequency, pixel, size, errors);
   store_words(constants.harmonics_or_errors, f * constants.padded_pixels + pixel, floatBitsToUint(held(frequency, errors)));
 }
@@ -94,7 +97,7 @@ void main() {
       sum.z[p] = z[f * planes + p];
     float size = store_return(to, of[f], constants.harmonics_or_errors, side * side, pixel, sum);
     if (keeps_terms != 0)
-      hold(to, of[f], f, pixel, sum.terms, size);
+      hold(to, of[f], f, pixel, sum, size);
   }
   if (ground_truth != 0)
     store_truth(to, pixel, first, sum);

@@ -6,6 +6,7 @@
 #include "shaders/shared/compensated.glsl"
 #include "shaders/shared/elementary.glsl"
 #include "shaders/shared/real.glsl"
+#include "shaders/shared/real_elementary.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/signal/violations.glsl"
 
@@ -19,6 +20,7 @@ layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 layout(constant_id = constant_keeps_bounds) const uint keeps_bounds = 0;
+layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 
 // The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
 // of each frequency. Channels 2 n and 2 n + 1 lie side by side, a word of each for every pixel: lavapipe stores lane by lane, two
@@ -38,10 +40,11 @@ float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
   vec4 z[planes]; // compensated; of a tone relative to twice the reference range
-  float terms;    // sum of |terms| over the samples, where an error was asked for
+  vec2 terms;     // sum of |terms| over the samples, and of their weights' own errors, where an error was asked for
   Real range;     // sum over the hits, m
   Real depth;
   Real reference_m; // range of the first hit
+  vec2 apart_m;     // the least and the most that another's is beyond it, where an error was asked for
   uint hits;
   uint lit; // sum over the hits, diodes
 };
@@ -49,7 +52,8 @@ struct PixelSum {
 void see_nothing(out PixelSum sum) {
   [[unroll]] for (uint p = 0; p < planes; ++p)
     sum.z[p] = vec4(0.0);
-  sum.terms = 0.0;
+  sum.terms = vec2(0.0);
+  sum.apart_m = vec2(0.0);
   sum.range = sum.depth = sum.reference_m = real(0.0);
   sum.hits = sum.lit = 0u;
 }
@@ -137,6 +141,46 @@ vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
   return z;
 }
 
+RealComplex precise_value(vec4 sum) { return RealComplex(real(sum.x, sum.z), real(sum.y, sum.w)); }
+
+RealComplex scale_complex(RealComplex z, Real factor) { return RealComplex(multiply(z.re, factor), multiply(z.im, factor)); }
+
+RealComplex add_complex(RealComplex a, RealComplex b) { return RealComplex(add(a.re, b.re), add(a.im, b.im)); }
+
+// Of square light, in Real: distinct taps lie two in a plane, and of an even N the later half follows from the first.
+RealComplex demodulate_precisely(PixelSum sum) {
+  RealComplex z = RealComplex(real(0.0), real(0.0));
+  [[unroll]] for (uint k = 0; k < taps; ++k) {
+    uint distinct = taps % 2 == 0 ? k % (taps / 2) : k;
+    RealComplex pair = precise_value(sum.z[distinct / 2]);
+    Real tap = distinct % 2 == 0 ? pair.re : pair.im;
+    Real turns = real_turn_fraction(divide(real(float(k)), real(float(taps))));
+    z = add_complex(z, scale_complex(real_unit_phasor(turns), k == distinct ? tap : negate(tap)));
+  }
+  return scale_complex(z, divide(real(2.0), real(float(taps))));
+}
+
+// As demodulate_harmonics.
+RealComplex demodulate_harmonics_precisely(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+  RealComplex z = RealComplex(real(0.0), real(0.0));
+  [[unroll]] for (uint p = 0; p < planes; ++p) {
+    uint alias = (p + 1) % taps;
+    if (alias != 1 && alias != taps - 1)
+      continue;
+    Real turns = real_turn_fraction(multiply(sum.reference_m, turns_per_m(frequency, p)));
+    RealComplex whole = complex_multiply(precise_value(sum.z[p]), real_unit_phasor(turns));
+    whole = scale_complex(whole, real(Floats(harmonics).at[p]));
+    z = add_complex(z, alias == 1 ? whole : RealComplex(whole.re, negate(whole.im)));
+  }
+  return z;
+}
+
+RealComplex precise_return(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+  return waveform == waveform_sine     ? precise_value(sum.z[0])
+         : waveform == waveform_square ? demodulate_precisely(sum)
+                                       : demodulate_harmonics_precisely(sum, frequency, harmonics);
+}
+
 // `turns` in [-1, 1]; not known where nothing returns.
 void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
   bool is_known = amplitude > 0.0;
@@ -149,6 +193,9 @@ void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, 
   store_pair(to, channel + channel_amplitude, pixel, floatBitsToUint(vec2(amplitude, is_known ? phase_rad : nan())));
   Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
   float distance_m = clamp(high(distance), 0.0, frequency.below.y);
+  // As exact as a float is: the largest below may be a whole unit off what rounds to the end, which is 0 as well.
+  if (precise_sum != 0 && high(distance) > frequency.below.y)
+    distance_m = 0.0;
   store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
 }
 
@@ -164,19 +211,28 @@ float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
 float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
   float scale = frequency.amplitude_scale / float(samples);
   float tap[taps];
-  if (waveform == waveform_square || keep_taps != 0)
+  if ((waveform == waveform_square && precise_sum == 0) || keep_taps != 0)
     find_taps(sum, frequency, amplitudes, tap);
   if (keep_taps != 0)
     [[unroll]] for (uint k = 0; k < taps; ++k)
       store(to, frequency.first_channel + channel_tap + k, pixel, scale * tap[k]);
   // A sine's phase stays relative to the range, which makes it exact to the last bit of the output.
-  vec2 z = waveform == waveform_sine     ? compensated_value(sum.z[0])
-           : waveform == waveform_square ? demodulate(tap)
-                                         : demodulate_harmonics(sum, frequency, amplitudes);
+  vec2 z;
+  Real angle;
+  if (precise_sum != 0) {
+    RealComplex whole = precise_return(sum, frequency, amplitudes);
+    z = vec2(high(whole.re), high(whole.im));
+    angle = real_angle_turns(whole);
+  } else {
+    z = waveform == waveform_sine     ? compensated_value(sum.z[0])
+        : waveform == waveform_square ? demodulate(tap)
+                                      : demodulate_harmonics(sum, frequency, amplitudes);
+    angle = real(angle_turns(z));
+  }
   float size = magnitude(z);
   float amplitude = scale * size;
   Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
-  turns = add(add(turns, negate(round_to_whole(turns))), real(angle_turns(z)));
+  turns = add(add(turns, negate(round_to_whole(turns))), angle);
   store_phase(to, frequency, pixel, amplitude, turns, mean_over_hits(sum.range, sum, samples));
   return size;
 }
@@ -194,13 +250,18 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
-// The bound (Frequency), given what is known to add to the sum's own error.
-Errors errors_of(Frequency frequency, float terms, float size, Errors added) {
-  float condition = terms > 0.0 ? terms / size : 0.0; // infinite where all cancels
+// The bound (Frequency), given what is known to add to the sum's own error, and how much the samples' ranges differ by.
+// `terms`: of the light, and of its weights' own errors.
+Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, float apart_m) {
+  float condition = terms.x > 0.0 ? terms.x / size : 0.0; // infinite where all cancels
+  float weights = terms.y > 0.0 ? terms.y / size : 0.0;
   // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
-  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition;
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * weights;
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
-  return Errors(frequency.fixed_m + (frequency.per_condition_m + added.distance_m) * condition * grown,
+  float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
+                 min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m) * weights;
+  float any_m = (frequency.per_condition_m + added.distance_m) * condition + frequency.per_weight_m * weights;
+  return Errors(min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
                 frequency.amplitude_fixed + relative);
 }
 

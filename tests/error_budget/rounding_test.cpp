@@ -9,6 +9,7 @@
 #include "tests/comparison/light_formula.h"
 #include "tests/comparison/variants.h"
 #include "tests/error_budget/least_incidence.h"
+#include "tests/support/random_diagrams.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/simulator.h"
 
@@ -185,6 +186,33 @@ TEST_CASE("some random lights stay within the bounds of rounding", "[smoke]") {
 }
 
 TEST_CASE("random lights stay within the bounds of rounding", "[long]") { check_random_cases(700, 712); }
+
+TEST_CASE("double leaves nothing but the output's rounding, of any waveform, phase and diagram") {
+  Case plain = shipped("paper_ring", 2);
+  plain.sensor.resolution = {16, 16};
+  plain.sensor.pixel_pitch_m *= 10.0;
+  Random random(5);
+  const auto of_diagram = [&](bool axial) {
+    const Pattern measured{Pattern::Kind::diagram, 0.0, random_diagram(random, axial)};
+    Case of = plain;
+    for (Diode &diode : of.lights[0].diodes)
+      diode.pattern = measured;
+    return of;
+  };
+  Case square = plain, harmonics = plain, far = plain;
+  square.sensor.waveform = {Waveform::Kind::square, {}};
+  harmonics.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, -0.1}};
+  far.sensor.modulation_hz = {1e6};
+  far.lights[0].modulation_phase_rad = -0.9;
+  for (const auto &[of, farthest_m] :
+       {std::pair{square, 4.05}, std::pair{harmonics, 4.05}, std::pair{far, 128.0},
+        std::pair{of_diagram(true), 4.05}, std::pair{of_diagram(false), 4.05}})
+    for (const Variant &variant : variants) {
+      const Comparison in_double = measure(of, reference_of(of, of.lights), Precision::fp64, variant);
+      CHECK(in_double.pixels >= of.sensor.pixel_count() / 20);
+      CHECK(in_double.distance_max_m <= 0x1p-24 * farthest_m + 5e-9);
+    }
+}
 
 TEST_CASE("where returns cancel, double keeps what float loses") {
   using Kind = Pattern::Kind;

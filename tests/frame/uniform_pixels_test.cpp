@@ -73,7 +73,7 @@ void check(const Case &of) {
                                    .keep_taps = true,
                                    .precision = variant.precision,
                                    .loop = variant.loop,
-                                   .allowed = {.direct_pixels = false}}; // which has no such pixels
+                                   .allowed = {.unsorted = false}}; // which has no such pixels
     const Measurement automatic = measure(of, options, within(of));
     const FrameDifference apart = difference(automatic, exact, of.sensor);
     const AccuracyReport &report = automatic.accuracy;

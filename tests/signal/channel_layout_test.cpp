@@ -114,7 +114,12 @@ TEST_CASE("a frequency knows its channels and its unit") {
 TEST_CASE("every frequency carries what was promised, or nothing") {
   for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, {}, 240))
     CHECK((record.limit_m == 0.0f && record.per_condition_m == 0.0f && record.amplitude_limit == 0.0f));
-  const ErrorBound bound{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
+  ErrorBound bound{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
+  bound.per_weight_m = 0x1p24;
+  const auto alike = frequency_records(signal_with_taps(), 1.0, bound, 240);
+  CHECK((alike[0].near_per_condition_m == 3e-7f && alike[0].near_per_weight_m == 1.0f &&
+         alike[0].per_apart == 0.0f));
+  bound.at_one_range = {1e-6, 1e-7, 0x1p23, 4e-8};
   for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound, 240)) {
     CHECK(record.limit_m == 1e-5f);
     CHECK(record.fixed_m == 2e-6f);
@@ -122,5 +127,7 @@ TEST_CASE("every frequency carries what was promised, or nothing") {
     CHECK(record.amplitude_limit == 1e-3f);
     CHECK(record.amplitude_fixed == 2e-4f);
     CHECK(record.amplitude_per_condition == 3e-5f);
+    CHECK((record.near_fixed_m == 1e-6f && record.near_per_condition_m == 1e-7f));
+    CHECK((record.per_apart == 4e-8f && record.near_per_weight_m == 0.5f && record.per_weight_m == 1.0f));
   }
 }

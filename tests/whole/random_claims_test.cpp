@@ -126,10 +126,8 @@ void check_claims(double max_error_m, double largest_claim_over_found, double mo
 
 } // namespace
 
-TEST_CASE("random setups claim little more than is found", "[long]") { check_claims(100e-6, 60.0, 0.05); }
+TEST_CASE("random setups claim little more than is found", "[long]") { check_claims(100e-6, 35.0, 0.05); }
 
-// Refused are phased lights of one to a few megahertz, whose distances of some 100 m a float rounds by as
-// much, square light of as few, and measured diagrams, which are looked up in float.
 TEST_CASE("random setups claim little more than is found, within ten micrometres", "[long]") {
-  check_claims(10e-6, 20.0, 0.3);
+  check_claims(10e-6, 10.0, 0.05);
 }
