@@ -130,9 +130,14 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
-    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long.
-    const double condition = view.sensor.samples > 1 ? groups.polynomials.growth : 1.0;
-    if (bound && is_within(*bound, accuracy, condition))
+    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long. Where
+    // shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart, may
+    // pass.
+    const bool several = view.sensor.samples > 1;
+    const auto usual =
+        several && view.modulation.lit ? at_one_range(view, groups, precision, view.sensor.samples) : bound;
+    const double condition = several ? groups.polynomials.growth : 1.0;
+    if (bound && is_within(usual.value_or(*bound), accuracy, condition))
       return {precision, std::move(groups), *bound};
     last = bound;
   }
@@ -288,6 +293,8 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
   // Diagrams are looked up in float, which double does not help: only what is beyond the budget tries it.
   if (std::ranges::any_of(plan.all.positions,
                           [](const SourcePosition &place) { return place.law_error > 0.0; }))
+    return;
+  if (view.sensor.samples > 1) // which take too long for that
     return;
   const double usual_m = largest_m(plan, largest_growth(plan));
   const auto lower = [&](std::optional<ErrorBound> &bound) {
