@@ -258,8 +258,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
                   path.summation == Summation::polynomial_moments && can_sum_on_host(plan.all);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
-  const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) && can_sort(facts, windows) &&
-                     is_better_unsorted(facts, plan, request, allowed) &&
+  const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) &&
+                     can_sort(facts, windows) && is_better_unsorted(facts, plan, request, allowed) &&
                      can_sum_records(path, plan, sensor, allowed);
   const bool direct = can_be_direct(path, facts, plan, sensor, allowed) && (!reports || holds);
   path.classes = classes_of(facts, plan, request, windows, direct || holds, allowed);

@@ -21,8 +21,8 @@ struct StripBuffers {
   vulkan::Buffer surface;     // the vectors a sample that the sum asks for
   vulkan::Buffer backscatter; // float a sample
   vulkan::Buffer
-      visibility;       // a window's bundles (source_windows.h), a word a sample each; empty without shadows
-  vulkan::Buffer lit;   // diodes that reach it, a word a sample; likewise
+      visibility;     // a window's bundles (source_windows.h), a word a sample each; empty without shadows
+  vulkan::Buffer lit; // diodes that reach it, a word a sample; likewise
   // Sum of |terms|, a float a sample, then of their weights' own errors; or what pixels may be off by
   // (ClaimsConstants), a vec2 of each frequency. Empty unless an error was asked for.
   vulkan::Buffer terms;
