@@ -59,9 +59,9 @@ public:
   NearAngles(const LawTable &table, std::int32_t first, const Floats &inverse_along)
       : inverse_along2_(inverse_along * inverse_along), steps_per_rad_(table.steps_per_rad),
         first_(table.first_step + static_cast<float>(first)) {
-    for (int half = 0; half < 2; ++half) {
-      values_[half] = load<Floats>(table.values + first + half * lanes);
-      rises_[half] = load<Floats>(table.rises + first + half * lanes);
+    for (int half = 0; half < 2; ++half, first += lanes) {
+      values_[half] = load<Floats>(table.values + first);
+      rises_[half] = load<Floats>(table.rises + first);
     }
   }
 
