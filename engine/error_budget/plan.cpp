@@ -290,11 +290,11 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
   plan.bound_of_precise =
       error_bound_of(accuracy, *rounding, whole_light(view.lights),
                      at_one_range(view, *plan.precise, Precision::fp64, view.sensor.samples));
-  // Diagrams are looked up in float, which double does not help: only what is beyond the budget tries it.
+  // Diagrams take long to be looked up in double: only what is beyond the budget tries it.
   if (std::ranges::any_of(plan.all.positions,
                           [](const SourcePosition &place) { return place.law_error > 0.0; }))
     return;
-  if (view.sensor.samples > 1) // which take too long for that
+  if (view.sensor.samples > 1 && view.modulation.lit) // all at once, many of them at edges: it takes too long
     return;
   const double usual_m = largest_m(plan, largest_growth(plan));
   const auto lower = [&](std::optional<ErrorBound> &bound) {
