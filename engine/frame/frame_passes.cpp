@@ -169,6 +169,34 @@ void sum_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vec
     add(shader::blocks_empty);
 }
 
+// The sum over depth records: by the host, block by block, or of all at once.
+void sum_records(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                 SumScope scope, const BlockLists *blocks, FrameGraph &graph) {
+  if (scope.shadowed && !on.path.host_sum)
+    return sum_blocks(on, groups, windows, scope, *blocks, graph);
+  if (on.path.host_sum) {
+    graph.add_to_window(host_sum_pass(on, groups, *scope.depth_records, scope.shadowed));
+    scope.by_host = true;
+    scope.shadowed = false; // the host has seen to it
+  }
+  add_sum(on, groups, windows, std::move(scope), graph);
+}
+
+// What becomes of it, and of what its pixels may be off by.
+void demodulate_records(const FrameBasis &on, const SourceGroups &groups, SumScope scope, FrameGraph &graph) {
+  const bool settles = holds_pixels(on.modulation);
+  if (on.path.direct) {
+    if (settles)
+      graph.add_to_window(claims_pass(on, errors_of_direct_pixels(on.buffers), scope.later));
+    return;
+  }
+  if (on.plan.bound_beforehand)
+    scope.bound = worse_of(*scope.bound, *on.plan.bound_beforehand);
+  graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  if (settles)
+    graph.add_after(claims_pass(on, errors_of_demodulation(on.buffers), scope.later));
+}
+
 // A class of pixels, sample by sample: all of them, or those of a list.
 void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, const BlockLists *blocks,
                 FrameGraph &graph) {
@@ -183,32 +211,16 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
                  .later = later,
                  .looped = who == PixelsOf::precise,
                  .bound = pixels->bound};
-  const bool sums_records = on.path.sums_records && who == PixelsOf::all;
-  if (sums_records)
+  const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
+  if (on.path.sums_records && who == PixelsOf::all) {
     scope.depth_records.emplace(on.device, on.sensor);
+    sum_records(on, groups, of_windows, scope, blocks, graph);
+    return demodulate_records(on, groups, std::move(scope), graph);
+  }
   if (list && (!on.path.points_first || pixels->precision != on.plan.precision))
     graph.add_after(points_of(on, pixels->precision, list));
-  const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
-  if (sums_records && on.path.host_sum) {
-    graph.add_to_window(host_sum_pass(on, groups, *scope.depth_records, scope.shadowed));
-    scope.by_host = true;
-    scope.shadowed = false;
-    add_sum(on, groups, of_windows, scope, graph);
-  } else if (pixels->shadowed && sums_records)
-    sum_blocks(on, groups, of_windows, scope, *blocks, graph);
-  else
-    add_sum(on, groups, of_windows, scope, graph);
-  const bool settles = sums_records && holds_pixels(on.modulation);
-  if (sums_records && on.path.direct) {
-    if (settles)
-      graph.add_to_window(claims_pass(on, errors_of_direct_pixels(on.buffers), later));
-    return;
-  }
-  if (sums_records && on.plan.bound_beforehand)
-    scope.bound = worse_of(*pixels->bound, *on.plan.bound_beforehand);
+  add_sum(on, groups, of_windows, scope, graph);
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
-  if (settles)
-    graph.add_after(claims_pass(on, errors_of_demodulation(on.buffers), later));
 }
 
 // How much there is to do for the classes that follow, which the last one has listed pixels for.

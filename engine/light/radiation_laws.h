@@ -17,8 +17,9 @@ namespace pmdsim {
 // A form of the sum, by what it knows of J.
 struct LawForm {
   std::uint32_t pattern = shader::pattern_any; // shader::pattern_*
-  // n where J is the n-th power of a cosine: a weight is then a product of lengths and of a power of 1 / r,
-  // which polynomials can sum (moment_polynomials.h). Nothing: by the moments themselves.
+  // n where J is a factor of its own and (1 / r)^n: the n-th power of a cosine is one of a length, a diagram
+  // or J = 1 have none. Polynomials can then sum the weights (moment_polynomials.h). Nothing: by the moments
+  // themselves.
   std::optional<std::uint32_t> range_powers;
 
   bool operator==(const LawForm &) const = default;

@@ -19,7 +19,7 @@ struct SumModel {
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
   std::uint32_t order;       // of shader::pattern_power
-  bool of_lengths = true;    // a diode's weight is a product of lengths and of a power of 1 / r
+  bool of_lengths = true;    // a diode's weight is a product of factors and of a power of 1 / r
   bool all_facing = false;   // every surface faces every diode
 
   // Of normals and heights a sample: none, one, or, to double precision, two.

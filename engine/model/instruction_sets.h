@@ -1,6 +1,8 @@
 #pragma once
 // Which instruction sets of CMakeLists.txt, for which some loops are compiled, the processor has.
 
+#include <cstdint>
+
 namespace pmdsim {
 
 inline bool has_avx2() {
@@ -23,3 +25,33 @@ inline bool has_avx512() {
 }
 
 } // namespace pmdsim
+
+// Outside of all namespaces: declares the loops of a kind, `Type name` in the namespace of each instruction
+// set, and widest_name(), those for the widest vectors that the processor has, of so many bits at most.
+#ifdef __x86_64__
+#define PMDSIM_LOOPS_OF_EACH_SET(Type, name)                                                                 \
+  namespace pmdsim::baseline {                                                                               \
+  extern const Type name;                                                                                    \
+  }                                                                                                          \
+  namespace pmdsim::avx2 {                                                                                   \
+  extern const Type name;                                                                                    \
+  }                                                                                                          \
+  namespace pmdsim::avx512 {                                                                                 \
+  extern const Type name;                                                                                    \
+  }                                                                                                          \
+  namespace pmdsim {                                                                                         \
+  inline const Type &widest_##name(std::uint32_t most_bits) {                                                \
+    if (most_bits >= 512 && has_avx512())                                                                    \
+      return avx512::name;                                                                                   \
+    return most_bits >= 256 && has_avx2() ? avx2::name : baseline::name;                                     \
+  }                                                                                                          \
+  }
+#else
+#define PMDSIM_LOOPS_OF_EACH_SET(Type, name)                                                                 \
+  namespace pmdsim::baseline {                                                                               \
+  extern const Type name;                                                                                    \
+  }                                                                                                          \
+  namespace pmdsim {                                                                                         \
+  inline const Type &widest_##name(std::uint32_t) { return baseline::name; }                                 \
+  }
+#endif

@@ -10,34 +10,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-namespace pmdsim {
+PMDSIM_LOOPS_OF_EACH_SET(pmdsim::SumSamples, sum_laws)
 
-// One of each of engine/CMakeLists.txt's instruction sets.
-namespace baseline {
-extern const SumSamples sum_laws;
-}
-#ifdef __x86_64__
-namespace avx2 {
-extern const SumSamples sum_laws;
-}
-namespace avx512 {
-extern const SumSamples sum_laws;
-}
-#endif
+namespace pmdsim {
 
 namespace {
 
 constexpr std::size_t most_sums = 32; // of a sample
-
-SumSamples widest_sum(std::uint32_t most_bits) {
-#ifdef __x86_64__
-  if (most_bits >= 512 && has_avx512())
-    return avx512::sum_laws;
-  if (most_bits >= 256 && has_avx2())
-    return avx2::sum_laws;
-#endif
-  return baseline::sum_laws;
-}
 
 class HostSum {
 public:
@@ -47,7 +26,7 @@ public:
         batches_(groups, bundles_per_run(groups) * shader::diodes_per_bundle),
         powers_(groups.polynomials.powers), shining_(shining_diodes(groups)),
         lambert_(on.model.backscatter == shader::backscatter_lambert), shadowed_(shadowed),
-        sum_samples_(widest_sum(on.options.host_vector_bits)) {}
+        sum_samples_(widest_sum_laws(on.options.host_vector_bits)) {}
 
   void sum(const shader::Strip &strip) const {
     const LawSums sums = sums_of(strip);

@@ -26,14 +26,16 @@ inline double real_at(const std::byte *from, bool has_fp64) {
   return static_cast<double>(pair[0]) + static_cast<double>(pair[1]);
 }
 
-// The ray (x, y, 1) of a depth record; `place` in half samples from the frame's middle.
-inline void find_ray(const SampleSource &of, double column, double row, double (&ray)[2]) {
-  if (!of.chip) {
-    ray[0] = column * of.slope[0];
-    ray[1] = row * of.slope[1];
+// The ray (x, y, 1) of a sample of an even grid, as in shaders/sampling/chip.glsl: `column` and `row` in half
+// samples from the frame's middle, `place` where the chip is not nominal, else `slope`.
+inline void find_ray(const shader::ChipPlace *place, const double (&slope)[2], double column, double row,
+                     double (&ray)[2]) {
+  if (!place) {
+    ray[0] = column * slope[0];
+    ray[1] = row * slope[1];
     return;
   }
-  const shader::ChipPlace &chip = *of.chip;
+  const shader::ChipPlace &chip = *place;
   double at[3];
   for (int i = 0; i < 3; ++i) {
     const auto of_pair = [i](const shader::vec4 &hi, const shader::vec4 &lo) {
@@ -65,7 +67,7 @@ inline void find_point(const SampleSource &of, const Place &at, double (&point)[
   std::memcpy(&shape, record + 4, sizeof(shape));
   const double depth = real_at(record + 8, of.has_fp64);
   double ray[2];
-  find_ray(of, 2.0 * (strip.column + at.column) + 1.0 - strip.resolution_x,
+  find_ray(of.chip, of.slope, 2.0 * (strip.column + at.column) + 1.0 - strip.resolution_x,
            2.0 * (strip.row + at.row) + 1.0 - strip.resolution_y, ray);
   point[0] = ray[0] * depth;
   point[1] = ray[1] * depth;

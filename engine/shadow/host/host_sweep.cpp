@@ -19,32 +19,11 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+PMDSIM_LOOPS_OF_EACH_SET(pmdsim::DecideTile, decide_silhouettes)
+
 namespace pmdsim {
 
-// One of each of engine/CMakeLists.txt's instruction sets.
-namespace baseline {
-extern const DecideTile decide_silhouettes;
-}
-#ifdef __x86_64__
-namespace avx2 {
-extern const DecideTile decide_silhouettes;
-}
-namespace avx512 {
-extern const DecideTile decide_silhouettes;
-}
-#endif
-
 namespace {
-
-DecideTile widest_decide_tile(std::uint32_t most_bits) {
-#ifdef __x86_64__
-  if (most_bits >= 512 && has_avx512())
-    return avx512::decide_silhouettes;
-  if (most_bits >= 256 && has_avx2())
-    return avx2::decide_silhouettes;
-#endif
-  return baseline::decide_silhouettes;
-}
 
 EdgePlanes exact_planes(const shader::SweepPlanes &planes) {
   EdgePlanes exact{};
@@ -218,15 +197,16 @@ void HostSweep::State::store_kinds(std::uint32_t tile, std::uint32_t tiles_acros
 HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera,
                      const Scene &scene, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                      const std::optional<ChipGrid> &records, bool fills_all)
-    : state_(std::make_unique<State>(State{.buffers = on.buffers,
-                                           .samples = {on.buffers, on.scene.planes, on.sensor, records,
-                                                       vulkan::uses_fp64(on.device, on.options.precision)},
-                                           .all_facing = on.model.backscatter == shader::backscatter_flat,
-                                           .fills_all = fills_all,
-                                           .clears_bits = !occluders.with_holes.empty(),
-                                           .decide_tile = widest_decide_tile(on.options.host_vector_bits),
-                                           .boards = {},
-                                           .windows = {}})) {
+    : state_(
+          std::make_unique<State>(State{.buffers = on.buffers,
+                                        .samples = {on.buffers, on.scene.planes, on.sensor, records,
+                                                    vulkan::uses_fp64(on.device, on.options.precision)},
+                                        .all_facing = on.model.backscatter == shader::backscatter_flat,
+                                        .fills_all = fills_all,
+                                        .clears_bits = !occluders.with_holes.empty(),
+                                        .decide_tile = widest_decide_silhouettes(on.options.host_vector_bits),
+                                        .boards = {},
+                                        .windows = {}})) {
   if (!on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
     throw std::logic_error("the host does not share the device's memory");
   State &state = *state_;

@@ -10,35 +10,14 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-namespace pmdsim {
+PMDSIM_LOOPS_OF_EACH_SET(pmdsim::RasterKernel, raster_kernel)
 
-// One of each of engine/CMakeLists.txt's instruction sets.
-namespace baseline {
-extern const RasterKernel raster_kernel;
-}
-#ifdef __x86_64__
-namespace avx2 {
-extern const RasterKernel raster_kernel;
-}
-namespace avx512 {
-extern const RasterKernel raster_kernel;
-}
-#endif
+namespace pmdsim {
 
 namespace {
 
 constexpr std::uint32_t band_rows = 32;     // whose depths and ids stay in a processor's own cache
 constexpr std::uint32_t spare_columns = 16; // as many as the widest vectors have lanes
-
-const RasterKernel &widest_kernel(std::uint32_t most_bits) {
-#ifdef __x86_64__
-  if (most_bits >= 512 && has_avx512())
-    return avx512::raster_kernel;
-  if (most_bits >= 256 && has_avx2())
-    return avx2::raster_kernel;
-#endif
-  return baseline::raster_kernel;
-}
 
 // The fragments whose middles lie within a triangle's bounds, both ends included.
 struct Bounds {
@@ -122,7 +101,7 @@ HostRaster::HostRaster(const Projection &projection, const Sensor &sensor, const
                        const Scene &scene, const SceneBuffers &on_device, const std::optional<ChipGrid> &grid,
                        const vulkan::Buffer &id_buffer, std::uint32_t most_bits)
     : edges_(find_edge_samples(camera, scene, sensor, projection.blocks)), scene_(on_device), grid_(grid),
-      id_buffer_(id_buffer), samples_(sensor.samples), kernel_(&widest_kernel(most_bits)) {
+      id_buffer_(id_buffer), samples_(sensor.samples), kernel_(&widest_raster_kernel(most_bits)) {
   if (!id_buffer.is_mapped() || !on_device.planes.is_mapped())
     throw std::logic_error("the host does not share the device's memory");
   for (const RasterBlock &block : projection.blocks)

@@ -4,6 +4,7 @@
 #include "engine/view/host/raster_kernel.h"
 
 #include "engine/model/lanes.h"
+#include "engine/sampling/host/sample_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,23 +177,6 @@ void draw(const BandRows &band, const BlockTriangle *triangles, const std::uint3
 
 double sum_of_pair(float hi, float lo) { return static_cast<double>(hi) + static_cast<double>(lo); }
 
-// The ray (x, y, 1) of a sample (shaders/sampling/chip.glsl), `x` and `y` in half samples.
-void ray_of(const BandSamples &of, double x, double y, double (&ray)[2]) {
-  if (!of.chip) {
-    ray[0] = x * of.slope[0];
-    ray[1] = y * of.slope[1];
-    return;
-  }
-  const shader::ChipPlace &chip = *of.chip;
-  double at[3];
-  for (int k = 0; k < 3; ++k)
-    at[k] = sum_of_pair(chip.origin_hi[k], chip.origin_lo[k]) +
-            sum_of_pair(chip.half_step_x_hi[k], chip.half_step_x_lo[k]) * x +
-            sum_of_pair(chip.half_step_y_hi[k], chip.half_step_y_lo[k]) * y;
-  ray[0] = at[0] / at[2];
-  ray[1] = at[1] / at[2];
-}
-
 // As shaders/view/meet.glsl.
 double depth_on_plane(const double (&ray)[2], const shader::TrianglePlane &plane) {
   const auto of = [&](int k) { return sum_of_pair(plane.plane_hi[k], plane.plane_lo[k]); };
@@ -228,7 +212,8 @@ void leave(const BandRows &band, const BandSamples &to) {
       double depth = 0.0;
       if (hit) {
         double ray[2];
-        ray_of(to, static_cast<double>(to.first[0] + 2.0f * static_cast<float>(column)), y, ray);
+        find_ray(to.chip, to.slope, static_cast<double>(to.first[0] + 2.0f * static_cast<float>(column)), y,
+                 ray);
         depth = depth_on_plane(ray, to.planes[ids[column]]);
       }
       std::memcpy(of_row + std::size_t{2} * column * sizeof(words), words, sizeof(words));
