@@ -61,7 +61,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
-          .run_sums = path.host_sum ? path.powers * plan.all.runs.size() : 0,
+          .run_moments = path.host_sum != HostSum::none ? path.moments * plan.all.runs.size() : 0,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
           .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
           .channels = ChannelLayout(modulation).channels(),
@@ -145,13 +145,23 @@ struct ClassLists {
 // A sum over all that every source reaches is taken beforehand where it can be.
 void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
              SumScope scope, FrameGraph &graph) {
-  scope.beforehand = on.path.point_dimensions > 0 && !scope.shadowed && scope.list == nullptr;
+  scope.beforehand =
+      on.path.point_dimensions > 0 && !scope.shadowed && !scope.by_host && scope.list == nullptr;
   if (scope.beforehand)
     scope.bound = on.plan.bound_beforehand;
   if (scope.depth_records && on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
   Pass sum = accumulate_pass(on, groups, windows, scope);
   scope.list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
+}
+
+// The device goes on from the host's sums, which shadows are in already.
+void add_host_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
+                  SumScope scope, FrameGraph &graph) {
+  graph.add_to_window(host_sum_pass(on, groups, scope));
+  scope.by_host = true;
+  scope.shadowed = false;
+  add_sum(on, groups, windows, std::move(scope), graph);
 }
 
 // Depth records block by block: those that every source reaches are summed as if there were no shadows.
@@ -161,7 +171,10 @@ void sum_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vec
     SumScope of_kind = scope;
     of_kind.shadowed = kind == shader::blocks_shaded;
     of_kind.blocks = lists.of(kind);
-    add_sum(on, groups, windows, std::move(of_kind), graph);
+    if (of_kind.shadowed && on.path.host_sum == HostSum::shaded)
+      add_host_sum(on, groups, windows, std::move(of_kind), graph);
+    else
+      add_sum(on, groups, windows, std::move(of_kind), graph);
   };
   add(shader::blocks_lit);
   add(shader::blocks_shaded);
@@ -172,13 +185,10 @@ void sum_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vec
 // The sum over depth records: by the host, block by block, or of all at once.
 void sum_records(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                  SumScope scope, const BlockLists *blocks, FrameGraph &graph) {
-  if (scope.shadowed && !on.path.host_sum)
+  if (on.path.host_sum == HostSum::all)
+    return add_host_sum(on, groups, windows, std::move(scope), graph);
+  if (scope.shadowed)
     return sum_blocks(on, groups, windows, scope, *blocks, graph);
-  if (on.path.host_sum) {
-    graph.add_to_window(host_sum_pass(on, groups, *scope.depth_records, scope.shadowed));
-    scope.by_host = true;
-    scope.shadowed = false; // the host has seen to it
-  }
   add_sum(on, groups, windows, std::move(scope), graph);
 }
 

@@ -27,6 +27,17 @@ Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
                                          : Summation::moments;
 }
 
+// The device is as fast with what it sums beforehand alone.
+HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const SourceGroups &groups,
+                    const PathForms &allowed) {
+  if (path.windows > 1 || !facts.host_is_device || !allowed.host_sum ||
+      path.summation == Summation::per_diode || !can_sum_on_host(groups))
+    return HostSum::none;
+  const bool beforehand = groups.polynomials.point_dimensions > 0 &&
+                          (facts.modulation.lit ? path.single_run : facts.model.all_facing);
+  return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::shaded : HostSum::none;
+}
+
 // Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
 bool is_smooth(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
   return !facts.paint.painted && sensor.vignetting == Vignetting::none &&
@@ -123,7 +134,7 @@ bool is_even(SampleGrid grid, const Sensor &sensor) {
 
 bool can_sum_records(const FramePath &path, const FramePlan &plan, const Sensor &sensor,
                      const PathForms &allowed) {
-  const bool reads_depths = path.windows == 0 || path.single_run || path.host_sum;
+  const bool reads_depths = path.windows == 0 || path.single_run || path.host_sum == HostSum::all;
   return allowed.depth_records && reads_depths && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
@@ -189,6 +200,7 @@ constexpr std::array grid_names{"nominal", "posed", "tiled", "distorted"};
 constexpr std::array surface_names{"constant, all facing", "constant, tested", "lambert"};
 constexpr std::array pattern_names{"isotropic", "whole power of the cosine", "power of the cosine",
                                    "diagram around the axis", "any"};
+constexpr std::array host_sum_names{"", ", shaded samples on the host", ", on the host"};
 constexpr std::array precision_names{"fp32", "fp64"};
 
 std::string name_among(const auto &names, auto number) { return names[static_cast<std::size_t>(number)]; }
@@ -203,11 +215,10 @@ std::string text_of(const PixelClass &pixels) {
 std::string summation_text(const FramePath &path) {
   switch (path.summation) {
   case Summation::polynomial_moments:
-    return fmt::format("{} moments from {} powers{}{}{}", path.moments, path.powers,
+    return fmt::format("{} moments from {} powers{}{}{}{}", path.moments, path.powers,
                        path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "",
-                       path.point_dimensions > 0 ? ", summed beforehand"
-                       : path.host_sum           ? ", on the host"
-                                                 : "");
+                       path.point_dimensions > 0 ? ", summed beforehand" : "",
+                       host_sum_names[static_cast<std::size_t>(path.host_sum)]);
   case Summation::moments:
     return fmt::format("{} moments", path.moments);
   case Summation::per_diode:
@@ -254,8 +265,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.equal_weights = plan.all.polynomials.equal_weights;
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
-  path.host_sum = path.windows <= 1 && facts.host_is_device && allowed.host_sum &&
-                  path.summation == Summation::polynomial_moments && can_sum_on_host(plan.all);
+  path.host_sum = host_sum_of(path, facts, plan.all, allowed);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
   const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) &&
@@ -267,7 +277,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
       direct || holds ||
       (!reports && !path.is_sorted() && !plan.is_reduced() && can_sum_records(path, plan, sensor, allowed));
   path.direct = direct;
-  path.host_sum = path.host_sum && path.sums_records;
+  if (!path.sums_records)
+    path.host_sum = HostSum::none;
   path.record = path.sums_records || begins_with_depths(path, sensor, allowed) ? SampleRecord::depth
                                                                                : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);

@@ -24,6 +24,9 @@ enum class SampleRecord { depth, point };
 // return.
 enum class Summation { polynomial_moments, moments, per_diode };
 
+// Samples that the host sums over the sources.
+enum class HostSum { none, shaded, all };
+
 // Which pixels.
 enum class PixelsOf {
   all,             // every pixel
@@ -58,8 +61,8 @@ struct FramePath {
   std::uint32_t powers, moments; // of the sum over all sources
   bool equal_weights, coplanar;
   std::uint32_t
-      point_dimensions;  // of the polynomials that unshadowed samples' sums are; 0: loops over sources
-  bool host_sum;         // of all samples, by the host
+      point_dimensions; // of the polynomials that unshadowed samples' sums are; 0: loops over sources
+  HostSum host_sum;
   bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
   bool sums_records;     // the class of all pixels is summed from depth records

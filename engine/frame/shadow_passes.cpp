@@ -45,7 +45,7 @@ ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGr
   if (on.path.host_sweep)
     shadow.host = std::make_shared<const HostSweep>(
         on, facts.occluders, facts.camera, on.request.scene, on.plan.all, on.windows, grid,
-        !on.path.keeps_depths_only() || on.path.host_sum || on.path.holes || on.path.check ||
+        !on.path.keeps_depths_only() || on.path.host_sum == HostSum::all || on.path.holes || on.path.check ||
             on.options.keep_visibility);
   else
     shadow.sweep = std::make_shared<const SweepPass>(on, facts.occluders, facts.camera, on.request.scene,
@@ -53,7 +53,7 @@ ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGr
   if (on.path.holes)
     shadow.holes = std::make_shared<const HolesPass>(on, facts.occluders.with_holes, on.plan.all, on.windows,
                                                      on.strips, grid);
-  if (on.path.sums_records && !on.path.host_sum)
+  if (on.path.sums_records && on.path.host_sum != HostSum::all)
     shadow.blocks = std::make_shared<const BlockLists>(on.device, on.buffers, on.strips,
                                                        shining_diodes(on.plan.all), on.path.direct);
   return shadow;

@@ -42,7 +42,7 @@ bool has_beam_edges(const SumModel &model, const std::optional<ErrorBound> &boun
 }
 
 bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
-  return groups.polynomials.equal_weights && !scope.shadowed;
+  return groups.polynomials.equal_weights && !scope.shadowed && !scope.by_host;
 }
 
 // What a run's diodes at `first` to `last` - 1 come to where their beams end (beam_edge_terms in
@@ -164,7 +164,7 @@ private:
   std::uint32_t dispatches_; // a run: one by moments, else one for each frequency
   std::uint32_t planes_;     // of the sum, of each frequency
   bool by_host_;
-  std::uint32_t sums_; // of each run, where the host makes them
+  std::uint32_t moments_; // of each run
   vulkan::Buffer tones_, diodes_, diagrams_;
   vk::DeviceSize run_bytes_;      // of the diodes of each run
   vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
@@ -186,7 +186,7 @@ Sum::Sum(const PassSetup &on, const SourceGroups &groups, const std::vector<Sour
                                  light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand))),
       blocks_per_run_(groups.blocks_per_run), bundles_per_run_(bundles_per_run(groups)),
       dispatches_(on.modulation.by_moments() ? 1 : on.modulation.frequencies()),
-      planes_(on.modulation.planes), by_host_(scope.by_host), sums_(groups.polynomials.powers),
+      planes_(on.modulation.planes), by_host_(scope.by_host), moments_(groups.moments),
       tones_(vulkan::upload(on.device, on.modulation.all_tones())), diodes_(upload_sum(on, groups, scope)),
       diagrams_(vulkan::upload(on.device, groups.diagrams)), run_bytes_(diodes_.bytes() / groups.runs.size()),
       first_(make_pipeline(on, groups, scope, true)) {
@@ -255,7 +255,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
       scene_.planes.words(),
       output_ ? output_->record.words() : buffers_.sum.words(),
       light_runs_.words(run * sizeof(shader::LightRun)),
-      by_host_ ? buffers_.run_sums.words(vk::DeviceSize{run} * sums_ * plane * sizeof(float))
+      by_host_ ? buffers_.run_moments.words(vk::DeviceSize{run} * moments_ * plane * sizeof(float))
                : diodes_.words(run * run_bytes_),
       tones_.words(),
       diagrams_.words(),
@@ -278,7 +278,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
   const auto sum = std::make_shared<const Sum>(on, groups, windows, scope);
   return {.name = "accumulate",
           .reads = (scope.depth_records ? ids : points) | (scope.shadowed ? visibility_bits : no_resource) |
-                   (scope.by_host ? run_sums : no_resource) | (scope.list ? pixel_lists : no_resource) |
+                   (scope.by_host ? run_moments : no_resource) | (scope.list ? pixel_lists : no_resource) |
                    (scope.blocks ? block_lists : no_resource) |
                    (scope.output && on.modulation.lit ? visibility_counts : no_resource),
           .writes = scope.output ? channels | sums : sums | terms,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace pmdsim {
@@ -133,21 +132,29 @@ struct Run {
   double weight_error = 0.0, angle_error_rad = 0.0, growth = 1.0, path_terms_m = 0.0;
 };
 
-Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments,
-             std::uint32_t powers, double wavenumber_rad_m) {
+// Over an interval, at places up to farthest_m; `sizes`: where given, of the coefficients of each moment.
+Run fit_run(const Interval &interval, double farthest_m, std::uint32_t inverse_powers, std::uint32_t moments,
+            std::uint32_t powers, double wavenumber_rad_m, std::vector<Coefficients> *sizes = nullptr) {
   Run run;
-  const Interval interval = interval_of(reach);
-  std::vector<Coefficients> sizes;
   double phase_power = 1.0; // (kappa rho)^k / k!
   for (std::uint32_t k = 0; k < moments; ++k) {
     const Coefficients a = interpolate(interval, inverse_powers, k, powers);
     for (std::uint32_t i = 0; i < powers; ++i)
       run.table[shader::largest_powers / 4 * k + i / 4][static_cast<int>(i % 4)] = static_cast<float>(a[i]);
-    sizes.push_back(sizes_of(a));
+    if (sizes)
+      sizes->push_back(sizes_of(a));
     (k == 0 ? run.weight_error : run.angle_error_rad) +=
         phase_power * error_of(a, interval, inverse_powers, k);
-    phase_power *= wavenumber_rad_m * reach.farthest_m / (k + 1);
+    phase_power *= wavenumber_rad_m * farthest_m / (k + 1);
   }
+  return run;
+}
+
+Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments,
+             std::uint32_t powers, double wavenumber_rad_m) {
+  const Interval interval = interval_of(reach);
+  std::vector<Coefficients> sizes;
+  Run run = fit_run(interval, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m, &sizes);
   raise(run.growth, value(sizes[0], largest_u(reach.radius_m, reach.range_m)) /
                         moment_factor(interval.high, inverse_powers, 0));
   raise(run.path_terms_m, path_terms_m(sizes, reach, wavenumber_rad_m));
@@ -185,6 +192,24 @@ bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32
 }
 
 } // namespace
+
+std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
+                                                    std::uint32_t moments, double wavenumber_rad_m,
+                                                    std::uint32_t powers) {
+  const double phase_rad = wavenumber_rad_m * reach.path_difference_m;
+  std::optional<NearPolynomials> widest;
+  constexpr int steps = 10;
+  double within = 0.0, beyond = 1.0; // what they are exact enough for, and what not
+  for (int step = 0; step < steps; ++step) {
+    const double u = 0.5 * (within + beyond);
+    const Run run = fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m);
+    const bool is_enough = is_exact_enough(run, phase_rad);
+    (is_enough ? within : beyond) = u;
+    if (is_enough)
+      widest = NearPolynomials{u, powers, run.table};
+  }
+  return widest;
+}
 
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity) {

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,5 +46,16 @@ struct MomentPolynomials {
 // leave float's range.
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity);
+
+// Those of so many powers for places where |u| is at most `largest_u`: the widest that are as exact as those
+// of fit_polynomials, whose arguments these are.
+struct NearPolynomials {
+  double largest_u;
+  std::uint32_t powers;
+  MomentPolynomials::Table table;
+};
+std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
+                                                    std::uint32_t moments, double wavenumber_rad_m,
+                                                    std::uint32_t powers);
 
 } // namespace pmdsim

@@ -24,7 +24,7 @@ enum Resource : std::uint32_t {
   terms = 1u << 6, // sums of the terms' sizes, for bounds
   channels = 1u << 7,
   block_lists = 1u << 8, // of depth records
-  run_sums = 1u << 9,
+  run_moments = 1u << 9,
 };
 using Resources = std::uint32_t;
 

@@ -65,7 +65,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.lit = storage(&B::lit, lit_bytes, Usage::eTransferDst);
   made.terms = storage(&B::terms, term_bytes);
   made.violations = storage(&B::violations, violation_bytes, Usage::eTransferDst | Usage::eTransferSrc);
-  made.run_sums = storage(&B::run_sums, samples * layout.run_sums * sizeof(float));
+  made.run_moments = storage(&B::run_moments, samples * layout.run_moments * sizeof(float));
   made.sum = storage(&B::sum, samples * layout.sum_planes * layout.sum_bytes);
   made.channels = storage(&B::channels, channel_bytes, Usage::eTransferSrc);
   made.channels_read = read(&B::channels_read, made.channels.is_mapped() ? 0 : channel_bytes);

@@ -26,10 +26,10 @@ struct StripBuffers {
   // Sum of |terms|, a float a sample, then of their weights' own errors; or what pixels may be off by
   // (ClaimsConstants), a vec2 of each frequency. Empty unless an error was asked for.
   vulkan::Buffer terms;
-  vulkan::Buffer violations; // shader::BudgetViolations; likewise
-  vulkan::Buffer run_sums;   // of each run and power a plane, a float a sample; where the host sums
-  vulkan::Buffer sum;        // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
-  vulkan::Buffer channels;   // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
+  vulkan::Buffer violations;  // shader::BudgetViolations; likewise
+  vulkan::Buffer run_moments; // of each run and moment a plane, a float a sample; where the host sums
+  vulkan::Buffer sum;         // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
+  vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
   vulkan::Buffer ids_read;        // empty where `ids` is mapped itself, or the host has no use for them
@@ -58,8 +58,8 @@ struct SampleLayout {
   std::size_t position_bytes; // likewise, from here on
   std::size_t backscatter_bytes;
   std::size_t surface_vectors;
-  std::size_t run_sums;  // by the host
-  std::size_t sum_bytes; // of each plane
+  std::size_t run_moments; // by the host
+  std::size_t sum_bytes;   // of each plane
   std::uint32_t sum_planes;
   std::uint32_t channels;
   std::uint32_t visibility_words; // 0: every diode reaches every sample

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/light/accumulate_depths.glsl"
 #define VISIBILITY_OF_BLOCK(i, block) visibility_of_block(i, block)
-#define SUM_OF_RUN(i, k) sum_of_run(i, k)
+#define MOMENT_OF_RUN(i, k) moment_of_run(i, k)
 #include "shaders/light/moments.glsl"
 #include "shaders/signal/demodulation.glsl"
 #include "shaders/view/points.glsl"

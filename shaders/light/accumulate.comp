@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #ifdef RECORD_DEPTH
 #include "shaders/light/accumulate_depths.glsl"
-#define SUM_OF_RUN(i, k) sum_of_run(i, k)
+#define MOMENT_OF_RUN(i, k) moment_of_run(i, k)
 #else
 #include "shaders/light/accumulate.glsl"
 #endif

@@ -43,7 +43,7 @@ uint visibility_of_block(uint i, uint block) {
 }
 
 // Where the host has summed the diodes, plane by plane.
-float sum_of_run(uint i, uint k) { return Floats(constants.diodes).at[k * constants.plane + i]; }
+float moment_of_run(uint i, uint k) { return Floats(constants.diodes).at[k * constants.plane + i]; }
 
 // `ray` leads to the point, at its depth.
 ReferencePath load_point(uint i, LightRun run, out Point point, out Real3 ray, out Real3 position) {

@@ -17,7 +17,7 @@ const bool linear_known = equal_weights != 0 && powers > 2;
 
 // Of a run, the diodes summed beforehand (engine/light/point_polynomials.h).
 layout(constant_id = constant_point_dimensions) const uint point_dimensions = 0;
-// Or the host has summed them, sample by sample (engine/light/host/law_sums.h).
+// Or the host has, sample by sample (engine/light/host/law_sums.h).
 layout(constant_id = constant_summed_by_host) const uint summed_by_host = 0;
 
 // Of equal weights only the places are there.
@@ -57,9 +57,13 @@ struct Weights {
   float sum, growth;
 };
 
-float growth_at(Point point, LightRun run) {
+float largest_u(Point point, LightRun run) {
   float inverse = 1.0 / point.rho, t = run.radius_m * inverse;
-  float u = t * (t + 2.0 * (coplanar != 0 ? length(point.position.xy) * inverse : 1.0));
+  return t * (t + 2.0 * (coplanar != 0 ? length(point.position.xy) * inverse : 1.0));
+}
+
+float growth_at(Point point, LightRun run) {
+  float u = largest_u(point, run);
   float sum = 0.0;
   [[unroll]] for (uint down = 0; down < powers; ++down) {
     uint i = powers - 1 - down;
@@ -68,12 +72,14 @@ float growth_at(Point point, LightRun run) {
   return sum;
 }
 
+// Of a weight, beside its intensity.
+const uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
+
 // With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
 // `unit_m2`: of the sums, by their power of q.
 void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments], out Weights weights) {
   float scale = 1.0 / (point.rho * point.rho), inverse_rho2 = unit_m2 * scale;
-  uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
       scale /= point.rho;
@@ -151,10 +157,20 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
 #define VISIBILITY_OF_BLOCK(i, block) 0u
 #endif
 
-// S_k of the run at sample i; only asked where `summed_by_host`.
-#ifndef SUM_OF_RUN
-#define SUM_OF_RUN(i, k) 0.0
+// The run's k-th moment at sample i; only asked where `summed_by_host`.
+#ifndef MOMENT_OF_RUN
+#define MOMENT_OF_RUN(i, k) 0.0
 #endif
+
+// The terms of polynomials are bounded by the weights without the powers of r that these have: those may be larger.
+void load_moments(uint i, Point point, LightRun run, out float moment[moments], out Weights weights) {
+  [[unroll]] for (uint k = 0; k < moments; ++k)
+    moment[k] = MOMENT_OF_RUN(i, k);
+  float growth = 1.0;
+  if (powers > 0)
+    growth = growth_at(point, run) * pow(1.0 + largest_u(point, run), 0.5 * float(2 + lengths));
+  weights = Weights(moment[0], growth);
+}
 
 // Adds a block to a stretch, and the stretch, where it ends, to the run's sums.
 void add_block_of_run(inout float total[sums], inout float stretch[sums], Point point, uvec2 diodes, uint first, uint block,
@@ -173,9 +189,7 @@ void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint b
              out Weights weights) {
   float total[sums], stretch[sums];
   if (summed_by_host != 0) {
-    [[unroll]] for (uint k = 0; k < sums; ++k)
-      total[k] = SUM_OF_RUN(i, k);
-    find_moments(total, 1.0, point, run, moment, weights);
+    load_moments(i, point, run, moment, weights);
     return;
   }
   if (point_dimensions > 0) {

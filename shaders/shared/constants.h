@@ -62,7 +62,7 @@ PMDSIM_CONSTANT constant_reports_kept = 48; // 1: the largest bound of the pixel
 PMDSIM_CONSTANT constant_block_list = 49; // one of no_blocks and blocks_*: of depth records only those of a list
 PMDSIM_CONSTANT constant_beam_edges = 50; // 1: what rounding does where beams end counts as light
 PMDSIM_CONSTANT constant_holds_pixels = 51; // 1: what each pixel may be off by is held against what was asked for
-PMDSIM_CONSTANT constant_summed_by_host = 52; // a run's powers of q, at each sample
+PMDSIM_CONSTANT constant_summed_by_host = 52; // a run's moments, at each sample
 PMDSIM_CONSTANT constant_bits_by_row = 53; // 1: a sample's bits lie where its record does, not sub-sample by sub-sample
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound

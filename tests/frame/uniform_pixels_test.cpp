@@ -320,7 +320,9 @@ TEST_CASE("lights half a radian apart", "[long]") {
 TEST_CASE("shadows that leave part of the light") { check(behind_a_post("shadows", 1)); }
 
 TEST_CASE("shadows that leave part of the light, more samples a pixel and both precisions", "[long]") {
-  check(behind_a_post("shadows", 2));
+  Case several = behind_a_post("shadows", 2);
+  several.fewer_than = 0; // the host's sum over all of them is shorter than sorting the pixels
+  check(several);
   for (const std::uint32_t samples : {1u, 2u}) {
     // Few diodes, but none in the uniform-pixel pass, which is in float.
     Case precise = behind_a_post("shadows, fp64", samples);

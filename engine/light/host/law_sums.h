@@ -23,8 +23,8 @@ struct LawTable {
 };
 constexpr std::int32_t table_margin = 40;
 
-// Beyond these powers of q a sum is the device's.
-constexpr std::uint32_t most_host_powers = 12;
+constexpr std::uint32_t most_host_sums = 12; // over the sources, of a sample
+static_assert(most_host_sums >= shader::largest_powers && most_host_sums >= shader::largest_moments);
 
 // A source in its batch's frame, m, from the run's reference point.
 struct BatchSource {
@@ -37,6 +37,7 @@ struct BatchSource {
 struct SourceBatch {
   const LawTable *table; // nullptr: J = cos^power
   std::uint32_t power;   // 0: J = 1
+  bool of_lengths;       // W has J r^power, the power of a length
   double rotation[3][3]; // batch_from_camera: where phi is 0, where it is 90 degrees, the axis
   double along_m;        // the plane's distance along the axis from the reference point
   float radius_m;        // of the sources about the reference point, across the axis
@@ -45,29 +46,43 @@ struct SourceBatch {
   std::uint32_t count;
 };
 
+// Of places where |u| is at most `largest_u`: NearPolynomials.
+struct PowerTable {
+  float largest_u;
+  std::uint32_t powers;
+  float of_moments[shader::largest_moments][shader::largest_powers];
+};
+
 struct RunOfBatches {
   double reference_m[3]; // camera frame
   const SourceBatch *batches;
   std::uint32_t count;
+  const PowerTable *tables; // the shortest first; for places that are nearer, roots are drawn
+  std::uint32_t table_count;
+  std::uint32_t inverse_powers; // p of W r^-p (moment_polynomials.h)
 };
 
-// Sums S_i = sum W q^i (moment_polynomials.h) of each run at each sample.
+// The moments of each run at each sample (shaders/light/moments.glsl).
 struct LawSums {
-  SampleSource samples; // records
+  SampleSource samples;        // records
+  const std::uint32_t *blocks; // of samples, as BlockLists lists them, where they are listed
   const RunOfBatches *runs;
   std::uint32_t run_count;
-  std::uint32_t powers; // i < powers
-  bool lambert;         // W has the cosine's height over the surface; else only sources in front count
+  std::uint32_t moments;
+  bool lambert; // W has the cosine's height over the surface; else only sources in front count
   const std::uint32_t *visibility; // a word a sample and 32 sources, plane by plane; nullptr: all reach it
   const std::uint32_t *lit;        // sources that reach the sample
+  std::uint32_t visibility_words;  // of a sample
   std::uint32_t shining;           // all of them
   std::uint32_t plane;             // words of one
-  float *sums;                     // out: a plane of each run and power
+  float *run_moments;              // out: a plane of each run and moment
 };
 
-// Of some samples, row by row, the last one excluded: `first` a multiple of samples_per_part, and what is
-// beyond the last one padding. One of each instruction set.
-constexpr std::uint32_t samples_per_part = 16;
-using SumSamples = void (*)(const LawSums &of, std::uint32_t first, std::uint32_t last);
+// Of some of the rows of all samples, or of the listed blocks, the last one excluded. One of each instruction
+// set.
+struct SumLaws {
+  void (*sum_rows)(const LawSums &of, std::uint32_t first, std::uint32_t last);
+  void (*sum_blocks)(const LawSums &of, std::uint32_t first, std::uint32_t last);
+};
 
 } // namespace pmdsim

@@ -1,126 +1,155 @@
 // The host's sums over the sources, a lane a sample. Compiled once for each instruction set,
-// PMDSIM_INSTRUCTION_SET its name; see engine/CMakeLists.txt. It does what add_block of
-// shaders/light/moments.glsl does.
+// PMDSIM_INSTRUCTION_SET its name; see engine/CMakeLists.txt. It does what add_block and find_moments of
+// shaders/light/moments.glsl do, with lengths in units of the sample's distance from the reference point.
 #include "engine/light/host/laws.h"
-#include "engine/sampling/host/sample_points.h"
+#include "engine/light/host/vector_samples.h"
+#include "shaders/light/source_windows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
-// Neighbouring samples of a row, camera frame.
-struct Samples {
-  double point_m[3][lanes];
-  double normal[3][lanes], offset_m[lanes]; // of the surface's plane, as in TrianglePlane
-  std::int32_t sees[lanes];
+// From the run's reference point.
+struct RunView {
+  double from_reference_m[3][lanes];
+  double height_m[lanes]; // of the reference point over the surface
+  Floats rho_m, inverse_m;
 };
 
-// In a batch's frame, from the run's reference point.
+// In a batch's frame, from the run's reference point; heights, normals and detours in units of rho.
 struct BatchView {
-  Floats x_m, y_m, along_m; // the latter from the batch's plane
-  Floats normal_x, normal_y;
-  Floats height_m;  // of the reference point's foot in the plane over the surface
-  Floats detour_m2; // of q what all sources have
+  Floats x_m, y_m, along_m;          // the latter from the batch's plane
+  Floats normal_x, normal_y, height; // the latter of the reference point's foot in the plane over the surface
+  Floats twice_x, twice_y, detour;   // of u: by the source's place, and what all sources have
+  Floats inverse2_m2;                // what its square distance from the reference point has to do with u
+  Floats along;                      // its length's power is W's, where W is one of lengths
 };
 
-void find_surface(const shader::TrianglePlane &plane, int lane, Samples &samples) {
-  const auto exact = [&](int k) {
-    return static_cast<double>(plane.plane_hi[k]) + static_cast<double>(plane.plane_lo[k]);
-  };
-  for (int k = 0; k < 3; ++k)
-    samples.normal[k][lane] = exact(k);
-  samples.offset_m[lane] = exact(3);
-}
-
-// Beyond the last sample it stands for all.
-Samples samples_at(const SampleSource &of, std::uint32_t first, std::uint32_t last) {
-  Samples samples;
-  Place place{first % of.strip.columns, first / of.strip.columns, 0, 0, first};
+RunView view_from(const VectorSamples &samples, const RunOfBatches &run) {
+  RunView view;
+  alignas(vector_bytes) float rho[lanes];
   for (int lane = 0; lane < lanes; ++lane) {
-    double point[3];
-    std::uint32_t shape;
-    find_point(of, place, point, shape);
-    for (int k = 0; k < 3; ++k)
-      samples.point_m[k][lane] = point[k];
-    samples.sees[lane] = point[2] != 0.0;
-    find_surface(of.planes[samples.sees[lane] != 0 ? shape : 0], lane, samples);
-    if (place.index + 1 == last)
-      continue;
-    ++place.index;
-    if (++place.column == of.strip.columns) {
-      place.column = 0;
-      ++place.row;
+    double rho2 = 0.0, height = -samples.offset_m[lane];
+    for (int k = 0; k < 3; ++k) {
+      const double away = samples.point_m[k][lane] - run.reference_m[k];
+      view.from_reference_m[k][lane] = away;
+      rho2 += away * away;
+      height += samples.normal[k][lane] * run.reference_m[k];
     }
+    view.height_m[lane] = height;
+    rho[lane] = static_cast<float>(std::sqrt(rho2));
   }
-  return samples;
+  view.rho_m = load<Floats>(rho);
+  view.inverse_m = 1.0f / view.rho_m;
+  return view;
 }
 
-// What sees nothing takes another one's place, so that all are near each other.
-void fill_gaps(Samples &samples, int seen) {
-  for (int lane = 0; lane < lanes; ++lane)
-    if (samples.sees[lane] == 0)
-      for (int k = 0; k < 3; ++k)
-        samples.point_m[k][lane] = samples.point_m[k][seen];
-}
-
-BatchView view_from(const Samples &samples, const RunOfBatches &run, const SourceBatch &batch) {
+BatchView view_from(const VectorSamples &samples, const RunView &run, const SourceBatch &batch) {
   alignas(vector_bytes) float place[3][lanes], normal[2][lanes], height[lanes], detour[lanes];
   for (int lane = 0; lane < lanes; ++lane) {
-    double height_m = -samples.offset_m[lane], in_frame_m[3], turned[3];
-    for (int row = 0; row < 3; ++row) {
-      in_frame_m[row] = turned[row] = 0.0;
+    double in_frame_m[3] = {}, turned[3] = {};
+    for (int row = 0; row < 3; ++row)
       for (int k = 0; k < 3; ++k) {
-        in_frame_m[row] += batch.rotation[row][k] * (samples.point_m[k][lane] - run.reference_m[k]);
+        in_frame_m[row] += batch.rotation[row][k] * run.from_reference_m[k][lane];
         turned[row] += batch.rotation[row][k] * samples.normal[k][lane];
       }
-      height_m += samples.normal[row][lane] * run.reference_m[row];
-    }
     place[0][lane] = static_cast<float>(in_frame_m[0]);
     place[1][lane] = static_cast<float>(in_frame_m[1]);
     place[2][lane] = static_cast<float>(in_frame_m[2] - batch.along_m);
     normal[0][lane] = static_cast<float>(turned[0]);
     normal[1][lane] = static_cast<float>(turned[1]);
-    height[lane] = static_cast<float>(height_m + batch.along_m * turned[2]);
+    height[lane] = static_cast<float>(run.height_m[lane] + batch.along_m * turned[2]);
     detour[lane] = static_cast<float>(-2.0 * batch.along_m * in_frame_m[2]);
   }
-  return {load<Floats>(place[0]),  load<Floats>(place[1]), load<Floats>(place[2]), load<Floats>(normal[0]),
-          load<Floats>(normal[1]), load<Floats>(height),   load<Floats>(detour)};
+  const Floats x = load<Floats>(place[0]), y = load<Floats>(place[1]), along = load<Floats>(place[2]),
+               inverse = run.inverse_m, inverse2 = inverse * inverse;
+  return {x,
+          y,
+          along,
+          load<Floats>(normal[0]) * inverse,
+          load<Floats>(normal[1]) * inverse,
+          load<Floats>(height) * inverse,
+          -2.0f * x * inverse2,
+          -2.0f * y * inverse2,
+          load<Floats>(detour) * inverse2,
+          inverse2,
+          larger(along, all(0.0f)) * inverse};
 }
 
-// Which sources reach the samples, as visibility bits; where all do there are none.
+// Which sources reach the samples, as visibility bits.
 struct Reach {
-  const std::uint32_t *words;
-  std::uint32_t plane;
+  Ints words[shader::bundles_per_window];
+  std::uint32_t any[shader::bundles_per_window]; // of the samples
 
   Ints of(std::uint32_t bit) const {
-    return load<Ints>(words + std::size_t{bit / 32} * plane) & all(static_cast<std::int32_t>(1u << bit % 32));
+    return words[bit / 32] & all(static_cast<std::int32_t>(1u << bit % 32));
+  }
+  bool none_of(std::uint32_t bit) const { return (any[bit / 32] >> bit % 32 & 1u) == 0u; }
+};
+
+void find_reach(const LawSums &of, const VectorSamples &samples, Reach &reach) {
+  const Ints number = load<Ints>(samples.number), sees = load<Ints>(samples.sees);
+  for (std::uint32_t word = 0; word < of.visibility_words; ++word) {
+    const auto *plane = reinterpret_cast<const std::int32_t *>(of.visibility) + std::size_t{word} * of.plane;
+    const Ints words = gathered(plane, number) & -sees;
+    reach.words[word] = words;
+    std::uint32_t any = 0;
+    for (int lane = 0; lane < lanes; ++lane)
+      any |= static_cast<std::uint32_t>(words[lane]);
+    reach.any[word] = any;
+  }
+}
+
+// A source's part of the first sum, and what its part of each following one is over that of the one before.
+struct Parts {
+  Floats first, factor;
+};
+
+// Of sums of W u^i.
+struct ByPowers {
+  Parts operator()(const Floats &weight, const Floats &u) const { return {weight, u}; }
+};
+
+// Of moments: w = W (1 + u)^(-p / 2), e = sqrt(1 + u) - 1.
+struct ByRoots {
+  std::uint32_t inverse_powers;
+
+  Parts operator()(Floats weight, const Floats &u) const {
+    const Floats stretch2 = larger(1.0f + u, all(tiny)), inverse = inverse_root(stretch2);
+    for (std::uint32_t i = 0; i < inverse_powers; ++i)
+      weight *= inverse;
+    return {weight, u / (1.0f + stretch2 * inverse)};
   }
 };
 
 // Block by block, so that rounding is no worse than on the device.
-template <std::size_t powers, bool lambert, bool shadowed, class Law>
-void add_sources(const SourceBatch &batch, const BatchView &at, const Law &law, const Reach &reach,
-                 Floats *total) {
-  const Floats twice_x = -2.0f * at.x_m, twice_y = -2.0f * at.y_m, none = all(0.0f);
+template <std::size_t sums, bool lambert, bool shadowed, class Law, class By>
+void add_sources(const SourceBatch &batch, const BatchView &at, const Law &law, const By &by,
+                 const Reach &reach, Floats *total) {
+  const Floats none = all(0.0f);
   for (std::uint32_t first = 0; first < batch.count; first += shader::diodes_per_block) {
-    Floats part[powers] = {};
+    Floats part[sums] = {};
     const std::uint32_t last = std::min(batch.count, first + shader::diodes_per_block);
     for (std::uint32_t i = first; i < last; ++i) {
+      if (shadowed && reach.none_of(batch.bits[i]))
+        continue;
       const BatchSource source = batch.sources[i];
-      const Floats height = at.height_m + at.normal_x * source.x_m + at.normal_y * source.y_m;
+      const Floats height = at.height + at.normal_x * source.x_m + at.normal_y * source.y_m;
       const Floats facing = lambert ? larger(height, none) : height > 0.0f ? all(1.0f) : none;
-      Floats term = source.intensity * facing * law(at.x_m - source.x_m, at.y_m - source.y_m);
+      Floats weight = source.intensity * facing * law(at.x_m - source.x_m, at.y_m - source.y_m);
       if (shadowed)
-        term = reach.of(batch.bits[i]) != 0 ? term : none;
-      const Floats q = source.square_m2 + twice_x * source.x_m + twice_y * source.y_m + at.detour_m2;
+        weight = reach.of(batch.bits[i]) != 0 ? weight : none;
+      auto [term, factor] = by(weight, at.inverse2_m2 * source.square_m2 + at.twice_x * source.x_m +
+                                           at.twice_y * source.y_m + at.detour);
       part[0] += term;
-      for (std::size_t k = 1; k < powers; ++k) {
-        term *= q;
+      for (std::size_t k = 1; k < sums; ++k) {
+        term *= factor;
         part[k] += term;
       }
     }
-    for (std::size_t k = 0; k < powers; ++k)
+    for (std::size_t k = 0; k < sums; ++k)
       total[k] += part[k];
   }
 }
@@ -158,78 +187,211 @@ bool find_stretch(const LawTable &table, const Tangents &tangents, std::int32_t 
   return low >= -1.0f && high < static_cast<float>(std::min(first + 2 * lanes, table.steps + 1));
 }
 
-template <std::size_t powers, bool lambert, bool shadowed>
-void add_batch(const SourceBatch &batch, const BatchView &at, const Reach &reach, Floats *total) {
-  const auto add = [&](const auto &law) {
-    add_sources<powers, lambert, shadowed>(batch, at, law, reach, total);
-  };
-  if (!batch.table)
-    return add(WholePower(batch.power, at.along_m));
-  if (batch.table->cells)
-    return add(AroundAxis(*batch.table, at.along_m));
+template <class Add>
+void add_by_table(const LawTable &table, const SourceBatch &batch, const BatchView &at, const Add &add) {
+  if (table.cells)
+    return add(AroundAxis(table, at.along_m));
   const Tangents tangents = tangents_of(batch, at);
   std::int32_t first = 0;
-  if (tangents.most > Within45::largest || !find_stretch(*batch.table, tangents, first))
-    add(AnyAngle(*batch.table, at.along_m));
+  if (tangents.most > Within45::largest || !find_stretch(table, tangents, first))
+    add(AnyAngle(table, at.along_m));
   else if (tangents.most <= Within16::largest)
-    add(NearAngles<Within16>(*batch.table, first, 1.0f / at.along_m));
+    add(NearAngles<Within16>(table, first, 1.0f / at.along_m));
   else if (tangents.most <= Within30::largest)
-    add(NearAngles<Within30>(*batch.table, first, 1.0f / at.along_m));
+    add(NearAngles<Within30>(table, first, 1.0f / at.along_m));
   else
-    add(NearAngles<Within45>(*batch.table, first, 1.0f / at.along_m));
+    add(NearAngles<Within45>(table, first, 1.0f / at.along_m));
 }
 
-using AddBatch = void (*)(const SourceBatch &, const BatchView &, const Reach &, Floats *);
-
-template <std::size_t powers>
-AddBatch add_batch_of(bool lambert, bool shadowed) {
-  return lambert    ? shadowed ? add_batch<powers, true, true> : add_batch<powers, true, false>
-            : shadowed ? add_batch<powers, false, true>
-                    : add_batch<powers, false, false>;
+// Sources that have one J or one length's power in common.
+template <std::size_t sums, bool lambert, bool shadowed, class By>
+void add_alike(const SourceBatch &batch, const BatchView &at, const By &by, const Reach &reach,
+               Floats *total) {
+  Floats own[sums] = {}, shared = all(1.0f);
+  for (std::uint32_t i = 0; i < batch.power; ++i)
+    shared *= at.along;
+  add_sources<sums, lambert, shadowed>(batch, at, SharedByAll(), by, reach, own);
+  for (std::size_t k = 0; k < sums; ++k)
+    total[k] += shared * own[k];
 }
 
-AddBatch add_batch_of(std::uint32_t powers, bool lambert, bool shadowed) {
-  return powers <= 5   ? add_batch_of<5>(lambert, shadowed)
-         : powers <= 8 ? add_batch_of<8>(lambert, shadowed)
-                       : add_batch_of<most_host_powers>(lambert, shadowed);
+template <std::size_t sums, bool lambert, bool shadowed, class By>
+void add_batch(const SourceBatch &batch, const BatchView &at, const By &by, const Reach &reach,
+               Floats *total) {
+  constexpr std::size_t of_laws = std::max<std::size_t>(sums, 8);
+  const auto add = [&](const auto &law) {
+    Floats own[of_laws] = {};
+    add_sources<of_laws, lambert, shadowed>(batch, at, law, by, reach, own);
+    for (std::size_t k = 0; k < sums; ++k)
+      total[k] += own[k];
+  };
+  if (batch.table)
+    add_by_table(*batch.table, batch, at, add);
+  else if (batch.of_lengths || batch.power == 0)
+    add_alike<sums, lambert, shadowed>(batch, at, by, reach, total);
+  else
+    add(WholePower(batch.power, at.along_m));
 }
 
-void store_sums(const LawSums &of, const Samples &samples, std::uint32_t first, std::uint32_t run,
-                const Floats *total) {
-  const Ints sees = load<Ints>(samples.sees);
-  for (std::uint32_t k = 0; k < of.powers; ++k)
-    store(of.sums + (std::size_t{run} * of.powers + k) * of.plane + first, sees != 0 ? total[k] : all(0.0f));
+template <class By>
+using AddBatch = void (*)(const SourceBatch &, const BatchView &, const By &, const Reach &, Floats *);
+
+template <std::size_t sums, class By>
+AddBatch<By> add_batch_of(bool lambert, bool shadowed) {
+  return lambert    ? shadowed ? add_batch<sums, true, true, By> : add_batch<sums, true, false, By>
+            : shadowed ? add_batch<sums, false, true, By>
+                    : add_batch<sums, false, false, By>;
 }
 
-void sum_samples(const LawSums &of, std::uint32_t first, std::uint32_t last) {
-  for (; first < last; first += lanes) {
-    Samples samples = samples_at(of.samples, first, last);
-    const int seen = static_cast<int>(std::find(samples.sees, samples.sees + lanes, 1) - samples.sees);
-    const bool sees = seen < lanes;
-    bool shadowed = false;
-    if (sees) {
-      fill_gaps(samples, seen);
-      for (int lane = 0; lane < lanes && of.visibility; ++lane)
-        shadowed = shadowed ||
-                   (samples.sees[lane] && of.lit[first + static_cast<std::uint32_t>(lane)] != of.shining);
+template <class By>
+AddBatch<By> add_batch_of(std::uint32_t sums, bool lambert, bool shadowed) {
+  return sums <= 4   ? add_batch_of<4, By>(lambert, shadowed)
+         : sums <= 6 ? add_batch_of<6, By>(lambert, shadowed)
+         : sums <= 8 ? add_batch_of<8, By>(lambert, shadowed)
+                     : add_batch_of<most_host_sums, By>(lambert, shadowed);
+}
+
+// |u| of all of a run's sources, at most.
+Floats largest_u(const SourceBatch &batch, const BatchView &at) {
+  const float along_m = std::abs(static_cast<float>(batch.along_m)), radius_m = batch.radius_m;
+  const Floats across = root(larger(at.x_m * at.x_m + at.y_m * at.y_m, all(tiny)));
+  const Floats product = across * radius_m + (absolute(at.along_m) + along_m) * along_m;
+  constexpr float slack = 1.00001f;
+  return slack * at.inverse2_m2 * (radius_m * radius_m + along_m * along_m + 2.0f * product);
+}
+
+// Of each sample the first of the run's tables that reaches so far, or how many there are.
+Ints tables_of(const RunOfBatches &run, const Floats &largest) {
+  Ints table = all(0);
+  for (std::uint32_t i = 0; i < run.table_count; ++i)
+    table -= largest > run.tables[i].largest_u;
+  return table;
+}
+
+// Moments from sums of powers, of the samples that a table is for.
+void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t moments, const Floats *sums,
+                  Floats *moment) {
+  for (std::uint32_t k = 0; k < moments; ++k) {
+    Floats sum = all(0.0f);
+    for (std::uint32_t down = 0; down < table.powers; ++down) {
+      const std::uint32_t i = table.powers - 1 - down;
+      sum += table.of_moments[k][i] * sums[i];
     }
-    const Reach reach{shadowed ? of.visibility + first : nullptr, of.plane};
-    const AddBatch add = add_batch_of(of.powers, of.lambert, shadowed);
-    for (std::uint32_t run = 0; run < of.run_count; ++run) {
-      Floats total[most_host_powers] = {};
-      if (sees) {
-        const RunOfBatches &batches = of.runs[run];
-        for (std::uint32_t i = 0; i < batches.count; ++i)
-          add(batches.batches[i], view_from(samples, batches, batches.batches[i]), reach, total);
-      }
-      store_sums(of, samples, first, run, total);
-    }
+    moment[k] = takes != 0 ? sum : moment[k];
   }
+}
+
+class VectorSum {
+public:
+  VectorSum(const LawSums &of, VectorSamples &samples) : of_(of), samples_(samples) {
+    shadowed_ = is_shadowed();
+    if (shadowed_)
+      find_reach(of, samples, reach_);
+  }
+
+  // The moments of a run, m^-2 m^k.
+  void sum(const RunOfBatches &run, Floats *moment) const {
+    const RunView view = view_from(samples_, run);
+    Floats largest = all(0.0f);
+    for (std::uint32_t i = 0; i < run.count; ++i)
+      largest = larger(largest, largest_u(run.batches[i], view_from(samples_, view, run.batches[i])));
+    const Ints table = tables_of(run, largest);
+    sum_powers(run, view, table, moment);
+    const auto beyond = static_cast<std::int32_t>(run.table_count);
+    if (bits_of(table == beyond) != 0) {
+      Floats sums[most_host_sums] = {};
+      add(run, view, of_.moments, ByRoots{run.inverse_powers}, sums);
+      for (std::uint32_t k = 0; k < of_.moments; ++k)
+        moment[k] = table == beyond ? sums[k] : moment[k];
+    }
+    Floats scale = view.inverse_m * view.inverse_m;
+    for (std::uint32_t k = 0; k < of_.moments; ++k, scale *= view.rho_m)
+      moment[k] *= scale;
+  }
+
+private:
+  bool is_shadowed() const {
+    bool shadowed = false;
+    for (int lane = 0; lane < lanes && of_.visibility; ++lane)
+      shadowed = shadowed || (samples_.sees[lane] != 0 && of_.lit[samples_.number[lane]] != of_.shining);
+    return shadowed;
+  }
+
+  void sum_powers(const RunOfBatches &run, const RunView &view, const Ints &table, Floats *moment) const {
+    std::uint32_t powers = 0;
+    for (std::uint32_t i = 0; i < run.table_count; ++i)
+      if (bits_of(table == static_cast<std::int32_t>(i)) != 0)
+        powers = run.tables[i].powers;
+    if (powers == 0)
+      return;
+    Floats sums[most_host_sums] = {};
+    add(run, view, powers, ByPowers(), sums);
+    for (std::uint32_t i = 0; i < run.table_count && run.tables[i].powers <= powers; ++i)
+      find_moments(run.tables[i], table == static_cast<std::int32_t>(i), of_.moments, sums, moment);
+  }
+
+  template <class By>
+  void add(const RunOfBatches &run, const RunView &view, std::uint32_t sums, const By &by,
+           Floats *total) const {
+    const AddBatch<By> add_batch = add_batch_of<By>(sums, of_.lambert, shadowed_);
+    for (std::uint32_t i = 0; i < run.count; ++i)
+      add_batch(run.batches[i], view_from(samples_, view, run.batches[i]), by, reach_, total);
+  }
+
+  const LawSums &of_;
+  const VectorSamples &samples_;
+  bool shadowed_;
+  Reach reach_;
+};
+
+void store_moments(const LawSums &of, const VectorSamples &samples, std::uint32_t run, const Floats *moment) {
+  for (std::uint32_t k = 0; k < of.moments; ++k) {
+    float *plane = of.run_moments + (std::size_t{run} * of.moments + k) * of.plane;
+    for (int lane = 0; lane < lanes; ++lane)
+      plane[samples.number[lane]] = samples.sees[lane] != 0 ? moment[k][lane] : 0.0f;
+  }
+}
+
+void sum_vector(const LawSums &of, VectorSamples &samples) {
+  find_samples(of.samples, samples);
+  const int seen = static_cast<int>(std::find(samples.sees, samples.sees + lanes, 1) - samples.sees);
+  Floats moment[most_host_sums] = {};
+  if (seen < lanes)
+    fill_gaps(samples, seen);
+  const VectorSum vector(of, samples);
+  for (std::uint32_t run = 0; run < of.run_count; ++run) {
+    if (seen < lanes)
+      vector.sum(of.runs[run], moment);
+    store_moments(of, samples, run, moment);
+  }
+}
+
+// Where a law depends on a vector's other samples, these are the same however strips and threads part them.
+void sum_rows(const LawSums &of, std::uint32_t first, std::uint32_t last) {
+  const auto sum = [&](VectorSamples &samples) { sum_vector(of, samples); };
+  Gathering gathering(sum);
+  const std::uint32_t columns = of.samples.strip.columns;
+  for (std::uint32_t row = first; row < last; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column)
+      gathering.add(row * columns + column);
+    gathering.end();
+  }
+}
+
+void sum_blocks(const LawSums &of, std::uint32_t first, std::uint32_t last) {
+  const auto sum = [&](VectorSamples &samples) { sum_vector(of, samples); };
+  Gathering gathering(sum);
+  for (std::uint32_t i = first; i < last; ++i) {
+    const std::uint32_t sample = of.blocks[i] / shader::block_samples;
+    for (std::uint32_t k = 0; k <= of.blocks[i] % shader::block_samples; ++k)
+      gathering.add(sample + k);
+  }
+  gathering.end();
 }
 
 } // namespace
 
-extern const SumSamples sum_laws;
-const SumSamples sum_laws = sum_samples;
+extern const SumLaws sum_laws;
+const SumLaws sum_laws{sum_rows, sum_blocks};
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

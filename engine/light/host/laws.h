@@ -147,7 +147,10 @@ private:
   float phi_steps_per_rad_;
 };
 
-// J = cos^n.
+// J = cos^n, or with r^n the power of a length, which all sources of a batch share.
+struct SharedByAll {
+  Floats operator()(const Floats &, const Floats &) const { return all(1.0f); }
+};
 class WholePower {
 public:
   WholePower(std::uint32_t power, const Floats &along) : power_(power), along_(along) {}

@@ -15,6 +15,10 @@ constexpr float most_power = 8.0f;    // of a cosine
 // reference point: what rounding to float makes of such a distance.
 constexpr double same_distance = 0x1p-24;
 
+std::uint32_t power_of(const shader::GroupSource &source) {
+  return static_cast<std::uint32_t>(std::max(source.order, 0.0f));
+}
+
 bool differs_about_axis(const shader::GroupSource &source) {
   return has_diagram(source) && source.row_length > 0;
 }
@@ -93,6 +97,36 @@ bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, doubl
          (!differs_about_axis(a) || a.across == b.across) && std::abs(apart_m) <= same_distance * distance_m;
 }
 
+// n where every source has the n-th power of a cosine, 0 where none has any law.
+std::optional<std::uint32_t> common_power(const SourceGroups &groups) {
+  std::optional<std::uint32_t> power;
+  for (const shader::GroupSource &source : groups.diodes) {
+    if (source.intensity == 0.0f)
+      continue;
+    if (has_diagram(source) || (power && *power != power_of(source)))
+      return std::nullopt;
+    power = power_of(source);
+  }
+  return power;
+}
+
+// Shorter ones are hardly faster.
+std::vector<PowerTable> tables_of(const PathDifference &reach, std::uint32_t inverse_powers,
+                                  std::uint32_t moments, double wavenumber_rad_m) {
+  std::vector<PowerTable> tables;
+  for (const std::uint32_t powers : {4u, 6u, 8u, shader::largest_powers}) {
+    const auto fitted = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers);
+    if (!fitted)
+      continue;
+    PowerTable &table = tables.emplace_back(PowerTable{static_cast<float>(fitted->largest_u), powers, {}});
+    for (std::uint32_t k = 0; k < moments; ++k)
+      for (std::uint32_t i = 0; i < powers; ++i)
+        table.of_moments[k][i] =
+            fitted->table[shader::largest_powers / 4 * k + i / 4][static_cast<glm::length_t>(i % 4)];
+  }
+  return tables;
+}
+
 } // namespace
 
 bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
@@ -111,9 +145,26 @@ bool is_known_to_host(const shader::GroupSource &source) {
   return false;
 }
 
-SourceBatches::SourceBatches(const SourceGroups &groups, std::uint32_t run_bits) {
+SourceBatches::SourceBatches(const SourceGroups &groups, bool lambert, double wavenumber_rad_m,
+                             bool with_tables) {
+  const std::optional<std::uint32_t> power = common_power(groups);
+  of_lengths_ = power.has_value();
+  inverse_powers_ = 2 + (lambert ? 1 : 0) + power.value_or(0);
+  const std::uint32_t run_bits = bundles_per_run(groups) * shader::diodes_per_bundle;
   for (const SourceRun &run : groups.runs)
     add_run(groups, run, static_cast<std::uint32_t>(runs_.size()) * run_bits);
+  if (with_tables)
+    add_tables(groups, wavenumber_rad_m);
+}
+
+void SourceBatches::add_tables(const SourceGroups &groups, double wavenumber_rad_m) {
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const PathDifference &reach = groups.runs[i].reach;
+    if (i == 0 || reach != groups.runs[i - 1].reach)
+      power_tables_.push_back(tables_of(reach, inverse_powers_, groups.moments, wavenumber_rad_m));
+    runs_[i].tables = power_tables_.back().data();
+    runs_[i].table_count = static_cast<std::uint32_t>(power_tables_.back().size());
+  }
 }
 
 void SourceBatches::add_run(const SourceGroups &groups, const SourceRun &run, std::uint32_t first_bit) {
@@ -140,7 +191,10 @@ void SourceBatches::add_run(const SourceGroups &groups, const SourceRun &run, st
     views.push_back(view_of(batch));
   runs_.push_back({{run.reference_m.x, run.reference_m.y, run.reference_m.z},
                    views.data(),
-                   static_cast<std::uint32_t>(views.size())});
+                   static_cast<std::uint32_t>(views.size()),
+                   nullptr,
+                   0,
+                   inverse_powers_});
 }
 
 SourceBatch SourceBatches::view_of(const Batch &batch) const {
@@ -148,7 +202,8 @@ SourceBatch SourceBatches::view_of(const Batch &batch) const {
   if (has_diagram(batch.like))
     view.table = &tables_.at(batch.like.diagram).table;
   else
-    view.power = static_cast<std::uint32_t>(std::max(batch.like.order, 0.0f));
+    view.power = power_of(batch.like);
+  view.of_lengths = of_lengths_;
   const glm::dmat3 frame = frame_of(batch.like);
   for (glm::length_t row = 0; row < 3; ++row)
     for (glm::length_t k = 0; k < 3; ++k)

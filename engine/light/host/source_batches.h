@@ -18,8 +18,8 @@ bool has_diagram(const shader::GroupSource &source);
 
 class SourceBatches {
 public:
-  // `run_bits`: visibility bits of a run.
-  SourceBatches(const SourceGroups &groups, std::uint32_t run_bits);
+  // Of groups whose moments belong to a wavenumber; `with_tables`: powers of u may stand for roots.
+  SourceBatches(const SourceGroups &groups, bool lambert, double wavenumber_rad_m, bool with_tables);
   SourceBatches(const SourceBatches &) = delete;
   SourceBatches &operator=(const SourceBatches &) = delete;
 
@@ -38,11 +38,15 @@ private:
   };
 
   void add_run(const SourceGroups &groups, const SourceRun &run, std::uint32_t first_bit);
+  void add_tables(const SourceGroups &groups, double wavenumber_rad_m);
   SourceBatch view_of(const Batch &batch) const;
 
+  bool of_lengths_; // all are cosines of one power
+  std::uint32_t inverse_powers_;
   std::map<std::uint32_t, Table> tables_; // by GroupSource::diagram
   std::deque<std::deque<Batch>> batches_; // of each run
   std::deque<std::vector<SourceBatch>> views_;
+  std::deque<std::vector<PowerTable>> power_tables_; // of runs
   std::vector<RunOfBatches> runs_;
 };
 
