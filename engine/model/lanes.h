@@ -179,6 +179,44 @@ inline std::uint32_t bits_of(const Ints &comparison) {
 #endif
 }
 
+// Some of a vector's lanes, as the processor compares and selects them.
+#if defined(__AVX512F__)
+struct Mask {
+  __mmask16 lanes;
+};
+inline Mask less(const Floats &a, const Floats &b) {
+  return {_mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), _CMP_LT_OQ)};
+}
+inline Mask less(const Ints &a, const Ints &b) {
+  return {_mm512_cmplt_epi32_mask(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b))};
+}
+inline Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.lanes, b.lanes)}; }
+inline Mask without(Mask a, Mask b) { return {_kandn_mask16(b.lanes, a.lanes)}; }
+inline std::uint32_t bits_of(Mask mask) { return _cvtmask16_u32(mask.lanes); }
+inline Mask mask_of(std::uint32_t bits) { return {_cvtu32_mask16(bits)}; }
+inline Ints add_where(Mask mask, const Ints &to, const Ints &amount) {
+  const auto sum = reinterpret_cast<__m512i>(to);
+  return reinterpret_cast<Ints>(
+      _mm512_mask_add_epi32(sum, mask.lanes, sum, reinterpret_cast<__m512i>(amount)));
+}
+#else
+struct Mask {
+  Ints lanes;
+};
+inline Mask less(const Floats &a, const Floats &b) { return {a < b}; }
+inline Mask less(const Ints &a, const Ints &b) { return {a < b}; }
+inline Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+inline Mask without(Mask a, Mask b) { return {a.lanes & ~b.lanes}; }
+inline std::uint32_t bits_of(Mask mask) { return bits_of(mask.lanes); }
+inline Mask mask_of(std::uint32_t bits) {
+  Mask mask{};
+  for (int i = 0; i < lanes; ++i)
+    mask.lanes[i] = -static_cast<std::int32_t>(bits >> i & 1u);
+  return mask;
+}
+inline Ints add_where(Mask mask, const Ints &to, const Ints &amount) { return to + (mask.lanes & amount); }
+#endif
+
 // Moves some lanes beside each other, to the first ones.
 class Packing {
 public:

@@ -34,6 +34,33 @@ EdgePlanes exact_planes(const shader::SweepPlanes &planes) {
   return exact;
 }
 
+// Classes begin at ranks, in the order of their angles.
+void place_classes(const std::vector<std::pair<float, std::int32_t>> &classes, std::int32_t diodes,
+                   SilhouetteBoard &to) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  const auto of = [&](std::size_t i) {
+    return i < classes.size() ? classes[i] : std::pair(infinite, diodes);
+  };
+  for (std::size_t i = 0; i <= classes.size(); ++i) {
+    const auto rank = static_cast<std::size_t>(of(i).second);
+    to.rank_turn[rank] = of(i).first;
+    to.next_rank[rank] = of(i + 1).second;
+  }
+  std::size_t first = 0;
+  for (std::uint32_t bin = 0; bin < angle_bins; ++bin) {
+    const auto begins_before = [&](std::size_t i, std::uint32_t end) {
+      return of(i).first * (angle_bins / 4.0f) < static_cast<float>(end);
+    };
+    while (begins_before(first, bin))
+      ++first;
+    const bool has_more =
+        bin + 1 < angle_bins ? begins_before(first + 1, bin + 1) : first + 1 < classes.size();
+    to.bin_turn[bin] = of(first).first;
+    to.bin_ranks[bin] =
+        of(first).second | of(first + 1).second << rank_bits | (has_more ? more_classes : 0);
+  }
+}
+
 void place_diodes(const Board &board, const std::vector<glm::dvec3> &places_m, SilhouetteBoard &to) {
   std::vector<std::pair<float, std::int32_t>> ordered;
   for (std::size_t d = 0; d < places_m.size(); ++d) {
@@ -42,7 +69,7 @@ void place_diodes(const Board &board, const std::vector<glm::dvec3> &places_m, S
   }
   std::ranges::sort(ordered);
   to.diodes = static_cast<std::uint32_t>(ordered.size());
-  std::size_t classes = 0;
+  std::vector<std::pair<float, std::int32_t>> classes;
   for (std::size_t rank = 0; rank < ordered.size(); ++rank) {
     const auto &[turn, diode] = ordered[rank];
     const glm::dvec3 place_m = board.in_frame(places_m[static_cast<std::size_t>(diode)]);
@@ -51,19 +78,10 @@ void place_diodes(const Board &board, const std::vector<glm::dvec3> &places_m, S
     to.x_m[rank] = static_cast<float>(place_m.x);
     to.y_m[rank] = static_cast<float>(place_m.y);
     to.rank_of_bit[static_cast<std::size_t>(diode)] = static_cast<std::int32_t>(rank);
-    if (classes == 0 || turn > to.class_turn[classes - 1] + same_turn) {
-      to.class_turn[classes] = turn;
-      to.class_rank[classes++] = static_cast<std::int32_t>(rank);
-    }
+    if (classes.empty() || turn > classes.back().first + same_turn)
+      classes.emplace_back(turn, static_cast<std::int32_t>(rank));
   }
-  to.class_turn[classes] = std::numeric_limits<float>::infinity();
-  to.class_rank[classes] = static_cast<std::int32_t>(ordered.size());
-  std::size_t next = 0;
-  for (std::uint32_t bin = 0; bin < angle_bins; ++bin) {
-    while (next < classes && to.class_turn[next] * (angle_bins / 4.0f) < static_cast<float>(bin))
-      ++next;
-    to.class_of_bin[bin] = static_cast<std::int32_t>(next);
-  }
+  place_classes(classes, static_cast<std::int32_t>(ordered.size()), to);
 }
 
 void describe(const Board &board, SilhouetteBoard &to) {

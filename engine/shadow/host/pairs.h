@@ -69,13 +69,15 @@ inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
   const Ints last = all(static_cast<std::int32_t>(angle_bins - 1));
   const Ints bin = __builtin_convertvector(turn * (angle_bins / 4.0f), Ints);
   const Ints within = smaller(larger(bin, Ints{}), last);
-  Ints of_angle = gathered(board.class_of_bin, within);
-  for (;;) {
-    const Ints beyond = turn > gathered(board.class_turn, of_angle);
-    if (bits_of(beyond) == 0)
-      return gathered(board.class_rank, of_angle);
-    of_angle -= beyond;
+  const Ints ranks = gathered(board.bin_ranks, within);
+  Ints beyond = turn > gathered(board.bin_turn, within);
+  Ints rank = (beyond ? ranks >> rank_bits : ranks) & rank_mask;
+  beyond &= (ranks & more_classes) != 0;
+  while (bits_of(beyond) != 0) {
+    beyond &= turn > gathered(board.rank_turn, rank);
+    rank = beyond ? gathered(board.next_rank, rank) : rank;
   }
+  return rank;
 }
 
 // What edges mean to a sample, a lane an edge.
@@ -229,8 +231,9 @@ inline void add_pairs(const Crossings &found, int i, Pairs &pairs) {
 }
 
 // Which of the diodes that are too close to the line for floats lie beyond it.
-inline Ints decide_close(const Pairs &pairs, int pair, std::uint32_t first, std::uint32_t bits, Ints beyond,
+inline Mask decide_close(const Pairs &pairs, int pair, std::uint32_t first, std::uint32_t bits, Mask lanes_beyond,
                          const Rows &items, const Sample &sample, const SilhouetteBoard &board) {
+  std::uint32_t beyond = bits_of(lanes_beyond) & ~bits;
   const Exact3 a = exact_place(items, row_ax, row_rest_ax, pairs.item[pair], sample),
                b = exact_place(items, row_bx, row_rest_bx, pairs.item[pair], sample), edge = cross(a, b);
   for (; bits != 0; bits &= bits - 1) {
@@ -239,9 +242,10 @@ inline Ints decide_close(const Pairs &pairs, int pair, std::uint32_t first, std:
     const Exact3 diode{board.exact_m[0][d] - sample.exact[0], board.exact_m[1][d] - sample.exact[1],
                        board.exact_m[2][d] - sample.exact[2]};
     const double volume = dot(edge, diode);
-    beyond[k] = (pairs.turned[pair] != 0 ? volume > 0.0 : volume < 0.0) ? -1 : 0;
+    if (pairs.turned[pair] != 0 ? volume > 0.0 : volume < 0.0)
+      beyond |= 1u << k;
   }
-  return beyond;
+  return mask_of(beyond);
 }
 
 // Adds to the counts of the diodes of a pair's angle that lie beyond its line.
@@ -250,22 +254,23 @@ inline void count_pair(const Pairs &pairs, int pair, int amount, const Rows &ite
   const Floats line_x = all(pairs.line_x[pair]), line_y = all(pairs.line_y[pair]),
                offset = all(pairs.offset[pair]), near_line = all(pairs.near_line[pair]);
   const Ints amounts = all(amount), numbers = lane_numbers();
-  const auto count_lanes = [&](std::int32_t d, const Ints &in_angle) {
+  const auto count_lanes = [&](std::int32_t d, Mask in_angle) {
     const auto at = static_cast<std::uint32_t>(d);
-    const Floats f = line_x * load<Floats>(board.x_m + at) + line_y * load<Floats>(board.y_m + at) + offset;
-    Ints beyond = f < 0.0f;
-    if (const std::uint32_t close = bits_of(in_angle & (absolute(f) < near_line)); close != 0) [[unlikely]]
+    const Floats f = multiply_add(line_x, load<Floats>(board.x_m + at),
+                                  multiply_add(line_y, load<Floats>(board.y_m + at), offset));
+    Mask beyond = less(f, Floats{}) & in_angle;
+    if (const std::uint32_t close = bits_of(less(absolute(f), near_line) & in_angle); close != 0) [[unlikely]]
       beyond = decide_close(pairs, pair, at, close, beyond, items, sample, board);
-    store(counts + at, load<Ints>(counts + at) + (beyond & in_angle & amounts));
+    store(counts + at, add_where(beyond, load<Ints>(counts + at), amounts));
   };
   // Of ranks from `first` on up to `end`. Most pairs end within two vectors; which of both, none can
   // foretell.
   const auto count = [&](std::int32_t first, std::int32_t end) {
     std::int32_t d = first & ~(lanes - 1);
-    count_lanes(d, (numbers >= first - d) & (numbers < end - d));
+    count_lanes(d, without(less(numbers, all(end - d)), less(numbers, all(first - d))));
     d += lanes;
     do {
-      count_lanes(d, numbers < end - d);
+      count_lanes(d, less(numbers, all(end - d)));
       d += lanes;
     } while (d < end);
   };

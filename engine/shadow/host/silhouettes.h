@@ -67,7 +67,11 @@ struct EdgePlanes {
 constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
 // With a vector to spare, of the widest.
 constexpr std::uint32_t diode_room = most_diodes + 16;
-constexpr std::uint32_t angle_bins = 4096;
+constexpr std::uint32_t angle_bins = 2048;
+
+// Of a bin of angles: how many diodes have smaller angles than its first class, how many with that class's,
+// and whether more classes begin within the bin.
+constexpr std::int32_t rank_bits = 10, rank_mask = (1 << rank_bits) - 1, more_classes = 1 << 2 * rank_bits;
 
 // A window of diodes on its board.
 struct SilhouetteBoard {
@@ -75,11 +79,12 @@ struct SilhouetteBoard {
   alignas(64) float x_m[diode_room], y_m[diode_room];
   alignas(64) double exact_m[3][most_diodes];
   alignas(64) std::int32_t rank_of_bit[most_diodes];
-  // Classes of one angle: each one's, a last one above all, and how many diodes have smaller ones. Of each
-  // bin of angles the first class.
-  alignas(64) float class_turn[most_diodes + 1];
-  std::int32_t class_rank[most_diodes + 1];
-  std::int32_t class_of_bin[angle_bins];
+  // Classes of one angle: by how many diodes have smaller ones, a class's angle, a last one above all, and
+  // how many have smaller ones than the next class. Likewise of the first class of each bin of angles.
+  alignas(64) float rank_turn[most_diodes + 1];
+  std::int32_t next_rank[most_diodes + 1];
+  alignas(64) float bin_turn[angle_bins];
+  alignas(64) std::int32_t bin_ranks[angle_bins];
   // Of SweepBoard, and more.
   double rotation[3][3], translation_m[3]; // board_from_camera
   float supports[8];                       // +x, -x, +y, -y, (1, 1), (-1, -1), (1, -1), (-1, 1)
