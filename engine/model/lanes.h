@@ -87,6 +87,16 @@ inline Floats multiply_add(const Floats &a, const Floats &b, const Floats &c) {
 #endif
 }
 
+// 1 / v, to 1.5e-7 of it.
+inline Floats inverse(const Floats &v) {
+#if defined(__AVX512F__)
+  const auto guess = reinterpret_cast<Floats>(_mm512_maskz_rcp14_ps(0xffff, reinterpret_cast<__m512>(v)));
+  return multiply_add(guess, multiply_add(-guess, v, all(1.0f)), guess);
+#else
+  return 1.0f / v;
+#endif
+}
+
 // 0, 1, 2, ...
 inline Ints lane_numbers() {
   Ints numbers;

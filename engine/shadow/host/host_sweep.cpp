@@ -56,8 +56,7 @@ void place_classes(const std::vector<std::pair<float, std::int32_t>> &classes, s
     const bool has_more =
         bin + 1 < angle_bins ? begins_before(first + 1, bin + 1) : first + 1 < classes.size();
     to.bin_turn[bin] = of(first).first;
-    to.bin_ranks[bin] =
-        of(first).second | of(first + 1).second << rank_bits | (has_more ? more_classes : 0);
+    to.bin_ranks[bin] = of(first).second | of(first + 1).second << rank_bits | (has_more ? more_classes : 0);
   }
 }
 
@@ -244,17 +243,18 @@ void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
   if (state.samples.are_records())
     state.block_kinds.resize(std::size_t{tiles_across(samples.strip.columns)} * samples.strip.rows);
   struct Memory {
-    std::vector<ListedBlock> edges, hidden;
+    std::vector<ListedBlock> edges, hidden, hidden_nearby;
     TileBits bits;
   };
   tbb::enumerable_thread_specific<Memory> memory([&] {
-    return Memory{
-        std::vector<ListedBlock>(state.most_blocks + 1), std::vector<ListedBlock>(state.most_blocks + 1), {}};
+    const std::vector<ListedBlock> all(state.most_blocks + 1);
+    return Memory{all, all, all, {}};
   });
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 4), [&](const auto &range) {
     Memory &own = memory.local();
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
-      state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data()}, own.bits);
+      state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data(), own.hidden_nearby.data()},
+                        own.bits);
       state.store(strip, window, tile, own.bits);
       if (state.samples.are_records())
         state.store_kinds(tile, tiles_across(samples.strip.columns), own.bits);

@@ -54,6 +54,23 @@ std::uint32_t list_items(const ItemTree &tree, const Ways &ways, Matters matters
   return found;
 }
 
+// Those of them that matter to fewer samples, likewise.
+template <class Matters>
+std::uint32_t narrow(const ItemTree &tree, const ListedBlock *from, std::uint32_t count, const Ways &ways,
+                     Matters matters, ListedBlock *to) {
+  std::uint32_t found = 0;
+  for (std::uint32_t entry = 0; entry < count; ++entry) {
+    std::uint32_t bits = 0;
+    const Rows items = rows_of(tree.items[from[entry].block]);
+    for (int i = 0; i < static_cast<int>(items_per_block); i += lanes)
+      bits |= bits_of(matters(ways, items, i)) << i;
+    bits &= from[entry].bits;
+    to[found] = {from[entry].block, bits};
+    found += bits != 0 ? 1 : 0;
+  }
+  return found;
+}
+
 // Some items, beside each other.
 struct ItemList {
   alignas(64) std::int32_t rows[item_rows][segment + lanes];

@@ -60,7 +60,7 @@ inline void touch(Sweep &sweep) {
 
 // An angle's measure that grows with it, 0 to 4.
 inline Floats turn_of(const Floats &x, const Floats &y) {
-  const Floats t = y / larger(absolute(x) + absolute(y), all(1e-30f));
+  const Floats t = y * inverse(larger(absolute(x) + absolute(y), all(1e-30f)));
   return x < 0.0f ? 2.0f - t : y < 0.0f ? 4.0f + t : t;
 }
 
@@ -144,7 +144,7 @@ inline Crossings find_crossings(const Rows &items, int i, int count, const Sampl
                   ((found.weight != 0) | found.is_unsure);
   // The ends, as far as the edge lies between the depths of sample and board, projected on the board.
   const Floats3 way = minus(b, a);
-  const Floats per_height = 1.0f / (absolute(way.z) < 1e-30f ? all(1e-30f) : way.z);
+  const Floats per_height = inverse(absolute(way.z) < 1e-30f ? all(1e-30f) : way.z);
   const Floats low_x = a.x - a.z * per_height * way.x, low_y = a.y - a.z * per_height * way.y;
   const Floats up = (depth - a.z) * per_height, high_x = a.x + up * way.x, high_y = a.y + up * way.y;
   const auto clipped = [&](const Floats3 &end) {
@@ -231,8 +231,9 @@ inline void add_pairs(const Crossings &found, int i, Pairs &pairs) {
 }
 
 // Which of the diodes that are too close to the line for floats lie beyond it.
-inline Mask decide_close(const Pairs &pairs, int pair, std::uint32_t first, std::uint32_t bits, Mask lanes_beyond,
-                         const Rows &items, const Sample &sample, const SilhouetteBoard &board) {
+inline Mask decide_close(const Pairs &pairs, int pair, std::uint32_t first, std::uint32_t bits,
+                         Mask lanes_beyond, const Rows &items, const Sample &sample,
+                         const SilhouetteBoard &board) {
   std::uint32_t beyond = bits_of(lanes_beyond) & ~bits;
   const Exact3 a = exact_place(items, row_ax, row_rest_ax, pairs.item[pair], sample),
                b = exact_place(items, row_bx, row_rest_bx, pairs.item[pair], sample), edge = cross(a, b);

@@ -16,8 +16,8 @@ constexpr int block_wide = 4, block_high = 2, block_samples = block_wide * block
 // What a tile's samples have in common.
 struct Tile {
   const SilhouetteBoard &board;
-  ListedBlock *edges, *hidden;
-  std::uint32_t edge_blocks, hidden_blocks;
+  ListedBlock *edges, *hidden, *hidden_nearby; // the latter of neighbouring samples
+  std::uint32_t edge_blocks, hidden_blocks, hidden_blocks_nearby;
   ItemList items;                             // of one segment
   std::uint32_t gathered_first, gathered_end; // the blocks in it
 };
@@ -82,7 +82,7 @@ bool find_bits(const Sweep &sweep, const std::int32_t *faces, const SilhouetteBo
 void finish(Tile &tile, const Sample &sample, Sweep &sweep, std::uint32_t *words) {
   const SilhouetteBoard &board = tile.board;
   const bool turns_away = !board.all_facing && may_turn_away(sample, board);
-  const int hidden = count_hidden(board.hidden, tile.hidden, tile.hidden_blocks, sample, board),
+  const int hidden = count_hidden(board.hidden, tile.hidden_nearby, tile.hidden_blocks_nearby, sample, board),
             base = sweep.base + hidden;
   if (!sweep.is_touched && !sweep.is_unclear && !turns_away && base == 0)
     return;
@@ -123,6 +123,8 @@ void decide_block(Tile &tile, const Sample *samples, const int (&within)[block_s
       if (samples[within[k]].sees && !sweeps[k].is_unclear)
         sweep_over(list, samples[within[k]], board, pairs, sweeps[k]);
   }
+  tile.hidden_blocks_nearby = narrow(board.hidden, tile.hidden, tile.hidden_blocks, sights_of(shaft, board),
+                                     may_hide, tile.hidden_nearby);
   for (int k = 0; k < block_samples; ++k)
     if (samples[within[k]].sees)
       finish(tile, samples[within[k]], sweeps[k], bits.words[within[k]]);
@@ -156,8 +158,10 @@ void decide_tile(const SilhouetteBoard &board, const SampleSource &source, std::
   Tile tile{board,
             memory.edges,
             memory.hidden,
+            memory.hidden_nearby,
             list_items(board.edges, ways, may_matter, memory.edges),
             list_items(board.hidden, sights_of(shaft, board), may_hide, memory.hidden),
+            0,
             {},
             0,
             0};

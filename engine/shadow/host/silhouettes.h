@@ -112,12 +112,12 @@ struct TileBits {
   std::uint32_t missing[shader::tile_samples]; // diodes that shine, and do not reach the sample
 };
 
-// A worker's memory: `listed` has room for every block of items, hidden ones too.
+// A worker's memory: room for every block of items, and for every one of hidden triangles twice.
 struct ListedBlock {
   std::uint32_t block, bits;
 };
 struct TileMemory {
-  ListedBlock *edges, *hidden;
+  ListedBlock *edges, *hidden, *hidden_nearby;
 };
 
 // One of each instruction set.

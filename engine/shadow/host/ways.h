@@ -123,9 +123,12 @@ struct Floats3 {
 inline Floats3 three(const Rows &items, int row, int i) {
   return {items.floats(row, i), items.floats(row + 1, i), items.floats(row + 2, i)};
 }
-inline Floats dot(const Floats3 &a, const Floats3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Floats dot(const Floats3 &a, const Floats3 &b) {
+  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
+}
 inline Floats3 cross(const Floats3 &a, const Floats3 &b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {multiply_add(a.y, b.z, -(a.z * b.y)), multiply_add(a.z, b.x, -(a.x * b.z)),
+          multiply_add(a.x, b.y, -(a.y * b.x))};
 }
 inline Floats3 minus(const Floats3 &a, const Floats3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
@@ -158,20 +161,31 @@ inline std::uint32_t meet(const Ways &ways, const BoxBlock &boxes) {
   return met;
 }
 
+// The same of edges or triangles, by their corners.
+template <std::size_t corners>
+Ints may_meet(const Ways &ways, const Floats3 (&of)[corners]) {
+  Floats along[corners][8], low = of[0].z, high = of[0].z, outside = all(-1e30f);
+  for (std::size_t c = 0; c < corners; ++c) {
+    const Floats u = diagonal * (of[c].x + of[c].y), v = diagonal * (of[c].x - of[c].y);
+    const Floats directions[8] = {of[c].x, -of[c].x, of[c].y, -of[c].y, u, -u, v, -v};
+    for (int k = 0; k < 8; ++k)
+      along[c][k] = multiply_add(all(ways.slopes[k]), of[c].z, directions[k]);
+    low = smaller(low, of[c].z);
+    high = larger(high, of[c].z);
+  }
+  for (int k = 0; k < 8; ++k) {
+    Floats nearest = along[0][k];
+    for (std::size_t c = 1; c < corners; ++c)
+      nearest = smaller(nearest, along[c][k]);
+    outside = larger(outside, nearest - ways.supports[k]);
+  }
+  return (outside < 0.0f) & (high > ways.farthest) & (low < ways.highest);
+}
+
 // Which edges may change what is seen from one of the samples.
 inline Ints may_matter(const Ways &ways, const Rows &items, int i) {
-  const Floats3 a = three(items, row_ax, i), b = three(items, row_bx, i);
-  const Floats ua = diagonal * (a.x + a.y), va = diagonal * (a.x - a.y), ub = diagonal * (b.x + b.y),
-               vb = diagonal * (b.x - b.y);
-  const Floats along_a[8] = {a.x, -a.x, a.y, -a.y, ua, -ua, va, -va},
-               along_b[8] = {b.x, -b.x, b.y, -b.y, ub, -ub, vb, -vb};
-  Floats outside = all(-1e30f);
-  for (int k = 0; k < 8; ++k) {
-    const Floats up = all(ways.slopes[k]);
-    outside = larger(outside, smaller(along_a[k] + up * a.z, along_b[k] + up * b.z) - ways.supports[k]);
-  }
-  const Ints meets =
-      (outside < 0.0f) & (larger(a.z, b.z) > ways.farthest) & (smaller(a.z, b.z) < ways.highest);
+  const Floats3 a = three(items, row_ax, i), ends[2] = {a, three(items, row_bx, i)};
+  const Ints meets = may_meet(ways, ends);
   // Both triangles show the same side to all samples.
   const Floats3 n1 = three(items, row_cx, i), n2 = three(items, row_dx, i);
   const Floats3 from{a.x - 0.5f * (ways.low[0] + ways.high[0]), a.y - 0.5f * (ways.low[1] + ways.high[1]),
@@ -185,16 +199,11 @@ inline Ints may_matter(const Ways &ways, const Rows &items, int i) {
   return meets & ~no_silhouette;
 }
 
-// A corner of the box around a triangle.
-template <class Choose>
-Floats3 corner(const Floats3 &a, const Floats3 &b, const Floats3 &c, Choose choose) {
-  return {choose(choose(a.x, b.x), c.x), choose(choose(a.y, b.y), c.y), choose(choose(a.z, b.z), c.z)};
-}
-
 // Which hidden triangles may lie between the lens and a sample, which is in front of them.
 inline Ints may_hide(const Ways &sights, const Rows &items, int i) {
-  const Floats3 a = three(items, row_ax, i), b = three(items, row_bx, i), c = three(items, row_cx, i);
-  const Floats3 normal = cross(minus(b, a), minus(c, a));
+  const Floats3 a = three(items, row_ax, i),
+                corners[3] = {a, three(items, row_bx, i), three(items, row_cx, i)};
+  const Floats3 normal = cross(minus(corners[1], a), minus(corners[2], a));
   const Floats3 from{0.5f * (sights.low[0] + sights.high[0]) - a.x,
                      0.5f * (sights.low[1] + sights.high[1]) - a.y,
                      0.5f * (sights.low[2] + sights.high[2]) - a.z};
@@ -202,8 +211,7 @@ inline Ints may_hide(const Ways &sights, const Rows &items, int i) {
       absolute(normal.x) * (0.5f * (sights.high[0] - sights.low[0]) + 1e-6f * absolute(a.x) + slack_m) +
       absolute(normal.y) * (0.5f * (sights.high[1] - sights.low[1]) + 1e-6f * absolute(a.y) + slack_m) +
       absolute(normal.z) * (0.5f * (sights.high[2] - sights.low[2]) + 1e-6f * absolute(a.z) + slack_m);
-  return (dot(normal, from) + reach > 0.0f) &
-         may_meet(sights, corner(a, b, c, smaller<Floats>), corner(a, b, c, larger<Floats>));
+  return (dot(normal, from) + reach > 0.0f) & may_meet(sights, corners);
 }
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET
