@@ -133,6 +133,36 @@ inline Floats gathered(const float *from, const Ints &at) {
 #endif
 }
 
+// Four floats in a row from from[at] on of each lane.
+struct Floats4 {
+  Floats of[4];
+};
+inline Floats4 gathered4(const float *from, const Ints &at) {
+#if defined(__AVX512F__)
+  alignas(vector_bytes) std::int32_t place[lanes];
+  store(place, at);
+  asm("" : "+m"(place)); // read from memory, which is faster than from the vector lane by lane
+  // Of every fourth lane, from `lane` on.
+  const auto rows = [&](int lane) {
+    __m512 row = _mm512_castps128_ps512(_mm_loadu_ps(from + place[lane]));
+    row = _mm512_insertf32x4(row, _mm_loadu_ps(from + place[lane + 4]), 1);
+    row = _mm512_insertf32x4(row, _mm_loadu_ps(from + place[lane + 8]), 2);
+    return _mm512_insertf32x4(row, _mm_loadu_ps(from + place[lane + 12]), 3);
+  };
+  const __m512 a = rows(0), b = rows(1), c = rows(2), d = rows(3);
+  const __m512d ab_low = _mm512_castps_pd(_mm512_maskz_unpacklo_ps(0xffff, a, b)),
+                ab_high = _mm512_castps_pd(_mm512_maskz_unpackhi_ps(0xffff, a, b)),
+                cd_low = _mm512_castps_pd(_mm512_maskz_unpacklo_ps(0xffff, c, d)),
+                cd_high = _mm512_castps_pd(_mm512_maskz_unpackhi_ps(0xffff, c, d));
+  return {{reinterpret_cast<Floats>(_mm512_maskz_unpacklo_pd(0xff, ab_low, cd_low)),
+           reinterpret_cast<Floats>(_mm512_maskz_unpackhi_pd(0xff, ab_low, cd_low)),
+           reinterpret_cast<Floats>(_mm512_maskz_unpacklo_pd(0xff, ab_high, cd_high)),
+           reinterpret_cast<Floats>(_mm512_maskz_unpackhi_pd(0xff, ab_high, cd_high))}};
+#else
+  return {{gathered(from, at), gathered(from + 1, at), gathered(from + 2, at), gathered(from + 3, at)}};
+#endif
+}
+
 // Of each lane one of the values of both tables, whose numbers go on from the first to the second.
 inline Floats picked(const Floats (&tables)[2], const Ints &at) {
 #if defined(__AVX512F__)

@@ -189,9 +189,10 @@ bool find_stretch(const LawTable &table, const Tangents &tangents, std::int32_t 
 
 template <class Add>
 void add_by_table(const LawTable &table, const SourceBatch &batch, const BatchView &at, const Add &add) {
-  if (table.cells)
-    return add(AroundAxis(table, at.along_m));
   const Tangents tangents = tangents_of(batch, at);
+  if (table.cells)
+    return tangents.most <= Within45::largest ? add(AroundAxis<NearAxis>(table, at.along_m))
+                                              : add(AroundAxis<ToAxis>(table, at.along_m));
   std::int32_t first = 0;
   if (tangents.most > Within45::largest || !find_stretch(table, tangents, first))
     add(AnyAngle(table, at.along_m));
@@ -218,7 +219,7 @@ void add_alike(const SourceBatch &batch, const BatchView &at, const By &by, cons
 template <std::size_t sums, bool lambert, bool shadowed, class By>
 void add_batch(const SourceBatch &batch, const BatchView &at, const By &by, const Reach &reach,
                Floats *total) {
-  constexpr std::size_t of_laws = std::max<std::size_t>(sums, 8);
+  constexpr std::size_t of_laws = std::max<std::size_t>(sums, 6);
   const auto add = [&](const auto &law) {
     Floats own[of_laws] = {};
     add_sources<of_laws, lambert, shadowed>(batch, at, law, by, reach, own);

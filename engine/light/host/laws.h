@@ -81,7 +81,7 @@ private:
 // degrees.
 inline Floats angle_to_axis(const Floats &along, const Floats &across) {
   const Floats forward = absolute(along), longer = larger(forward, across);
-  const Floats t = smaller(forward, across) / (root(along * along + across * across) + longer);
+  const Floats t = smaller(forward, across) * inverse(root(along * along + across * across) + longer);
   const Floats u = t * t;
   const Floats near =
       t *
@@ -121,29 +121,51 @@ inline Floats angle_about_axis(const Floats &x, const Floats &y, const Floats &i
   return y < 0.0f ? 2.0f * pi - half : half;
 }
 
+// The angle to the axis by the distance from it and that along it: at any angle, or within 45 degrees.
+class ToAxis {
+public:
+  explicit ToAxis(const Floats &along) : along_(along) {}
+  Floats operator()(const Floats &across) const { return angle_to_axis(along_, across); }
+
+private:
+  Floats along_;
+};
+class NearAxis {
+public:
+  explicit NearAxis(const Floats &along) : inverse_along_(1.0f / along) {}
+  Floats operator()(const Floats &across) const {
+    const Floats tangent = across * inverse_along_;
+    return tangent * Within45::arctangent_over(tangent * tangent);
+  }
+
+private:
+  Floats inverse_along_;
+};
+
 // A diagram that is not the same for all phi.
+template <class Theta>
 class AroundAxis {
 public:
   AroundAxis(const LawTable &table, const Floats &along)
-      : table_(table), along_(along), phi_steps_per_rad_(static_cast<float>(table.phi_steps) / (2.0f * pi)) {}
+      : table_(table), theta_(along), phi_steps_per_rad_(static_cast<float>(table.phi_steps) / (2.0f * pi)) {}
 
   Floats operator()(const Floats &x, const Floats &y) const {
-    const Floats square = larger(x * x + y * y, all(tiny)), across = root(square);
-    const Floats theta = angle_to_axis(along_, across) * table_.steps_per_rad - table_.first_step;
-    const Floats phi = angle_about_axis(x, y, 1.0f / across) * phi_steps_per_rad_;
+    const Floats square = larger(x * x + y * y, all(tiny)), inverse_across = inverse_root(square);
+    const Floats theta = theta_(square * inverse_across) * table_.steps_per_rad - table_.first_step;
+    const Floats phi = angle_about_axis(x, y, inverse_across) * phi_steps_per_rad_;
     const auto last_theta = static_cast<float>(table_.steps), last_phi = static_cast<float>(table_.phi_steps);
     const Cell row = cell_of(smaller(phi, all(last_phi)));
     const Cell column = cell_of(smaller(larger(theta, all(0.0f)), all(last_theta)));
-    const Ints cell = 4 * (row.at * (table_.steps + 1) + column.at);
-    const Floats rise = gathered(table_.cells + 1, cell) + row.beyond * gathered(table_.cells + 3, cell);
-    const Floats j = gathered(table_.cells, cell) + row.beyond * gathered(table_.cells + 2, cell);
+    const Floats4 corner = gathered4(table_.cells, 4 * (row.at * (table_.steps + 1) + column.at));
+    const Floats rise = corner.of[1] + row.beyond * corner.of[3];
+    const Floats j = corner.of[0] + row.beyond * corner.of[2];
     const Ints inside = (theta >= 0.0f) & (theta <= last_theta);
     return inside != 0 ? j + column.beyond * rise : all(0.0f);
   }
 
 private:
   const LawTable &table_;
-  Floats along_;
+  Theta theta_;
   float phi_steps_per_rad_;
 };
 
