@@ -114,8 +114,8 @@ void FrameGraph::warm_up(vulkan::PassRecorder &recorder, PlannedStrip planned, s
   planned.strip.padded_pixels = padded(1);
   Run run{recorder, planned, 0};
   const auto warm = [&](const Pass &pass, std::size_t window) {
-    if (pass.fill_list)
-      pass.fill_list({recorder.commands(), planned, 0, window, {}});
+    if (pass.prepare_warm_up)
+      pass.prepare_warm_up({recorder.commands(), planned, 0, window, {}});
     run_pass(pass, window, run);
   };
   recorder.begin();

@@ -83,6 +83,12 @@ Pass host_raster_pass(const FrameBasis &on, const std::optional<ChipGrid> &grid)
           .reads = no_resource,
           .writes = ids,
           .record = [](const Recording &) {},
+          .prepare_warm_up =
+              [&buffers = on.buffers](const Recording &at) {
+                const auto records =
+                    buffers.ids.mapped().first(sample_count(at.of_strip()) * buffers.id_bytes);
+                std::ranges::fill(records, std::byte{0});
+              },
           .store = [=](const Recording &at, Measurement &) { raster->draw(at.planned); }};
 }
 

@@ -220,7 +220,7 @@ std::string summation_text(const FramePath &path) {
                        path.point_dimensions > 0 ? ", summed beforehand" : "",
                        host_sum_names[static_cast<std::size_t>(path.host_sum)]);
   case Summation::moments:
-    return fmt::format("{} moments", path.moments);
+    return fmt::format("{} moments{}", path.moments, host_sum_names[static_cast<std::size_t>(path.host_sum)]);
   case Summation::per_diode:
     return "diode by diode";
   }

@@ -131,7 +131,7 @@ Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const 
               ids | (on.modulation.lit ? visibility_counts : no_resource) | (few ? pixel_lists : no_resource),
           .writes = channels | pixel_lists,
           .record = record,
-          .fill_list = fill_with_one(few)};
+          .prepare_warm_up = fill_with_one(few)};
 }
 
 } // namespace pmdsim

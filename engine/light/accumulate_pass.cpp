@@ -289,7 +289,7 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
               },
           .all_parts = static_cast<std::uint32_t>(groups.runs.size()),
           .interactions = [sum](const shader::Strip &strip) { return sum->interactions_per_run(strip); },
-          .fill_list = scope.blocks ? fill_with_one(*scope.blocks) : fill_with_one(scope.list)};
+          .prepare_warm_up = scope.blocks ? fill_with_one(*scope.blocks) : fill_with_one(scope.list)};
 }
 
 } // namespace pmdsim

@@ -53,8 +53,9 @@ struct Pass {
   std::function<Parts(std::size_t window)> parts = {};
   std::uint32_t all_parts = 1;
   std::function<std::uint64_t(const shader::Strip &)> interactions = {};
-  // Of a pass that works on a list: gives it an entry, so that a warm-up has something to do.
-  std::function<void(const Recording &)> fill_list = {};
+  // For a warm-up, in which the host has no share: gives the list that a pass works on an entry, or leaves
+  // something harmless where the host would leave what the device reads.
+  std::function<void(const Recording &)> prepare_warm_up = {};
   // The host's share, once the device is done.
   std::function<void(const Recording &, Measurement &)> store = {};
 };

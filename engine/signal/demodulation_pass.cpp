@@ -174,7 +174,7 @@ Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const Su
                    (scope.list ? pixel_lists : no_resource),
           .writes = channels | terms | (scope.later ? pixel_lists : no_resource),
           .record = [demodulation](const Recording &at) { demodulation->record(at); },
-          .fill_list = fill_with_one(scope.list)};
+          .prepare_warm_up = fill_with_one(scope.list)};
 }
 
 } // namespace pmdsim

@@ -52,7 +52,7 @@ Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const 
                 dispatch_listed(made->pipeline, at.commands, constants, sample_count(at.of_strip()), list,
                                 of_samples);
               },
-          .fill_list = fill_with_one(list)};
+          .prepare_warm_up = fill_with_one(list)};
 }
 
 } // namespace pmdsim

@@ -1,4 +1,4 @@
-// The sum over sources with measured diagrams on the host, in vectors of every width, against the reference.
+// The sum over the sources on the host, in vectors of every width, and on the device, against the reference.
 
 #include "tests/comparison/comparison.h"
 #include "tests/comparison/light_formula.h"
@@ -75,11 +75,28 @@ std::vector<HostCase> host_cases() {
   };
 }
 
-Scene slant_of(bool shaded) {
+std::vector<HostCase> cosine_cases() {
+  const auto places = ring(37, 0.12);
+  const Illuminator plain = light_at(places, 0.0), narrow = light_at(places, 0.0, cosine(3.0));
+  return {
+      {"isotropic", {plain}},
+      {"cosines", {narrow}},
+      {"cosines across the view", {turned(narrow, {1.0, 0.2, 0.5})}},
+      {"a dome of cosines", {dome(narrow)}},
+      {"cosines of two powers", {joined(narrow, light_at(ring(9, 0.05), 0.0, cosine(1.0)))}},
+  };
+}
+
+// Where it is near, no polynomial stands for some of the roots.
+Scene slant_of(bool shaded, double nearness = 1.0) {
   SceneBuilder builder;
-  builder.add_mesh({{-3, -3, 2.5}, {3, -3, 1.5}, {3, 3, 1.9}, {-3, 3, 2.9}}, {{0, 2, 1}, {0, 3, 2}});
+  std::vector<glm::dvec3> corners_m{{-3, -3, 2.5}, {3, -3, 1.5}, {3, 3, 1.9}, {-3, 3, 2.9}};
+  for (glm::dvec3 &corner_m : corners_m)
+    corner_m /= nearness;
+  builder.add_mesh(corners_m, {{0, 2, 1}, {0, 3, 2}});
   if (shaded)
-    builder.add_wall({1.0, {}, {0.05, -0.1}, {0.2, 0.15}});
+    builder.add_wall(
+        {1.0 / nearness, {}, {0.05 / nearness, -0.1 / nearness}, {0.2 / nearness, 0.15 / nearness}});
   return builder.scene();
 }
 
@@ -90,29 +107,41 @@ Sensor sensor_of(std::uint32_t samples) {
   return sensor;
 }
 
-void check_host_sum(const HostCase &of, Backscatter backscatter, bool shaded, std::uint32_t samples) {
-  const Scene scene = slant_of(shaded);
+// `bits` of the host's vectors; 0: on the device.
+void check_sum(const HostCase &of, std::uint32_t bits, const Scene &scene, const Sensor &sensor,
+               Backscatter backscatter, Shadows shadows, const reference::Frame &expected) {
+  SimulatorOptions options{.device = {},
+                           .max_strip_samples = bits == 256 ? 900u : 0u,
+                           .keep_sample_ids = true,
+                           .loop = DiodeLoop::looped, // compiles faster
+                           .host_vector_bits = bits};
+  options.allowed.host_sum = bits > 0;
+  Simulator simulator = make_simulator(options);
+  simulator.prepare(scene, sensor, of.lights, backscatter, shadows);
+  const auto path = simulator.path();
+  const auto sum = std::ranges::find(path, "sum", &std::pair<std::string, std::string>::first);
+  REQUIRE(sum != path.end());
+  CHECK((sum->second.find("on the host") != std::string::npos) == (bits > 0));
+  const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
+  fmt::print(
+      "{}", comparison_row(fmt::format("{}, {}", of.name, bits > 0 ? fmt::format("{} bits", bits) : "device"),
+                           comparison));
+  CHECK(comparison.pixels >= 900);
+  CHECK(comparison.distance_max_m <= 0.6e-6);
+  CHECK(comparison.amplitude_max_relative <= 5e-6);
+}
+
+void check_host_sum(const HostCase &of, Backscatter backscatter, bool shaded, std::uint32_t samples,
+                    double nearness = 1.0, bool on_device = false) {
+  const Scene scene = slant_of(shaded, nearness);
   const Sensor sensor = sensor_of(samples);
   const Shadows shadows = shaded ? Shadows::automatic : Shadows::off;
   const auto expected = reference::simulate(scene, sensor, of.lights, backscatter, {.shadows = shadows});
-  for (const std::uint32_t bits : {512u, 256u, 128u}) {
-    Simulator simulator = make_simulator({.device = {},
-                                          .max_strip_samples = bits == 256 ? 900u : 0u,
-                                          .keep_sample_ids = true,
-                                          .host_vector_bits = bits});
-    simulator.prepare(scene, sensor, of.lights, backscatter, shadows);
-    const auto path = simulator.path();
-    const auto sum = std::ranges::find(path, "sum", &std::pair<std::string, std::string>::first);
-    REQUIRE(sum != path.end());
-    CHECK(sum->second.find("on the host") != std::string::npos);
-    const Comparison comparison = compare(simulator.measure(), expected, scene, sensor);
-    fmt::print("{}", comparison_row(fmt::format("{}, {} bits", of.name, bits), comparison));
-    CHECK(comparison.pixels >= 900);
-    CHECK(comparison.distance_max_m <= 0.6e-6);
-    CHECK(comparison.amplitude_max_relative <= 5e-6);
-  }
+  for (const std::uint32_t bits : {512u, 256u, 128u})
+    check_sum(of, bits, scene, sensor, backscatter, shadows, expected);
+  if (on_device)
+    check_sum(of, 0, scene, sensor, backscatter, shadows, expected);
 }
-
 } // namespace
 
 TEST_CASE("sources with measured diagrams, summed on the host") {
@@ -130,5 +159,24 @@ TEST_CASE("sources with measured diagrams, summed on the host, shadows and sampl
       for (const std::uint32_t samples : {1u, 2u}) {
         INFO(of.name << (shaded ? ", shaded" : ""));
         check_host_sum(of, samples == 1 ? Backscatter::constant : Backscatter::lambert, shaded, samples);
+      }
+}
+
+TEST_CASE("samples that not all sources reach, summed on the host") {
+  fmt::print("{}", comparison_heading());
+  for (const HostCase &of : cosine_cases()) {
+    INFO(of.name);
+    check_host_sum(of, Backscatter::lambert, true, 1, 1.0, true);
+  }
+}
+
+TEST_CASE("samples that not all sources reach, summed on the host, near and far", "[long]") {
+  fmt::print("{}", comparison_heading());
+  for (const HostCase &of : cosine_cases())
+    for (const double nearness : {0.2, 5.0})
+      for (const std::uint32_t samples : {1u, 2u}) {
+        INFO(of.name << ", " << nearness << " times as near, S = " << samples);
+        check_host_sum(of, samples == 1 ? Backscatter::constant : Backscatter::lambert, true, samples,
+                       nearness, true);
       }
 }
