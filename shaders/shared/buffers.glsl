@@ -29,11 +29,13 @@ uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool til
   return at.y * extent.x * samples + at.x;
 }
 
-// Likewise of sample i, counted sub-sample by sub-sample, where samples are records and lie row by row.
+// Likewise of sample i, counted sub-sample by sub-sample, where samples are records and lie row by row; of what only pads the last place
+// that has memory.
 uint record_index(uint i, uint padded_pixels, uint columns, uint samples) {
   uint pixel = i % padded_pixels, subsample = i / padded_pixels;
-  return id_index(uvec2(pixel % columns, pixel / columns), uvec2(subsample % samples, subsample / samples), uvec2(columns, 0),
-                  samples, false);
+  uint at = id_index(uvec2(pixel % columns, pixel / columns), uvec2(subsample % samples, subsample / samples), uvec2(columns, 0),
+                     samples, false);
+  return min(at, padded_pixels * samples * samples - 1);
 }
 
 // Lavapipe fetches and stores lane by lane, a double as fast as a float: two floats at a time.

@@ -6,9 +6,11 @@
 #include "tests/support/simulator.h"
 
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 
 using namespace pmdsim;
@@ -56,6 +58,11 @@ Illuminator joined(Illuminator light, const Illuminator &other) {
   return light;
 }
 
+bool has_same_bits(const std::vector<float> &a, const std::vector<float> &b) {
+  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint32_t, float>,
+                            std::bit_cast<std::uint32_t, float>);
+}
+
 std::vector<HostCase> host_cases() {
   const Pattern axial = diagram(1.0, 181, 1), around = diagram(1.0, 91, 72);
   const auto places = ring(37, 0.12);
@@ -64,6 +71,7 @@ std::vector<HostCase> host_cases() {
       {"in registers", {plain}},
       {"across the view", {turned(plain, {1.0, 0.2, 0.2})}},
       {"to the back", {turned(plain, {0.3, 0.2, -1.0})}},
+      {"steps of 0.2 degrees", {light_at(ring(37, 0.03), 0.0, diagram(0.2, 451, 1))}},
       {"steps of 0.02 degrees", {light_at(places, 0.0, diagram(0.02, 4501, 1))}},
       {"nothing about the axis", {light_at(places, 0.0, diagram(1.0, 60, 1, 8.0))}},
       {"a dome", {dome(plain)}},
@@ -160,6 +168,25 @@ TEST_CASE("sources with measured diagrams, summed on the host, shadows and sampl
         INFO(of.name << (shaded ? ", shaded" : ""));
         check_host_sum(of, samples == 1 ? Backscatter::constant : Backscatter::lambert, shaded, samples);
       }
+}
+
+TEST_CASE("the host's sums do not depend on where strips end") {
+  const Sensor sensor = sensor_of(1); // whose rows end within vectors
+  std::vector<HostCase> cases = host_cases();
+  std::ranges::copy(cosine_cases(), std::back_inserter(cases));
+  for (const HostCase &of : cases)
+    for (const double nearness : {1.0, 5.0}) {
+      INFO(of.name << ", " << nearness << " times as near");
+      const Scene scene = slant_of(true, nearness);
+      std::vector<Measurement> measured;
+      for (const std::uint32_t strip : {0u, 900u, 430u}) {
+        Simulator simulator = make_simulator({.device = {}, .max_strip_samples = strip});
+        simulator.prepare(scene, sensor, of.lights, Backscatter::lambert, Shadows::automatic);
+        measured.push_back(simulator.measure());
+        CHECK(has_same_bits(measured.front().returns[0].distance_m, measured.back().returns[0].distance_m));
+        CHECK(has_same_bits(measured.front().returns[0].amplitude, measured.back().returns[0].amplitude));
+      }
+    }
 }
 
 TEST_CASE("samples that not all sources reach, summed on the host") {
