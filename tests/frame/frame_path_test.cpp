@@ -52,7 +52,8 @@ struct Taken {
 Taken take(const Form &form, bool allowed) {
   SimulatorOptions options;
   options.loop = DiodeLoop::looped; // compiles faster
-  // What is summed beforehand or by the host has no loop over the diodes on the device, whose forms these are.
+  // What is summed beforehand or by the host has no loop over the diodes on the device, whose forms these
+  // are.
   const bool of_loop = form.allowed == &PathForms::equal_weights || form.allowed == &PathForms::coplanar;
   options.allowed.point_polynomials = options.allowed.host_sum = !of_loop;
   options.allowed.*form.allowed = allowed;
