@@ -90,8 +90,10 @@ double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square 
 // as many sums. Summed beforehand a coefficient is rounded, and in place of the loop's products come those of
 // the point's coordinates, two sums and a product each, and of heights the sum over the axes.
 double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) {
-  const double powers = groups.polynomials.powers;
-  return scope.beforehand ? beforehand_error_u(groups.polynomials.powers) + 2.0 * powers : 3.0 * powers;
+  if (scope.beforehand)
+    return beforehand_error_u(groups.polynomials.powers) + 2.0 * groups.polynomials.powers;
+  // The host may take a few more.
+  return 3.0 * *std::ranges::lower_bound(near_powers, groups.polynomials.powers);
 }
 
 // a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
@@ -116,7 +118,8 @@ double weight_error(const SourceGroups &groups, const SumModel &model, const Rou
   const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
   if (groups.polynomials.powers > 0)
     return power_weight_error(groups, model, scope, inverse_powers(model).value());
-  double error = r2 + division_u + 4.0 + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
+  const double inverse_square_u = std::max(division_u + 4.0, 2.0 * (host_root_u + 1.0) + 6.0);
+  double error = r2 + inverse_square_u + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
     error += 0.5 * r2 + root_u + division_u + 6.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
   return error;
@@ -205,10 +208,14 @@ private:
     for (std::uint32_t k = 1; k <= groups_.moments; ++k)
       left_out *= phase_rad / k;
     const MomentPolynomials &powers = groups_.polynomials;
-    TermError error{weight_ + summation() * growth + 3.0 * u_ + powers.weight_error, 0.0};
+    const bool by_powers = powers.powers > 0; // or, on the host, by others
+    TermError error{weight_ + summation() * growth + 3.0 * u_ +
+                        (by_powers ? std::max(powers.weight_error, near_weight_error) : 0.0),
+                    0.0};
     error.path_m = growth * u_ * (excess_error_m(groups_, scope_) + 11.0 * groups_.path_difference_m) +
                    growth * (summation() * path_terms_m() + left_out / wavenumber_rad_m) +
-                   powers.angle_error_rad / modulation_.largest_wavenumber_rad_m();
+                   (by_powers ? std::max(powers.angle_error_rad, near_angle_error_rad) : 0.0) /
+                       modulation_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first

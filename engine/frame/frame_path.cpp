@@ -27,7 +27,7 @@ Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
                                          : Summation::moments;
 }
 
-// The device is as fast with what it sums beforehand alone.
+// With what it sums beforehand the device is as fast, so that only shaded samples go to the host.
 HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const SourceGroups &groups,
                     const PathForms &allowed) {
   if (path.windows > 1 || !facts.host_is_device || !allowed.host_sum ||
@@ -153,7 +153,7 @@ std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, c
   const bool is_plain = !path.is_sorted() && !path.classes.front().reduced &&
                         (path.sums_records || !facts.modulation.keeps_terms) &&
                         plan.precision == Precision::fp32 && path.summation == Summation::polynomial_moments;
-  return takes_all && is_plain ? plan.all.polynomials.point_dimensions : 0;
+  return takes_all && is_plain && path.host_sum != HostSum::all ? plan.all.polynomials.point_dimensions : 0;
 }
 
 // Within an error sorting pixels and reducing the sources costs more than it saves where sums beforehand do

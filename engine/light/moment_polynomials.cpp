@@ -162,9 +162,14 @@ Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uin
 }
 
 // As good as float32's own rounding, and where a wavelength is long no more than 2^-18 of e.
-bool is_exact_enough(const Run &run, double phase_rad) {
-  return run.weight_error <= 0x1p-23 && run.angle_error_rad <= std::min(0x1p-24, 0x1p-18 * phase_rad);
+constexpr double largest_weight_error = 0x1p-23, largest_angle_error_rad = 0x1p-24;
+bool is_exact_enough(const Run &run, double phase_rad, double part = 1.0) {
+  return run.weight_error <= part * largest_weight_error &&
+         run.angle_error_rad <= part * std::min(largest_angle_error_rad, 0x1p-18 * phase_rad);
 }
+constexpr double near_part = 0.25;
+static_assert(near_weight_error == near_part * largest_weight_error &&
+              near_angle_error_rad == near_part * largest_angle_error_rad);
 
 // With the fewest powers that are exact enough.
 std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach,
@@ -203,10 +208,10 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
   for (int step = 0; step < steps; ++step) {
     const double u = 0.5 * (within + beyond);
     const Run run = fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m);
-    const bool is_enough = is_exact_enough(run, phase_rad);
+    const bool is_enough = is_exact_enough(run, phase_rad, near_part);
     (is_enough ? within : beyond) = u;
     if (is_enough)
-      widest = NearPolynomials{u, powers, run.table};
+      widest = NearPolynomials{u, run.table};
   }
   return widest;
 }

@@ -47,13 +47,14 @@ struct MomentPolynomials {
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity);
 
-// Those of so many powers for places where |u| is at most `largest_u`: the widest that are as exact as those
-// of fit_polynomials, whose arguments these are.
+// Those of so many powers for places where |u| is at most `largest_u`: the widest that are off by no more
+// than these errors, and by a quarter of what those of fit_polynomials may be, whose arguments these are.
 struct NearPolynomials {
   double largest_u;
-  std::uint32_t powers;
   MomentPolynomials::Table table;
 };
+inline constexpr std::array near_powers{4u, 6u, 8u, shader::largest_powers};
+inline constexpr double near_weight_error = 0x1p-25, near_angle_error_rad = 0x1p-26;
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
                                                     std::uint32_t powers);

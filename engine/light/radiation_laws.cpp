@@ -84,8 +84,8 @@ double cosine_rounding_u(float order, const LawRounding &sum) {
   if (sum.pattern == shader::pattern_power)
     return whole;
   const double real = real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
-  // Beside diagrams the host may multiply it out.
-  const bool is_multiplied = sum.pattern == shader::pattern_any && order <= largest_whole_power;
+  // Beside other laws the host may multiply it out.
+  const bool is_multiplied = order <= largest_whole_power;
   return is_multiplied ? std::max(real, whole) : real;
 }
 

@@ -7,6 +7,8 @@ namespace pmdsim {
 
 // Vulkan allows a division 2.5 units in the last place, 5 u, and a square root, an inverse one inverted, 4.5.
 inline constexpr double division_u = 5.0, root_u = 9.0;
+// Inverse roots of the host's loops (engine/model/lanes.h), one step of Newton's from the processor's guess.
+inline constexpr double host_root_u = 5.5;
 
 // Of r^2 = rho^2 + q: |q| <= 2 rho R + R^2, and six roundings are in its larger part, two in its smaller.
 constexpr double squared_range_error_u(double t) {

@@ -183,7 +183,7 @@ inline Floats picked(const Floats (&tables)[2], const Ints &at) {
 #endif
 }
 
-// Square roots of what is above 0, to 2e-7 of them.
+// Square roots of what is above 0, to 3.3e-7 of them, with AVX-512 to 2e-7.
 inline Floats guessed_inverse_root(const Floats &v) {
 #if defined(__AVX512F__)
   return reinterpret_cast<Floats>(_mm512_maskz_rsqrt14_ps(0xffff, reinterpret_cast<__m512>(v)));

@@ -28,7 +28,7 @@ struct PathForms {
   bool host_raster = true;            // of IDs, where the device is the host's processor
   bool unsorted = true;               // within an error all pixels from depth records, in place of classes
   bool host_sweep = true;             // and claims: on the host, where the device is its processor
-  bool host_sum = true;               // of sources with measured diagrams, likewise
+  bool host_sum = true;               // of depth records that are not summed beforehand, likewise
 };
 
 struct SimulatorOptions {

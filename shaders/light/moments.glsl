@@ -162,7 +162,7 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
 #define MOMENT_OF_RUN(i, k) 0.0
 #endif
 
-// The terms of polynomials are bounded by the weights without the powers of r that these have: those may be larger.
+// The host's moments are of w, while the growth is relative to W rho^-p, which may be larger by (1 + u)^(p/2).
 void load_moments(uint i, Point point, LightRun run, out float moment[moments], out Weights weights) {
   [[unroll]] for (uint k = 0; k < moments; ++k)
     moment[k] = MOMENT_OF_RUN(i, k);

@@ -150,6 +150,7 @@ void check_host_sum(const HostCase &of, Backscatter backscatter, bool shaded, st
   if (on_device)
     check_sum(of, 0, scene, sensor, backscatter, shadows, expected);
 }
+
 } // namespace
 
 TEST_CASE("sources with measured diagrams, summed on the host") {

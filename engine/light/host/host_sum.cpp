@@ -21,14 +21,14 @@ constexpr std::size_t most_moments = 32; // of a sample
 // Whether rounding is bounded as if powers stood for roots.
 bool has_bound_of_powers(const SourceGroups &groups) { return groups.polynomials.powers > 0; }
 
-class HostSum {
+class SumOnHost {
 public:
-  HostSum(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
+  SumOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
       : buffers_(on.buffers), samples_(on.buffers, on.scene.planes, on.sensor, scope.depth_records,
                                        vulkan::uses_fp64(on.device, on.options.precision)),
         blocks_(scope.blocks), lambert_(on.model.backscatter == shader::backscatter_lambert),
         shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
-        shining_(shining_diodes(groups)), batches_(groups, lambert_, on.modulation.largest_wavenumber_rad_m(),
+        shining_(shining_diodes(groups)), batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
                                                    has_bound_of_powers(groups) || !on.modulation.keeps_terms),
         sum_laws_(widest_sum_laws(on.options.host_vector_bits)) {}
 
@@ -90,7 +90,7 @@ bool can_sum_on_host(const SourceGroups &groups) {
 }
 
 Pass host_sum_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
-  const auto sum = std::make_shared<const HostSum>(on, groups, scope);
+  const auto sum = std::make_shared<const SumOnHost>(on, groups, scope);
   return {.name = "accumulate",
           .reads = ids | (scope.shadowed ? visibility_bits | visibility_counts : no_resource) |
                    (scope.blocks ? block_lists : no_resource),

@@ -55,6 +55,7 @@ struct PowerTable {
 
 struct RunOfBatches {
   double reference_m[3]; // camera frame
+  float radius_m;        // of the sources about it
   const SourceBatch *batches;
   std::uint32_t count;
   const PowerTable *tables; // the shortest first; for places that are nearer, roots are drawn

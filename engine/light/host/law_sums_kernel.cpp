@@ -144,9 +144,10 @@ void add_sources(const SourceBatch &batch, const BatchView &at, const Law &law, 
       auto [term, factor] = by(weight, at.inverse2_m2 * source.square_m2 + at.twice_x * source.x_m +
                                            at.twice_y * source.y_m + at.detour);
       part[0] += term;
+      // Fused in each of the sums, so that a sample's do not depend on how many its neighbours need.
       for (std::size_t k = 1; k < sums; ++k) {
+        part[k] = multiply_add(term, factor, part[k]);
         term *= factor;
-        part[k] += term;
       }
     }
     for (std::size_t k = 0; k < sums; ++k)
@@ -252,18 +253,27 @@ AddBatch<By> add_batch_of(std::uint32_t sums, bool lambert, bool shadowed) {
                      : add_batch_of<most_host_sums, By>(lambert, shadowed);
 }
 
-// |u| of all of a run's sources, at most.
-Floats largest_u(const SourceBatch &batch, const BatchView &at) {
+// |u| of a run's sources, at most: of one batch by how the sample lies to its plane, else by its distance.
+Floats largest_u(const VectorSamples &samples, const RunOfBatches &run, const RunView &view) {
+  constexpr float slack = 1.00001f;
+  if (run.count != 1) {
+    const Floats t = run.radius_m * view.inverse_m;
+    return slack * t * (t + 2.0f);
+  }
+  const SourceBatch &batch = run.batches[0];
+  const BatchView at = view_from(samples, view, batch);
   const float along_m = std::abs(static_cast<float>(batch.along_m)), radius_m = batch.radius_m;
   const Floats across = root(larger(at.x_m * at.x_m + at.y_m * at.y_m, all(tiny)));
   const Floats product = across * radius_m + (absolute(at.along_m) + along_m) * along_m;
-  constexpr float slack = 1.00001f;
   return slack * at.inverse2_m2 * (radius_m * radius_m + along_m * along_m + 2.0f * product);
 }
 
 // Of each sample the first of the run's tables that reaches so far, or how many there are.
-Ints tables_of(const RunOfBatches &run, const Floats &largest) {
+Ints tables_of(const VectorSamples &samples, const RunOfBatches &run, const RunView &view) {
   Ints table = all(0);
+  if (run.table_count == 0)
+    return table;
+  const Floats largest = largest_u(samples, run, view);
   for (std::uint32_t i = 0; i < run.table_count; ++i)
     table -= largest > run.tables[i].largest_u;
   return table;
@@ -284,7 +294,7 @@ void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t mome
 
 class VectorSum {
 public:
-  VectorSum(const LawSums &of, VectorSamples &samples) : of_(of), samples_(samples) {
+  VectorSum(const LawSums &of, const VectorSamples &samples) : of_(of), samples_(samples) {
     shadowed_ = is_shadowed();
     if (shadowed_)
       find_reach(of, samples, reach_);
@@ -293,10 +303,7 @@ public:
   // The moments of a run, m^-2 m^k.
   void sum(const RunOfBatches &run, Floats *moment) const {
     const RunView view = view_from(samples_, run);
-    Floats largest = all(0.0f);
-    for (std::uint32_t i = 0; i < run.count; ++i)
-      largest = larger(largest, largest_u(run.batches[i], view_from(samples_, view, run.batches[i])));
-    const Ints table = tables_of(run, largest);
+    const Ints table = tables_of(samples_, run, view);
     sum_powers(run, view, table, moment);
     const auto beyond = static_cast<std::int32_t>(run.table_count);
     if (bits_of(table == beyond) != 0) {
@@ -335,8 +342,25 @@ private:
   void add(const RunOfBatches &run, const RunView &view, std::uint32_t sums, const By &by,
            Floats *total) const {
     const AddBatch<By> add_batch = add_batch_of<By>(sums, of_.lambert, shadowed_);
-    for (std::uint32_t i = 0; i < run.count; ++i)
-      add_batch(run.batches[i], view_from(samples_, view, run.batches[i]), by, reach_, total);
+    // Small batches together, block by block, as the sources of a large one.
+    Floats block[most_host_sums] = {};
+    std::uint32_t in_block = 0;
+    const auto end_block = [&] {
+      for (std::uint32_t k = 0; k < sums; ++k) {
+        total[k] += block[k];
+        block[k] = all(0.0f);
+      }
+      in_block = 0;
+    };
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      const SourceBatch &batch = run.batches[i];
+      const bool is_large = batch.count >= shader::diodes_per_block;
+      add_batch(batch, view_from(samples_, view, batch), by, reach_, is_large ? total : block);
+      in_block += is_large ? 0 : batch.count;
+      if (in_block >= shader::diodes_per_block)
+        end_block();
+    }
+    end_block();
   }
 
   const LawSums &of_;

@@ -15,6 +15,8 @@ constexpr float most_power = 8.0f;    // of a cosine
 // reference point: what rounding to float makes of such a distance.
 constexpr double same_distance = 0x1p-24;
 
+bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
+
 std::uint32_t power_of(const shader::GroupSource &source) {
   return static_cast<std::uint32_t>(std::max(source.order, 0.0f));
 }
@@ -97,28 +99,16 @@ bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, doubl
          (!differs_about_axis(a) || a.across == b.across) && std::abs(apart_m) <= same_distance * distance_m;
 }
 
-// n where every source has the n-th power of a cosine, 0 where none has any law.
-std::optional<std::uint32_t> common_power(const SourceGroups &groups) {
-  std::optional<std::uint32_t> power;
-  for (const shader::GroupSource &source : groups.diodes) {
-    if (source.intensity == 0.0f)
-      continue;
-    if (has_diagram(source) || (power && *power != power_of(source)))
-      return std::nullopt;
-    power = power_of(source);
-  }
-  return power;
-}
-
-// Shorter ones are hardly faster.
+// Each for more places than the one before it.
 std::vector<PowerTable> tables_of(const PathDifference &reach, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m) {
   std::vector<PowerTable> tables;
-  for (const std::uint32_t powers : {4u, 6u, 8u, shader::largest_powers}) {
+  for (const std::uint32_t powers : near_powers) {
     const auto fitted = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers);
-    if (!fitted)
+    const auto largest_u = static_cast<float>(fitted ? fitted->largest_u : 0.0);
+    if (!(largest_u > (tables.empty() ? 0.0f : tables.back().largest_u)))
       continue;
-    PowerTable &table = tables.emplace_back(PowerTable{static_cast<float>(fitted->largest_u), powers, {}});
+    PowerTable &table = tables.emplace_back(PowerTable{largest_u, powers, {}});
     for (std::uint32_t k = 0; k < moments; ++k)
       for (std::uint32_t i = 0; i < powers; ++i)
         table.of_moments[k][i] =
@@ -128,8 +118,6 @@ std::vector<PowerTable> tables_of(const PathDifference &reach, std::uint32_t inv
 }
 
 } // namespace
-
-bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
 
 bool is_known_to_host(const shader::GroupSource &source) {
   switch (law_of(source).kind) {
@@ -145,11 +133,13 @@ bool is_known_to_host(const shader::GroupSource &source) {
   return false;
 }
 
-SourceBatches::SourceBatches(const SourceGroups &groups, bool lambert, double wavenumber_rad_m,
-                             bool with_tables) {
-  const std::optional<std::uint32_t> power = common_power(groups);
-  of_lengths_ = power.has_value();
-  inverse_powers_ = 2 + (lambert ? 1 : 0) + power.value_or(0);
+SourceBatches::SourceBatches(const SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
+                             bool with_tables)
+    : of_lengths_(model.pattern == shader::pattern_power), inverse_powers_(2) {
+  if (model.backscatter == shader::backscatter_lambert)
+    inverse_powers_ += 1;
+  if (of_lengths_)
+    inverse_powers_ += model.order;
   const std::uint32_t run_bits = bundles_per_run(groups) * shader::diodes_per_bundle;
   for (const SourceRun &run : groups.runs)
     add_run(groups, run, static_cast<std::uint32_t>(runs_.size()) * run_bits);
@@ -190,6 +180,7 @@ void SourceBatches::add_run(const SourceGroups &groups, const SourceRun &run, st
   for (const Batch &batch : batches)
     views.push_back(view_of(batch));
   runs_.push_back({{run.reference_m.x, run.reference_m.y, run.reference_m.z},
+                   static_cast<float>(run.reach.radius_m),
                    views.data(),
                    static_cast<std::uint32_t>(views.size()),
                    nullptr,

@@ -3,6 +3,7 @@
 
 #include "engine/light/host/law_sums.h"
 #include "engine/light/source_groups.h"
+#include "engine/light/sum_model.h"
 
 #include <deque>
 #include <map>
@@ -14,12 +15,11 @@ namespace pmdsim {
 
 // Whether the host knows a source's law.
 bool is_known_to_host(const shader::GroupSource &source);
-bool has_diagram(const shader::GroupSource &source);
 
 class SourceBatches {
 public:
   // Of groups whose moments belong to a wavenumber; `with_tables`: powers of u may stand for roots.
-  SourceBatches(const SourceGroups &groups, bool lambert, double wavenumber_rad_m, bool with_tables);
+  SourceBatches(const SourceGroups &groups, const SumModel &model, double wavenumber_rad_m, bool with_tables);
   SourceBatches(const SourceBatches &) = delete;
   SourceBatches &operator=(const SourceBatches &) = delete;
 
@@ -41,7 +41,7 @@ private:
   void add_tables(const SourceGroups &groups, double wavenumber_rad_m);
   SourceBatch view_of(const Batch &batch) const;
 
-  bool of_lengths_; // all are cosines of one power
+  bool of_lengths_; // all are cosines of one power, which are lengths' powers then
   std::uint32_t inverse_powers_;
   std::map<std::uint32_t, Table> tables_; // by GroupSource::diagram
   std::deque<std::deque<Batch>> batches_; // of each run
