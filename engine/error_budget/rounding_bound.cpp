@@ -92,8 +92,9 @@ double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square 
 double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) {
   if (scope.beforehand)
     return beforehand_error_u(groups.polynomials.powers) + 2.0 * groups.polynomials.powers;
-  // The host may take a few more.
-  return 3.0 * *std::ranges::lower_bound(near_powers, groups.polynomials.powers);
+  // The host may take one or two more.
+  const std::vector<std::uint32_t> near = near_powers(groups.polynomials.powers);
+  return 3.0 * *std::ranges::lower_bound(near, groups.polynomials.powers);
 }
 
 // a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +

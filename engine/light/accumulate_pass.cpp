@@ -255,7 +255,7 @@ void Sum::record_run_of_depths(const Recording &at, std::uint32_t run) const {
       scene_.planes.words(),
       output_ ? output_->record.words() : buffers_.sum.words(),
       light_runs_.words(run * sizeof(shader::LightRun)),
-      by_host_ ? buffers_.run_moments.words(vk::DeviceSize{run} * moments_ * plane * sizeof(float))
+      by_host_ ? buffers_.run_moments.words(vk::DeviceSize{run} * (moments_ + 1) * plane * sizeof(float))
                : diodes_.words(run * run_bytes_),
       tones_.words(),
       diagrams_.words(),

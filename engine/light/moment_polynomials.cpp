@@ -198,6 +198,13 @@ bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32
 
 } // namespace
 
+std::vector<std::uint32_t> near_powers(std::uint32_t of_frame) {
+  std::vector<std::uint32_t> powers{4, 6, 8};
+  if (of_frame == 0 || of_frame > powers.back())
+    powers.push_back(of_frame == 0 ? shader::largest_powers : of_frame);
+  return powers;
+}
+
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
                                                     std::uint32_t powers) {

@@ -53,7 +53,9 @@ struct NearPolynomials {
   double largest_u;
   MomentPolynomials::Table table;
 };
-inline constexpr std::array near_powers{4u, 6u, 8u, shader::largest_powers};
+// How many powers such tables have, the fewest first, beside a frame's polynomials of so many; 0: it has
+// none.
+std::vector<std::uint32_t> near_powers(std::uint32_t of_frame);
 inline constexpr double near_weight_error = 0x1p-25, near_angle_error_rad = 0x1p-26;
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,

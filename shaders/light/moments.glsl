@@ -157,19 +157,18 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
 #define VISIBILITY_OF_BLOCK(i, block) 0u
 #endif
 
-// The run's k-th moment at sample i; only asked where `summed_by_host`.
+// The run's k-th moment at sample i, and behind them what its polynomials' terms are to be held against; only asked where
+// `summed_by_host`.
 #ifndef MOMENT_OF_RUN
 #define MOMENT_OF_RUN(i, k) 0.0
 #endif
 
-// The host's moments are of w, while the growth is relative to W rho^-p, which may be larger by (1 + u)^(p/2).
 void load_moments(uint i, Point point, LightRun run, out float moment[moments], out Weights weights) {
   [[unroll]] for (uint k = 0; k < moments; ++k)
     moment[k] = MOMENT_OF_RUN(i, k);
-  float growth = 1.0;
+  weights = Weights(MOMENT_OF_RUN(i, moments), 1.0);
   if (powers > 0)
-    growth = growth_at(point, run) * pow(1.0 + largest_u(point, run), 0.5 * float(2 + lengths));
-  weights = Weights(moment[0], growth);
+    weights.growth = growth_at(point, run);
 }
 
 // Adds a block to a stretch, and the stretch, where it ends, to the run's sums.

@@ -53,7 +53,7 @@ private:
   // The device reads it, too.
   void clear_padding(const LawSums &sums) const {
     const std::uint32_t samples = sums.samples.strip.columns * sums.samples.strip.rows;
-    for (std::size_t plane = 0; plane < moments_ * batches_.runs().size(); ++plane)
+    for (std::size_t plane = 0; plane < (moments_ + 1) * batches_.runs().size(); ++plane)
       std::fill_n(sums.run_moments + plane * sums.plane + samples, sums.plane - samples, 0.0f);
   }
 
@@ -85,7 +85,8 @@ private:
 } // namespace
 
 bool can_sum_on_host(const SourceGroups &groups) {
-  return groups.moments <= shader::largest_moments && groups.moments * groups.runs.size() <= most_moments &&
+  return groups.moments <= shader::largest_moments &&
+         (groups.moments + 1) * groups.runs.size() <= most_moments &&
          std::ranges::all_of(groups.diodes, is_known_to_host);
 }
 

@@ -76,7 +76,9 @@ struct LawSums {
   std::uint32_t visibility_words;  // of a sample
   std::uint32_t shining;           // all of them
   std::uint32_t plane;             // words of one
-  float *run_moments;              // out: a plane of each run and moment
+  // Out: of each run a plane of each moment, and one of the sum of W rho^-p, which the terms of polynomials
+  // are relative to, or of w where roots are drawn.
+  float *run_moments;
 };
 
 // Of some of the rows of all samples, or of the listed blocks, the last one excluded. One of each instruction

@@ -279,7 +279,7 @@ Ints tables_of(const VectorSamples &samples, const RunOfBatches &run, const RunV
   return table;
 }
 
-// Moments from sums of powers, of the samples that a table is for.
+// Moments from sums of powers, of the samples that a table is for, and behind them the first sum.
 void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t moments, const Floats *sums,
                   Floats *moment) {
   for (std::uint32_t k = 0; k < moments; ++k) {
@@ -290,6 +290,7 @@ void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t mome
     }
     moment[k] = takes != 0 ? sum : moment[k];
   }
+  moment[moments] = takes != 0 ? sums[0] : moment[moments];
 }
 
 class VectorSum {
@@ -311,7 +312,9 @@ public:
       add(run, view, of_.moments, ByRoots{run.inverse_powers}, sums);
       for (std::uint32_t k = 0; k < of_.moments; ++k)
         moment[k] = table == beyond ? sums[k] : moment[k];
+      moment[of_.moments] = table == beyond ? sums[0] : moment[of_.moments];
     }
+    moment[of_.moments] *= view.inverse_m * view.inverse_m;
     Floats scale = view.inverse_m * view.inverse_m;
     for (std::uint32_t k = 0; k < of_.moments; ++k, scale *= view.rho_m)
       moment[k] *= scale;
@@ -370,8 +373,9 @@ private:
 };
 
 void store_moments(const LawSums &of, const VectorSamples &samples, std::uint32_t run, const Floats *moment) {
-  for (std::uint32_t k = 0; k < of.moments; ++k) {
-    float *plane = of.run_moments + (std::size_t{run} * of.moments + k) * of.plane;
+  const std::uint32_t planes = of.moments + 1;
+  for (std::uint32_t k = 0; k < planes; ++k) {
+    float *plane = of.run_moments + (std::size_t{run} * planes + k) * of.plane;
     for (int lane = 0; lane < lanes; ++lane)
       plane[samples.number[lane]] = samples.sees[lane] != 0 ? moment[k][lane] : 0.0f;
   }

@@ -100,10 +100,11 @@ bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, doubl
 }
 
 // Each for more places than the one before it.
-std::vector<PowerTable> tables_of(const PathDifference &reach, std::uint32_t inverse_powers,
-                                  std::uint32_t moments, double wavenumber_rad_m) {
+std::vector<PowerTable> tables_of(const SourceGroups &groups, const PathDifference &reach,
+                                  std::uint32_t inverse_powers, double wavenumber_rad_m) {
+  const std::uint32_t moments = groups.moments;
   std::vector<PowerTable> tables;
-  for (const std::uint32_t powers : near_powers) {
+  for (const std::uint32_t powers : near_powers(groups.polynomials.powers)) {
     const auto fitted = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers);
     const auto largest_u = static_cast<float>(fitted ? fitted->largest_u : 0.0);
     if (!(largest_u > (tables.empty() ? 0.0f : tables.back().largest_u)))
@@ -151,7 +152,7 @@ void SourceBatches::add_tables(const SourceGroups &groups, double wavenumber_rad
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const PathDifference &reach = groups.runs[i].reach;
     if (i == 0 || reach != groups.runs[i - 1].reach)
-      power_tables_.push_back(tables_of(reach, inverse_powers_, groups.moments, wavenumber_rad_m));
+      power_tables_.push_back(tables_of(groups, reach, inverse_powers_, wavenumber_rad_m));
     runs_[i].tables = power_tables_.back().data();
     runs_[i].table_count = static_cast<std::uint32_t>(power_tables_.back().size());
   }
