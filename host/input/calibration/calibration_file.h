@@ -1,6 +1,5 @@
 #pragma once
-// What calibration tools write about a camera: OpenCV's FileStorage (YAML or JSON) and ROS's camera_info
-// (YAML).
+// A camera's calibration as tools write it: OpenCV's FileStorage (YAML or JSON) and ROS's camera_info (YAML).
 
 #include "engine/model/sensor.h"
 #include "host/input/file/input_error.h"

@@ -11,12 +11,12 @@ namespace pmdsim {
 
 inline constexpr double default_pixel_pitch_m = 10e-6; // no calibration file has it
 
-// What a setup takes as a sensor's name.
+// Whether a setup takes `name` as a sensor's.
 bool is_sensor_name(std::string_view name);
 
-// Images as OpenCV's projectPoints does with the calibration's numbers, whatever the pitch along the columns;
-// that sets the scale only. Modulation and all else are defaults. Throws Error (input): a distortion that
-// folds over inside the image, a lens or chip beyond the setup's ranges.
+// A sensor that images as OpenCV's projectPoints does with the calibration's numbers, whatever the pitch
+// along the columns; that sets the scale only. Modulation and all else are defaults. Throws Error (input): a
+// distortion that folds over inside the image, a lens or chip beyond the setup's ranges.
 Sensor sensor_of(const Calibration &calibration, double pixel_pitch_m);
 
 // An element of a setup's /sensors: what describes lens and chip, and the modulation, which has no default.

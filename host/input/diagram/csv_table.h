@@ -45,7 +45,7 @@ public:
     }
   }
 
-  // Of the row read last; empty where the table has no such column.
+  // The field of the row read last; empty where the table has no such column.
   std::string_view text(std::size_t column) const { return fields_[column]; }
   double number(std::size_t column, Range range = {}) const {
     return number_of(text(column), names_[column], here(), range);

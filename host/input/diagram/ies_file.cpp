@@ -52,7 +52,7 @@ public:
                                     in_quotes(more)));
   }
 
-  // What was read last.
+  // The place of what was read last.
   TextPlace here() const { return {file_, place_line_}; }
 
 private:
@@ -78,7 +78,7 @@ private:
 
 constexpr Range angle_counts{1.0, static_cast<double>(max_diagram_values)};
 
-// Up to and with the line TILT=..., the end of the label, whatever is in it: only files of 1991 and later
+// Skips the label up to and with its last line, TILT=..., whatever is in it: only files of 1991 and later
 // begin with a line that names the standard, and have keywords. Returns what TILT is.
 std::string_view skip_label(IesText &text) {
   constexpr std::string_view tilt = "TILT=";
@@ -143,8 +143,8 @@ std::vector<double> read_angles(IesText &text, std::size_t count, Range range_de
   return angles_deg;
 }
 
-// What the first and the last horizontal angle h say: the values there are those of every phi = offset_deg +
-// sign h, which are minus that angle and its mirror images.
+// The symmetry that the first and the last horizontal angle tell: the values at an angle h are those of every
+// phi = offset_deg + sign h, which are minus that angle and its mirror images.
 struct Symmetry {
   struct Phi {
     double offset_deg, sign;

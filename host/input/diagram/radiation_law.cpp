@@ -29,10 +29,10 @@ Pattern numbered(const LawName &law, double number) {
   return pattern;
 }
 
-// What stands in a table of diodes for itself.
+// The law that a number alone means in a table of diodes.
 const LawName &cosine = law_names[static_cast<std::size_t>(Pattern::Kind::cosine)];
 
-// Of the number behind a law's key.
+// The limits of the number behind a law's key.
 Range limits_of(const LawName &law) {
   static const json schema = json::parse(setup_schema_text);
   static const json &laws =
@@ -43,7 +43,7 @@ Range limits_of(const LawName &law) {
   return {number.at("minimum").get<double>(), number.at("maximum").get<double>()};
 }
 
-// What is written like a number is one, if a wrong one; a file of that name is "./1.5".
+// A text that is written like a number is one, if a wrong one; a file of that name is "./1.5".
 bool is_number_like(std::string_view text) {
   constexpr std::string_view first = "0123456789.+-";
   return first.find(text.front()) != first.npos && text.find_first_not_of("0123456789.+-eE") == text.npos;

@@ -20,9 +20,9 @@ namespace pmdsim {
 // and all diodes that name it share its diagram.
 class DiagramFiles {
 public:
-  // The diagram's shape: 1 on the axis, or at its maximum where the axis is dark, of which there is a warning
-  // then. Throws Error (input): "FILE:LINE: ..."; at `named_at`, the place that names the file, where it
-  // cannot be read or is one too many.
+  // The diagram's shape: 1 on the axis, or at its maximum where the axis is dark, which also gives a warning.
+  // Throws Error (input): "FILE:LINE: ..."; at `named_at`, the place that names the file, where it cannot be
+  // read or is one too many.
   std::shared_ptr<const Diagram> read(const std::filesystem::path &file, const AnyPlace &named_at);
 
   // One line each, in the order of reading.
@@ -34,12 +34,12 @@ private:
   std::vector<std::string> warnings_;
 };
 
-// Of a setup's `pattern`, which the schema holds for right. Diagrams' files are named relative to the
+// The law of a setup's `pattern`, which has passed the schema. Diagrams' files are named relative to the
 // setup's folder.
 Pattern law_in_setup(const nlohmann::ordered_json &pattern, const Place &place, DiagramFiles &diagrams);
 
-// Of a table's field: a key, a key and its number with a blank between them, a number alone, which is a
-// cosine's order, or the name of a diagram's file, relative to the table's folder. Throws Error (input).
+// The law of a table's field: a key, a key and its number with a blank between them, a number alone, which is
+// a cosine's order, or the name of a diagram's file, relative to the table's folder. Throws Error (input).
 Pattern law_in_field(std::string_view field, const TextPlace &place, DiagramFiles &diagrams);
 
 } // namespace pmdsim

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-// What nlohmann's exception says beyond its own name: what was expected, without the offending text.
+// The message of nlohmann's exception without its name: what was expected, without the offending text.
 std::string syntax_problem(const json::exception &exception) {
   const std::string_view what = exception.what();
   if (what.find("number overflow") != what.npos)

@@ -58,8 +58,8 @@ glm::dvec3 vector_at(const Keyframes &keyframes, double time_s) {
   return glm::mix(keyframes.values[span.key], keyframes.values[span.key + 1], span.fraction);
 }
 
-// Values are quaternions x, y, z, w; linear goes along the great circle, the shorter way. Of unit length; of
-// a cubic spline where it runs through zero the key before.
+// Values are quaternions x, y, z, w; linear interpolation goes along the great circle, the shorter way. The
+// result has unit length; where a cubic spline runs through zero it is the key before.
 glm::dquat rotation_at(const Keyframes &keyframes, double time_s) {
   const KeySpan span = span_at(keyframes.times_s, time_s);
   const glm::dquat before = glm::normalize(quaternion(key_value(keyframes, span.key)));
@@ -120,7 +120,7 @@ void check_value_type(const tinygltf::Accessor &accessor, bool is_rotation, cons
                       "expected floats or normalized integers of 8 or 16 bit for an animated rotation");
 }
 
-// Those of a spline stay as they are: it is made of them before it is normalised.
+// The values of a spline stay as they are: it is made of them before it is normalised.
 void check_rotations(Keyframes &keyframes, const Place &place) {
   const bool is_spline = keyframes.interpolation == Interpolation::cubic_spline;
   for (std::size_t key = 0; key < keyframes.times_s.size(); ++key) {
@@ -139,7 +139,7 @@ public:
   Samplers(const tinygltf::Model &model, const Place &root, std::vector<Keyframes> &keyframes)
       : model_(model), root_(root), keyframes_(keyframes) {}
 
-  // Where in `keyframes` it is.
+  // Returns the place of its keyframes in `keyframes`.
   std::size_t read(std::size_t animation, std::size_t sampler, bool is_rotation) {
     const auto [known, is_new] = read_.try_emplace({animation, sampler, is_rotation}, keyframes_.size());
     if (is_new)

@@ -1,7 +1,7 @@
 #pragma once
 // glTF animations: how translation, rotation and scale of a file's nodes change over time.
 // All animations of a file play at once, t = 0 s being their time 0, as the parts of one clip: so Blender
-// writes a scene's objects. What two of them say of the same property of the same node is refused.
+// writes a scene's objects. Two animations of the same property of the same node are refused.
 
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/nodes.h"
@@ -18,7 +18,8 @@ namespace pmdsim {
 
 enum class Interpolation { step, linear, cubic_spline };
 
-// A value over time, glTF 2.0, appendix C. Before the first key it is that key's, after the last the last's.
+// A value over time, glTF 2.0, appendix C. Before the first key it is the first key's, after the last the
+// last's.
 struct Keyframes {
   Interpolation interpolation;
   std::vector<double> times_s;    // at least one, strictly increasing
@@ -33,7 +34,7 @@ struct AnimationChannel {
   std::size_t keyframes; // in Animation::keyframes
 };
 
-// Plain data; what targets nodes outside the active scene is checked and left out.
+// Plain data. Channels that target nodes outside the active scene are checked and left out.
 struct Animation {
   std::vector<Keyframes> keyframes;
   std::vector<AnimationChannel> channels;

@@ -10,7 +10,7 @@
 
 namespace pmdsim {
 
-// Of the scene's file, and of all its buffers together.
+// The limit of the scene's file, and of all its buffers together.
 inline constexpr std::size_t max_gltf_file_bytes = std::size_t{1} << 30;
 
 using Bytes = std::vector<unsigned char>;

@@ -25,9 +25,9 @@ const std::vector<GltfExtension> &gltf_extensions() {
       {"KHR_mesh_quantization", read}, // has no parts: attributes may have other types
       {"EXT_meshopt_compression", read, {{"bufferViews/*", "buffer", "buffers"}}},
       {"KHR_texture_transform", read},
-      // What these add is nothing that is simulated: lights for pictures (ours come from the setup), shading
-      // that leaves the base colour as it is, glow and gloss upon it, other materials to choose from. They
-      // move and hide no geometry. Transmission and volumes are not among them, as they change what is seen.
+      // These add nothing that is simulated: lights for pictures (ours come from the setup), shading that
+      // leaves the base colour as it is, glow and gloss upon it, other materials to choose from. They move
+      // and hide no geometry. Transmission and volumes are not among them, as they change what is seen.
       {"KHR_lights_punctual", without_effect},
       {"KHR_materials_anisotropy", without_effect},
       {"KHR_materials_clearcoat", without_effect},

@@ -54,9 +54,9 @@ private:
   Skins skins_;
 };
 
-// Throws Error (input): what is wrong in the file is told at its place there ("scene.gltf: /accessors/3:
-// ..."), a file that cannot be read at `named_at`, the place that names it. What glTF can say and the
-// simulator cannot yet do is refused by name, never ignored.
+// Throws Error (input): an error in the file is told at its place there ("scene.gltf: /accessors/3: ..."), a
+// file that cannot be read at `named_at`, the place that names it. Features of glTF that the simulator does
+// not have yet are refused by name, never ignored.
 GltfFile load_gltf(const std::filesystem::path &file, const Place &named_at);
 
 } // namespace pmdsim

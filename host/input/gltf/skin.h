@@ -27,7 +27,7 @@ struct JointWeight {
   double weight;       // > 0
 };
 
-// What binds a primitive's vertices to joints.
+// The weights that bind a primitive's vertices to joints.
 struct SkinWeights {
   std::vector<JointWeight> weights; // one vertex's after the other's
   std::vector<std::size_t> ends;    // where in `weights` each vertex's end; their sum is 1

@@ -45,7 +45,7 @@ public:
     png_set_read_fn(png_, this, copy_bytes);
     // Whoever decodes says which size is too large, in better words than "Invalid IHDR data".
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    // Gamma, colour profiles and whatever else is neither pixels nor tRNS.
+    // Drops gamma, colour profiles and whatever else is neither pixels nor tRNS.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png_, info_);
     return true;
@@ -135,8 +135,8 @@ Error broken(const Decoder &decoder, const Place &place) {
   return input_error(place, fmt::format("no valid JPEG: {}", tjGetErrorStr2(decoder.get())));
 }
 
-// 8 bits, grey or colour, baseline or progressive. What libjpeg would only warn of, such as an image that is
-// cut short, is an error too.
+// 8 bits, grey or colour, baseline or progressive. Faults that libjpeg would only warn of, such as an image
+// that is cut short, are errors too.
 ImagePixels decoded_jpeg(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place) {
   const Decoder decoder(tjInitDecompress());
   if (!decoder)
@@ -164,7 +164,7 @@ std::size_t stored_number(const ImagePixels &pixels, std::size_t component) {
   return std::size_t{256} * pixels.rgba[2 * component] + pixels.rgba[2 * component + 1];
 }
 
-// What each number that can be stored means, in linear light.
+// The linear light that each number that can be stored means.
 std::vector<float> linear_of_stored(std::size_t largest) {
   std::vector<float> linear(largest + 1);
   for (std::size_t stored = 0; stored <= largest; ++stored)

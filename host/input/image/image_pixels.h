@@ -21,9 +21,9 @@ struct ImagePixels {
   std::vector<unsigned char> rgba{}; // size.x * size.y * 4 components
 };
 
-// What an image is, told by its first bytes. Colour profiles, gamma and EXIF orientation are ignored, as glTF
-// demands. Throws Error (input) at `place`, before anything is allocated where the header states more than
-// max_image_side a side or `max_pixels`.
+// The pixels of an image, whose first bytes tell its format. Colour profiles, gamma and EXIF orientation are
+// ignored, as glTF demands. Throws Error (input) at `place`, before anything is allocated where the header
+// states more than max_image_side a side or `max_pixels`.
 ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place);
 
 // The sRGB transfer function (IEC 61966-2-1), from 0 ... 1 as stored to linear 0 ... 1.

@@ -84,8 +84,8 @@ const Json &chosen(const Json &root, const Json &schema, const nlohmann::json &v
   return whole;
 }
 
-// What a schema asks for, as a noun phrase: "an integer from 1 to 16". A schema's `title` is that phrase, if
-// given.
+// The value that a schema asks for, as a noun phrase: "an integer from 1 to 16". A schema's `title` is that
+// phrase, if given.
 std::string expectation(const json &root, const json &schema_or_reference);
 
 // The phrase and the value of the keyword, where the schema has it.
@@ -200,8 +200,8 @@ std::string shown(const json &value) {
   return value.is_string() ? in_quotes(value.get_ref<const std::string &>()) : value.dump();
 }
 
-// As far towards a failure as the alternatives lead that the document has chosen. `context` is valijson's:
-// "<root>", then a "[key]" or "[index]" for each step.
+// The way towards a failure, as far as the alternatives lead that the document has chosen. `context` is
+// valijson's: "<root>", then a "[key]" or "[index]" for each step.
 std::vector<Spot> way_to(const std::vector<std::string> &context, const json &document, const json &root,
                          const std::filesystem::path &file) {
   std::vector<Spot> way{{Place{file}, &chosen(root, root, document), &document}};

@@ -69,8 +69,8 @@ void refuse_doubled_names(const std::vector<Named> &all, const char *kind, const
                                                         kind, in_quotes(all[i].name)));
 }
 
-// What N taps make of harmonic h is 0 unless h is next to a multiple of N (docs/theory.md, "Tones,
-// harmonics and taps").
+// N taps make 0 of harmonic h unless h is next to a multiple of N (docs/theory.md, "Tones, harmonics and
+// taps").
 bool shows(std::size_t harmonic, std::size_t taps) {
   return harmonic % taps == 1 || harmonic % taps == taps - 1;
 }

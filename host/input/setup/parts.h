@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a setup: sensors and illuminators, where they are, and how they move. What is given as JSON
+// The parts of a setup: sensors and illuminators, where they are, and how they move. JSON that functions take
 // has passed the schema and has its defaults filled in; `place` is where in the setup it stands.
 
 #include "engine/model/illuminator.h"
@@ -26,7 +26,7 @@ Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, co
 // chip that is not in front of the lens.
 Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const GltfScene &scene);
 
-// Whether a sensor's lens and chip can make an image, for people.
+// Why a sensor's lens and chip can make no image, for people.
 struct LensProblem {
   std::string key;         // of the sensor in a setup: "chip", "distortion" or "resolution"
   std::string expectation; // "expected ..."

@@ -92,7 +92,7 @@ Pose world_from_frame(const ordered_json &pose, const Place &place, const GltfSc
 Motion::Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root)
     : gltf_(std::move(gltf)), setup_(std::move(setup)), root_(std::move(root)) {}
 
-// What is right at rest may go wrong in motion: such an error tells when.
+// A setup that is right at rest may go wrong in motion: such an error tells when.
 Instant Motion::at(double time_s, const Instant &start) const {
   try {
     return placed_at(time_s, start);

@@ -13,7 +13,7 @@
 
 namespace pmdsim {
 
-// What there is at one time.
+// The scene, sensors and illuminators at one time.
 struct Instant {
   Scene scene;
   std::vector<Sensor> sensors;           // at least one, each with a name of its own

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4);
 
 constexpr std::size_t max_elements = std::size_t{1} << 25;
-// Of an accessor without a bufferView: its zeros take memory, but no bytes of the file.
+// The limit of an accessor without a bufferView: its zeros take memory, but no bytes of the file.
 constexpr std::size_t max_zero_elements = std::size_t{1} << 20;
 constexpr std::array<unsigned char, 64> zeros{}; // as long as the largest element, a MAT4 of floats
 
@@ -25,8 +25,8 @@ std::size_t component_bytes(int component_type) {
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
-// The number at `bytes`. A normalized integer is that of glTF 2.0, section 3.6.2.2: of the most negative ones
-// two mean -1.
+// The number at `bytes`. A normalized integer is that of glTF 2.0, section 3.6.2.2: the two most negative
+// ones mean -1.
 double number_at(const unsigned char *bytes, int component_type, bool normalized) {
   const auto read = [&]<class T>(T value) {
     std::memcpy(&value, bytes, sizeof value);
@@ -129,7 +129,7 @@ private:
     return replacements_.at(static_cast<std::size_t>(found - replaced_.begin()));
   }
 
-  // glTF 2.0, section 5.1.6: of the sparse parts' views byteStride must not be defined.
+  // glTF 2.0, section 5.1.6: the sparse parts' views must not define byteStride.
   template <class Part>
   ElementRange sparse_range(const Part &part, std::size_t bytes, const Place &place) const {
     if (model_.bufferViews[static_cast<std::size_t>(part.bufferView)].byteStride != 0)

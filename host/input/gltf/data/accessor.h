@@ -23,7 +23,7 @@ std::span<const unsigned char> bytes_of_view(const tinygltf::Model &model, std::
 
 // SCALAR to VEC4 of `components` components (1 to 4), all finite: floats, or integers as
 // KHR_mesh_quantization, colours, weights and animations allow them; normalized ones become -1 to 1 or 0
-// to 1. What a vector lacks is 0.
+// to 1. Components that a vector lacks are 0.
 std::vector<glm::dvec4> read_vectors(const tinygltf::Model &model, std::size_t accessor, int components,
                                      const Place &root);
 // The first `count` of a MAT4 of floats, all finite.

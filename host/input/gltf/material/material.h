@@ -1,6 +1,6 @@
 #pragma once
-// What of a glTF material matters to the simulator: how much it reflects, where it is, and whether its back
-// is visible.
+// The properties of a glTF material that matter to the simulator: how much it reflects, where it is, and
+// whether its back is visible.
 
 #include "engine/model/scene.h"
 #include "host/input/gltf/material/textures.h"

@@ -15,7 +15,7 @@ class Model;
 
 namespace pmdsim {
 
-// Of all images of a file that are used, together: 2 GiB decoded.
+// The limit of all images of a file that are used, together: 2 GiB decoded.
 inline constexpr std::size_t max_file_texels = std::size_t{1} << 27;
 
 class GltfTextures {
