@@ -1,5 +1,5 @@
 #pragma once
-// What the command line says about accuracy.
+// The accuracy that the command line asks for.
 
 #include "engine/model/accuracy.h"
 
@@ -13,7 +13,7 @@ class App;
 
 namespace pmdsim {
 
-// As it is written, before it is checked.
+// The options as they are written, before they are checked.
 struct WrittenAccuracy {
   std::optional<std::string> mode, max_error, max_amplitude_error, precision;
   bool strict = false;
@@ -21,11 +21,11 @@ struct WrittenAccuracy {
 
 void add_accuracy(CLI::App &command, WrittenAccuracy &written);
 
-// An error that is bounded implies mode automatic unless a mode is written. Throws Error (usage): also where
-// mode exact shall bound an error, and where the reference, which is exact in double, shall be anything else.
+// A bounded error implies mode automatic unless a mode is written. Throws Error (usage), also where mode
+// exact is to bound an error, and where the reference, which is exact in double, is to be anything else.
 Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference);
 
-// "0.1mm": a number and m, mm or um, 1e-9 m to 1e6 m; nothing where it is none.
+// A length such as "0.1mm": a number and m, mm or um, 1e-9 m to 1e6 m; nothing where the text is none.
 std::optional<double> length_m(std::string_view text);
 
 } // namespace pmdsim

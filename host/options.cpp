@@ -16,11 +16,11 @@ namespace {
 
 const std::map<std::string, Format> format_names{
     {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
-// Of the commands that write frames.
+// The formats of the commands that write frames.
 const std::map<std::string, std::vector<std::string>> default_formats{{"render", {"exr", "png"}},
                                                                       {"deform", {"exr", "png", "csv"}}};
 
-// The command line before it is checked, and what of it is no more than taken over.
+// The command line before it is checked, and those parts of it that are only taken over.
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
@@ -105,7 +105,7 @@ void add_suite(CLI::App &bench, Written &written) {
       ->excludes(against);
 }
 
-// What `render` writes.
+// The channels that `render` writes.
 std::string channel_list() {
   std::string text = "Channels:\n";
   for (const ChannelRow &row : channel_rows) {
@@ -201,7 +201,7 @@ SampleChoice sample_choice_of(const std::string &text) {
   return {.samples = *samples};
 }
 
-// Of commands that compare a device with the reference.
+// Checks the commands that compare a device with the reference.
 void check_comparing(const Written &written) {
   const Options &options = written.options;
   const bool swept = options.command == "bench" && options.capture.setup.empty();
@@ -239,7 +239,8 @@ Options checked(Written written, const std::string &command) {
   return options;
 }
 
-// One line, as CLI11's messages may not be; of an unknown command CLI11 says only that one is missing.
+// The failure in one line, as CLI11's messages may have more; of an unknown command CLI11 says only that one
+// is missing.
 std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
   std::string text = app.get_subcommands().empty() && !app.remaining().empty()
                          ? fmt::format("unknown command or option {}", app.remaining().front())

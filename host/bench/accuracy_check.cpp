@@ -17,8 +17,8 @@ namespace {
 constexpr double affordable_interactions = 2e8; // some seconds of the reference
 constexpr double shadow_ray_terms = 5.0; // in sines; among thin bars a ray takes the reference half of that
 
-// What the reference does for one path, in sines: every frequency has its own correlation function, and all
-// share what reaches the point.
+// The work that the reference does for one path, in sines: every frequency has its own correlation function,
+// and all share what reaches the point.
 double terms_per_path(const Sensor &sensor, Shadows shadows) {
   const Waveform &waveform = sensor.waveform;
   const double terms = waveform.kind == Waveform::Kind::harmonics
@@ -34,13 +34,14 @@ double interactions(const Sensor &sensor, std::size_t diode_count, Shadows shado
          static_cast<double>(diode_count) * terms_per_path(sensor, shadows);
 }
 
-// In what the samples differ from the reference's.
+// The differences between the samples and the reference's.
 struct SampleDifferences {
   std::vector<bool> other_triangle, other_diodes; // by pixel: of any of its samples
   std::size_t pairs = 0, pairs_apart = 0;         // as in AccuracyCheck
 };
 
-// Diodes that reach the sample on one of the two only; `words` of each sample hold its diodes.
+// The number of diodes that reach the sample in one of the two frames only; each sample has `words` words of
+// bits.
 std::size_t diodes_apart(const Measurement &found, const reference::Frame &truth, std::size_t sample,
                          std::size_t words) {
   std::size_t apart = 0;
@@ -82,9 +83,9 @@ double darkest_comparable(const reference::FrameReturn &truth) {
   return 1e-3 * brightest;
 }
 
-// Rounding decides otherwise only where a ray all but touches an edge, in 1e-4 of the pairs at most. Ten
-// times as many are let pass, as other devices and coarser frames have other edges, and a line of pixels, as
-// a shadow's edge may run through the middle of each.
+// Rounding decides a pair otherwise only where a ray all but touches an edge, in 1e-4 of the pairs at most.
+// Ten times as many may pass, as other devices and coarser frames have other edges, and at least a line of
+// pixels, as a shadow's edge may run through the middle of each.
 std::size_t most_plausible_pairs_apart(const AccuracyCheck &check) {
   return std::max(check.pairs / 1000, std::size_t{std::max(check.resolution.x, check.resolution.y)});
 }

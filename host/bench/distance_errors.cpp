@@ -44,7 +44,7 @@ std::vector<std::uint32_t> random_pixels(std::uint64_t pixels, std::size_t count
 std::vector<bool> on_edges(const TruePixels &truth, const Measurement &found, std::uint32_t samples,
                            std::size_t diodes) {
   const auto true_samples = truth.sensor.samples;
-  // Of one sample's light by one diode more or less.
+  // The change of a pixel's `lit` by one diode more or less at one sample.
   const double least_lit = 1.0 / (static_cast<double>(diodes) * true_samples * true_samples);
   std::vector<bool> edges;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {

@@ -13,7 +13,7 @@ ordered_json spread_json(const Spread &spread) {
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
 }
 
-// The largest of all sensors and frequencies; NaN where nothing could be compared.
+// The largest error of all sensors and frequencies; NaN where nothing could be compared.
 double largest_error_m(const std::vector<AccuracyCheck> &checks) {
   double largest_m = std::numeric_limits<double>::quiet_NaN();
   for (const AccuracyCheck &check : checks)
@@ -21,7 +21,7 @@ double largest_error_m(const std::vector<AccuracyCheck> &checks) {
   return largest_m;
 }
 
-// What every row has.
+// The keys that every row has.
 ordered_json row_json(const std::string &name, Mode mode, const std::vector<TimedFrame> &frames,
                       double interactions_per_s, double error_found_m) {
   const Timing timing = timing_of(frames);

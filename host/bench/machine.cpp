@@ -16,7 +16,7 @@
 namespace pmdsim {
 namespace {
 
-// What Vulkan's loader, Mesa and the program read.
+// The variables that Vulkan's loader, Mesa and the program read.
 constexpr std::size_t always_told = 3; // the first of them, whether or not they are set
 constexpr std::array variables{"LP_NATIVE_VECTOR_WIDTH",
                                "LP_NUM_THREADS",

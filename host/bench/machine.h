@@ -1,5 +1,5 @@
 #pragma once
-// What a time depends on beside what is timed, and the memory that the process takes.
+// The circumstances that a time depends on, and the memory that the process takes.
 
 #include "host/capture/camera.h"
 
@@ -23,10 +23,10 @@ struct Machine {
 
 Machine this_machine(const Camera &camera);
 
-// From here on, as far as the system can tell, counts the most memory that the process has had in use, a
-// device's own apart.
+// Begins to count the most memory that the process has in use from here on, a device's own apart, as far as
+// the system can tell.
 void restart_peak_memory();
-// That, resident; nothing where the system does not tell.
+// The peak of that memory, resident; nothing where the system does not tell.
 std::optional<std::int64_t> peak_memory_bytes();
 
 } // namespace pmdsim

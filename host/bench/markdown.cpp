@@ -19,7 +19,7 @@ std::string mebibytes(const ordered_json &bytes) {
 
 std::string micrometres(const ordered_json &length_m) { return number<3>(1e6 * number_or_nan(length_m)); }
 
-// Of modes, or of a sweep's points.
+// The rows of modes or, where `swept`, of a sweep's points.
 ordered_json results_of(const ordered_json &json, bool swept) {
   ordered_json rows = ordered_json::array();
   for (const ordered_json &row : json["results"])
@@ -70,7 +70,7 @@ std::string modes_text(const SetupBench &bench, ordered_json rows) {
                     rows);
 }
 
-// A column each mode, a row each pass that any of them has.
+// A column for each mode, a row for each pass that any of them has.
 std::string passes_text(const ordered_json &modes) {
   ordered_json rows = ordered_json::object();
   std::vector<Column> columns{column("pass, ms", "/pass", plain)};

@@ -31,10 +31,11 @@ struct SetupBench {
   bool adaptive = false;     // then a frame has fewer
   std::uint32_t sensors = 1;
   std::vector<ModeBench> modes; // the first is exact unless another one was asked for
-  // Where there is something to be compared with it: mode exact of a device with the same samples everywhere.
+  // Only where there is something to compare it with: mode exact of a device with the same samples
+  // everywhere.
   std::optional<NativeBench> native;
-  // And what is compared: interactions per second of the accumulate pass over the first sensor's samples, one
-  // a round, with each diode in the loop at each sample, as in the native kernel.
+  // The device's side of that comparison: interactions per second of the accumulate pass over the first
+  // sensor's samples, one a round, with each diode in the loop at each sample, as in the native kernel.
   std::vector<double> looped_per_s;
   std::optional<std::int64_t> peak_memory_bytes; // of the process
 };
@@ -53,8 +54,8 @@ struct Ratio {
   Spread of_rounds; // of the ratios within each round
 };
 
-// Of the sum in the loop over the diodes accumulate_over_native, accumulate_over_native_series and
-// exact_frame_over_MODE_frame, as far as both are there.
+// The ratios accumulate_over_native and accumulate_over_native_series, of the sum in the loop over the
+// diodes, and exact_frame_over_MODE_frame, as far as both sides are there.
 std::vector<Ratio> ratios_of(const SetupBench &bench);
 
 } // namespace pmdsim

@@ -1,5 +1,5 @@
 #pragma once
-// What a benchmark found, in Markdown for people and in JSON for scripts (docs/commands.md, "JSON for
+// The results of a benchmark, in Markdown for people and in JSON for scripts (docs/commands.md, "JSON for
 // scripts").
 
 #include "host/bench/machine.h"
@@ -19,10 +19,10 @@ struct BenchReport {
   Machine machine;
   std::vector<std::string> samples; // of each sensor: S, or "auto"
   SetupBench setup = {};
-  // Nothing of a setup of one's own.
+  // None for a setup of one's own.
   std::optional<SequenceRate> sequence = std::nullopt;
   std::vector<SweepRow> sweep = {};
-  // With nothing of a setup and its sweep.
+  // Where there are any, the setup and its sweep are empty.
   std::vector<SuiteRow> suite = {};
 };
 

@@ -21,13 +21,13 @@ constexpr int sweep_rounds = 9;
 constexpr double visit_ms = 60.0; // frames are timed until they have taken this
 constexpr int most_frames_of_visit = 4;
 
-// Of a frame, roughly; for the progress bar.
+// The time of a frame, roughly; for the progress bar.
 double expected_s(const Setup &setup) {
   const auto diodes = static_cast<double>(diode_count(setup.start.illuminators));
   return 0.02 + samples_of_frame(setup) * (50e-9 + 0.3e-9 * diodes);
 }
 
-// Of all that is done with a point.
+// The time of all that is done with a point.
 double expected_s(const SweepPoint &point) {
   const double frame_s = expected_s(swept_setup(point));
   const double warm = std::clamp(1e-3 * visit_ms / frame_s, 1.0, double{most_frames_of_visit});

@@ -37,8 +37,9 @@ std::vector<std::vector<SweepPoint>> all_sweeps();
 // rings; constant backscatter, one sample a pixel, 20 MHz.
 Setup paper_ring();
 
-// That with the point's value in place of its own. More pixels are smaller, diodes share the rings' radii,
-// triangles are a grid on the wall (their number even, and a rectangle's), frequencies are 2.5 MHz apart.
+// The paper's ring with the point's value in place of its own. More pixels are smaller, diodes share the
+// rings' radii, triangles are a grid on the wall (their number even, and a rectangle's), frequencies are 2.5
+// MHz apart.
 Setup swept_setup(const SweepPoint &point);
 
 struct SizeAndTime {
@@ -52,7 +53,7 @@ struct StraightLine {
   double at_ms(double size) const { return fixed_ms + slope_ms * size; }
 };
 
-// Of at least one point of positive size and time; one alone has no fixed part.
+// The fit to at least one point of positive size and time; that to a single point has no fixed part.
 StraightLine straight_line(std::span<const SizeAndTime> points);
 
 struct SweepRow {

@@ -26,7 +26,7 @@ struct Column {
   std::function<std::string(const nlohmann::ordered_json &row)> cell;
 };
 
-// What stands there in the row; null where nothing does.
+// The value at `pointer` in the row; null where there is none.
 nlohmann::ordered_json value_at(const nlohmann::ordered_json &row, const std::string &pointer);
 
 Column column(const std::string &heading, const std::string &pointer, const auto &text) {

@@ -17,24 +17,24 @@ namespace pmdsim {
 // By the clock.
 double ms_since(std::chrono::steady_clock::time_point start);
 
-// What shall be timed, and how.
+// The device, accuracy and modes that are to be timed.
 struct BenchRequest {
   std::string device; // as Camera's
   Accuracy accuracy;
   bool one_mode = false; // that of `accuracy`; else all where a setup is timed
 };
 
-// What one frame took; of several sensors all their frames together.
+// The times and accuracy of one frame; of several sensors all their frames together.
 struct TimedFrame {
   double frame_ms = 0.0;
   std::vector<PassTime> passes;
   std::optional<AccuracyReport> accuracy;
 };
 
-// Times add up, and the larger error counts; nothing is known of it where nothing is of either's.
+// Times add up, and the larger error counts; no error is known where one of the two is not.
 void add(TimedFrame &sum, const Measurement &measurement);
 
-// Of the pass `name`; NaN where the frame has none.
+// The time of the pass `name`; NaN where the frame has none.
 double pass_ms(const TimedFrame &frame, std::string_view name);
 
 struct Timing {
@@ -44,7 +44,7 @@ struct Timing {
   AccuracyReport accuracy;      // of the last frame
 };
 
-// Of at least one frame.
+// The timing of at least one frame.
 Timing timing_of(std::span<const TimedFrame> frames);
 
 // Samples x diodes over the time of the accumulate pass, median; NaN where not all of them meet there.

@@ -11,7 +11,7 @@
 
 namespace pmdsim {
 
-// What a measurement shall hold beside its other channels.
+// Extras that a measurement shall have beside its other channels.
 struct Extras {
   bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
   bool reached = false;          // Measurement::sample_visibility, not from the reference
@@ -32,7 +32,8 @@ public:
   const std::string &driver() const { return driver_; }
   bool is_reference() const { return !simulator_; }
 
-  // What follows measures this. `scene` must outlive it. The reference is always as exact as it can be.
+  // Measurements from here on are of this. `scene` must outlive them. The reference is always as exact as it
+  // can be.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
   // The setup, which must outlive it, at its start.

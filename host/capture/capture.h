@@ -1,6 +1,6 @@
 #pragma once
-// What commands that measure share: what is asked of them, the setup with that, and how its frames come into
-// a directory.
+// The parts that measuring commands share: what is asked of them, the setup with that, and how its frames
+// come into a directory.
 
 #include "host/capture/exposure.h"
 #include "host/capture/frame_sequence.h"
@@ -26,7 +26,8 @@ struct CaptureRequest {
   std::set<Format> formats;
 };
 
-// With what is asked for instead of its own values. Its warnings go to stderr. Throws Error (input).
+// The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error
+// (input).
 Setup requested_setup(const CaptureRequest &request);
 
 // The frames of a setup that one command leaves in a directory, with a bar of its progress.
@@ -48,7 +49,7 @@ public:
                   const std::string &label = "");
   // As Exposures::share().
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame) { return exposures_.share(std::move(frame)); }
-  // As FrameSequence::write(); of each sample `measure` takes so many exposures.
+  // As FrameSequence::write(); `measure` takes so many exposures of each sample.
   void write(const FrameSequence::Measure &measure, std::size_t part_bytes, double exposures_of_sample = 1.0);
 
 private:
@@ -61,14 +62,15 @@ private:
   std::optional<ProgressBar> bar_; // while it writes
 };
 
-// What a manifest says of a part of a frame.
+// A manifest's record of a part of a frame.
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 
 // A frame as `render` leaves it: every channel of what was measured. Its files hold on to `taken`.
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats);
 
-// Of the setup's largest frame, with or without its taps, and with so many maps more of each frequency.
+// The bytes of the setup's largest frame, with or without its taps, and with so many maps more of each
+// frequency.
 std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps = 0);
 
 } // namespace pmdsim

@@ -13,14 +13,15 @@
 
 namespace pmdsim {
 
-// What there is at the times that frames of a setup, which must outlive it, are taken, each computed while
-// the one before is measured. Where something moves it holds two scenes: that of the last time and
-// that of the next.
+// The scene, sensors and illuminators at the times that frames of a setup, which must outlive it, are taken.
+// Each instant is computed while the one before is measured. Where something moves it holds two scenes: that
+// of the last time and that of the next.
 class Instants {
 public:
   explicit Instants(const Setup &setup) : setup_(setup) {}
 
-  // Valid until the next call with another time; of any time alike where nothing moves. Throws Error (input).
+  // The instant, valid until the next call with another time; the same at any time where nothing moves.
+  // Throws Error (input).
   const Instant &at(double time_s);
   // Whether at(time_s) gives what the last call gave.
   bool holds(double time_s) const { return !setup_.motion || (now_ && now_->time_s == time_s); }
@@ -43,8 +44,8 @@ private:
   std::optional<Coming> coming_;
 };
 
-// The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts none
-// that the lens sees.
+// The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts no
+// shadows that the lens sees.
 enum class Light { beside_lens, in_lens };
 
 // Whether every tap of the sensor's frames is an exposure of its own.
@@ -65,8 +66,8 @@ void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes)
 // Measures one frequency alone at a time, its taps kept.
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
 
-// The frame that begins at `frame_s`: from frequency i's tap k at tap_time_s() its tap k, and of these phase,
-// amplitude and distance. Ground truth is the first exposure's; times add up.
+// The frame that begins at `frame_s`: tap k of frequency i is that of the exposure at tap_time_s(), and
+// phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up.
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose);
 
 // One sensor's frame.
@@ -79,9 +80,9 @@ struct TakenFrame {
 // Takes frames of a setup, which must outlive it, on one device.
 class Exposures {
 public:
-  // Throws Error (no_device). Without `keep_taps` frames have none, however they are taken. Frames whose taps
-  // are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each exposure's
-  // error is none of what phase and distance make of a tap from each.
+  // Throws Error (no_device). Without `keep_taps` frames have no taps, however they are taken. Frames whose
+  // taps are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each
+  // exposure's error is no bound of the phase and distance that follow from a tap of each.
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
 
   const Camera &camera() const { return camera_; }
@@ -97,7 +98,7 @@ public:
                   std::optional<double> next_s = std::nullopt);
 
 private:
-  // What the camera is prepared for; a frequency alone, or all of them.
+  // The view that the camera is prepared for, at one frequency alone or at all of them.
   struct View {
     std::size_t sensor;
     std::optional<std::size_t> frequency;

@@ -33,15 +33,15 @@ struct SensorFrame {
   std::optional<double> next_s{}; // when the frame of the part after this one begins, if there is one
 };
 
-// That part, measured.
+// A measured part of a frame.
 struct MeasuredPart {
   FrameRecord record; // `outputs` aside
-  // What is to be written, asked for once; holds the measurement, or shares it.
+  // Gives the files to write, once; holds the measurement, or shares it.
   std::function<std::vector<FileToWrite>()> files;
 };
 
 // How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
-// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not.
+// keep the processor busy, and no more than fit into 1 GiB; none where a single one does not fit.
 std::size_t parts_waiting(std::size_t part_bytes);
 
 class FrameSequence {
@@ -52,16 +52,16 @@ public:
                 RunRecord run);
 
   using Measure = std::function<MeasuredPart(const SensorFrame &)>;
-  // Frame by frame, and sensor by sensor in each, one at a time though not always on the same thread; and
-  // writes what is measured on threads of its own, `part_bytes` being what the largest part holds. Where that
-  // fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these; without
-  // any, nothing stays.
+  // Measures frame by frame, and sensor by sensor in each, one at a time though not always on the same
+  // thread, and writes the parts on threads of its own; `part_bytes` is what the largest part holds. Where
+  // either fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these;
+  // without any, nothing stays.
   void write(const Measure &measure, std::size_t part_bytes);
 
   const RunRecord &run() const { return run_; }
   // A name with the directory in front.
   std::string path_of(const std::string &name) const { return (directory_ / name).string(); }
-  // Of all files, the manifest last.
+  // The paths of all files, the manifest last.
   std::vector<std::string> paths() const;
   // "written:" and the paths below it, those of the first frame for all.
   std::string written_text() const;

@@ -1,7 +1,7 @@
 #pragma once
-// What a long command says and hears meanwhile: a bar on stderr with the time left, only where stderr is a
-// terminal, and SIGINT and SIGTERM, which become an Error at the next safe point, so that destructors clean
-// up.
+// The progress of a long command, and its interruption: a bar on stderr with the time left, only where stderr
+// is a terminal, and SIGINT and SIGTERM, which become an Error at the next safe point, so that destructors
+// clean up.
 
 #include <chrono>
 #include <functional>
@@ -15,8 +15,8 @@ void stop_on_signals();
 // Throws Error (interrupted) where a signal has come.
 void throw_if_interrupted();
 
-// Of a command's steps, one after the other. Shown from the first update on; cleared when it dies. Debian 12
-// has no library for it.
+// A bar of a command's steps, one after the other. It is shown from the first update on, and cleared when it
+// dies. Debian 12 has no library for it.
 class ProgressBar {
 public:
   // `work` is that of all steps together, in any unit.
@@ -25,7 +25,7 @@ public:
   ProgressBar(const ProgressBar &) = delete;
   ProgressBar &operator=(const ProgressBar &) = delete;
 
-  // The next step, all before it are done.
+  // Begins the next step; all before it are done.
   void begin(std::string label, double work);
   // `fraction` of the step done, 0 to 1. Cheap enough to be called often.
   void update(double fraction);
@@ -34,7 +34,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   std::string label_;
-  double work_, done_ = 0.0, step_ = 0.0; // of all steps, of those before the current one, of that
+  double work_, done_ = 0.0, step_ = 0.0; // of all steps, of those before the current one, of the current one
   bool on_terminal_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();

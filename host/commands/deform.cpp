@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 // Deformations of one frame, a map each frequency.
 using Maps = std::vector<std::vector<float>>;
 
-// What scripts and people are told of one sensor's frame.
+// The report of one sensor's frame, to scripts and people.
 struct DeformedFrame {
   FrameRecord record;                              // its accuracy is the deformation's
   std::vector<DeformationStatistics> statistics{}; // of each frequency
@@ -93,7 +93,8 @@ std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair
   return files;
 }
 
-// The bistatic frame after the monostatic one, of which the distances stay, as the next frame's begins.
+// Takes the monostatic frame, whose distances stay, and then the bistatic one. Each is told when the next
+// begins.
 std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, DeformedFrame &told) {
   auto pair = std::make_shared<TakenPair>();
   pair->bistatic = capture.take(at, Light::in_lens, at.time_s, ", monostatic");

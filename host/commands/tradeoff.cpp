@@ -36,7 +36,7 @@ TradeoffPoint point(Sweep sweep, const Accuracy &accuracy, const SampleChoice &c
           .reference_samples = reference_samples};
 }
 
-// Nothing of them is measured yet.
+// The points, none of them measured yet.
 std::vector<TradeoffPoint> planned_points(const Sensor &sensor) {
   const SampleChoice own{sensor.samples, sensor.adaptive_samples};
   std::vector<TradeoffPoint> points;
@@ -51,7 +51,7 @@ std::vector<TradeoffPoint> planned_points(const Sensor &sensor) {
   return points;
 }
 
-// In a device's samples. Modes share the frame that tells where edges are.
+// The work in a device's samples. Modes share the frame that tells where edges are.
 double work_of(const std::vector<TradeoffPoint> &points, const Sensor &sensor) {
   const auto samples = [](std::uint64_t pixels, std::uint32_t each) {
     return static_cast<double>(pixels) * each * each;
@@ -96,7 +96,7 @@ private:
     return static_cast<double>(sensor.pixel_count()) * sensor.samples * sensor.samples;
   }
 
-  // What the point is compared with; as it is where the one before has the same.
+  // Finds the truth that the point is compared with, unless the point before has the same.
   void find_truth(const TradeoffPoint &point) {
     if (!truth_ || truth_->sensor.samples != point.reference_samples) {
       truth_ = true_pixels(point.reference_samples);

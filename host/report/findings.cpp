@@ -27,7 +27,7 @@ public:
   glm::dvec3 ray(const glm::dvec2 &place) const {
     return lens_.ray(lens_.on_chip_m(place)).value_or(glm::dvec3(nan));
   }
-  // From `part` over the centre to the place opposite.
+  // The angle from `part` over the centre to the place opposite.
   double angle_across_deg(const glm::dvec2 &part) const {
     const glm::dvec3 centre = ray(place(glm::dvec2(0.5)));
     return angle_deg(ray(place(part)), centre) + angle_deg(centre, ray(place(1.0 - part)));
@@ -43,7 +43,7 @@ private:
   glm::dvec2 size_;
 };
 
-// Between where the rays through two places meet the plane z = 1 m.
+// The distance between where the rays through two places meet the plane z = 1 m.
 double distance_at_1m_m(const Image &image, const glm::dvec2 &from, const glm::dvec2 &to) {
   const glm::dvec3 a = image.ray(from), b = image.ray(to);
   return a.z > 0.0 && b.z > 0.0 ? glm::distance(a / a.z, b / b.z) : nan;
@@ -60,7 +60,7 @@ double darkest_corner(const Image &image, Vignetting vignetting) {
 
 constexpr double view_columns = 64.0; // rays that look for what is visible, along the frame's longer side
 
-// Of what the rays of a coarse frame of the reference see, which needs no device.
+// The ranges that the rays of a coarse frame of the reference see, which needs no device.
 std::vector<double> visible_ranges_m(const Setup &setup, const Sensor &fine) {
   Sensor sensor = coarser(fine, std::max(fine.resolution.x, fine.resolution.y) / view_columns);
   sensor.samples = 1;

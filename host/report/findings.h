@@ -1,5 +1,5 @@
 #pragma once
-// What follows from a setup before anything is measured, and the view of a sensor's lens.
+// Findings that follow from a setup before anything is measured, and the view of a sensor's lens.
 
 #include "host/input/setup/setup.h"
 
@@ -12,7 +12,7 @@
 
 namespace pmdsim {
 
-// What a sensor's lens shows it, by the rays of its image; NaN where the lens has no ray.
+// The view of a sensor's lens, by the rays of its image; NaN where the lens has no ray.
 struct FieldOfView {
   // Full angles between the image's edges along its middle row and column and along its longer diagonal; each
   // is the sum of two halves about the image's centre, so that a fisheye may see more than 180 degrees.
@@ -41,11 +41,11 @@ struct SensorFindings {
   Sensor sensor;
   FieldOfView view;
   VisibleRange visible;
-  // Of the rays that see something, those that see it beyond a frequency's ambiguity range, 0 to 1.
+  // Among the rays that see something, the share that sees it beyond a frequency's ambiguity range, 0 to 1.
   std::vector<double> shares_beyond;
 };
 
-// Of all diodes of one illuminator together, or of all that there are.
+// The light of all diodes of one illuminator together, or of all that there are.
 struct LightFindings {
   std::size_t diodes = 0;
   double intensity_w_sr = 0.0; // each on its axis, modulated part
@@ -62,7 +62,7 @@ struct Findings {
 
 Findings findings_of(const Setup &setup);
 
-// Beyond what loading the setup has warned of already, one line each. `findings` are the setup's.
+// The warnings beyond those of loading the setup, one line each. `findings` are the setup's.
 std::vector<std::string> warnings_of(const Setup &setup, const Findings &findings);
 
 // c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers

@@ -1,5 +1,5 @@
 #pragma once
-// What commands print on stdout.
+// The text that commands print on stdout.
 
 #include "engine/model/accuracy.h"
 
@@ -8,7 +8,7 @@
 
 namespace pmdsim {
 
-// Text as it is, at once. Throws Error (output) where stdout cannot take it.
+// Prints the text as it is, at once. Throws Error (output) where stdout cannot take it.
 void print(const std::string &text);
 
 // "20 MHz".
@@ -25,9 +25,9 @@ std::string sum_text(Mode mode, const AccuracyReport &report);
 // "at most 4 µm claimed, at most 1 µm found in 1024 pixels, checked in 2.000 ms"; empty where nothing is
 // known.
 std::string errors_text(const AccuracyReport &report);
-// Of pixels that may be off by more than was asked for, how many; empty where there are none.
+// How many pixels may be off by more than was asked for; empty where there are none.
 std::string unpromised_text(const AccuracyReport &report, double max_error_m);
-// A line of each, as far as they say something beyond mode exact in fp32.
+// A line of each of these texts, as far as they say something beyond mode exact in fp32.
 std::string accuracy_text(Mode mode, const AccuracyReport &report);
 
 // Over the values that are finite; NaN where there is none.

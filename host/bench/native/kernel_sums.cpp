@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t tile = native_tile_points;
 
-// What the moments of a tile's points come to.
+// The phases that follow from the moments of a tile's points.
 void write_phases(const float (&moment)[native_moments][tile], float k, float *phase_rad) {
   for (std::size_t i = 0; i < tile; ++i)
     phase_rad[i] = std::atan2(k * moment[1][i] - k * k * k / 6.0f * moment[3][i],
@@ -23,8 +23,8 @@ struct RangeAndWeight {
   float range_m, weight;
 };
 
-// GCC makes root and quotient of an estimate and a step of Newton's each. Of a reciprocal root it does so up
-// to 256 bits only; there that saves the quotient.
+// GCC makes the root and the quotient of an estimate and a step of Newton's each. It makes a reciprocal root
+// so up to 256 bits only; there that saves the quotient.
 inline RangeAndWeight range_and_weight(float square_m2, float intensity_w_sr) {
 #ifdef __AVX512F__
   return {std::sqrt(square_m2), intensity_w_sr / square_m2};
@@ -68,8 +68,8 @@ void sum_by_moments(const NativeTile *tiles, std::size_t tile_count, const Nativ
   }
 }
 
-// factor[k][n]: of u^n in (sqrt(1 + u) - 1)^k / (1 + u), so that w e^k = I |P|^(k - 2) sum_n factor[k][n]
-// u^n.
+// factor[k][n] is the factor of u^n in (sqrt(1 + u) - 1)^k / (1 + u), so that
+// w e^k = I |P|^(k - 2) sum_n factor[k][n] u^n.
 template <std::size_t powers>
 struct SeriesFactors {
   float factor[native_moments][powers] = {};
@@ -94,7 +94,7 @@ struct SeriesFactors {
   }
 };
 
-// Times their intensities: all diodes in one.
+// All diodes in one, each times its intensity.
 NativeDiode sum_of(const NativeDiode *diodes, std::size_t diode_count) {
   NativeDiode sum{};
   for (const NativeDiode *diode = diodes; diode != diodes + diode_count; ++diode) {

@@ -8,7 +8,7 @@ namespace pmdsim {
 
 // Points that are summed together; more of them leave no registers for the sums.
 inline constexpr std::size_t native_tile_points = 32;
-// Of the excess e: sum w e^k, k = 0 ... 3.
+// The moments of the excess e: sum w e^k, k = 0 ... 3.
 inline constexpr std::size_t native_moments = 4;
 
 // Relative to the light's reference point, camera axes. Plain arrays: an inline function that is instantiated
@@ -29,8 +29,8 @@ struct NativeDiode {
 using NativeSum = void (*)(const NativeTile *tiles, std::size_t tile_count, const NativeDiode *diodes,
                            std::size_t diode_count, float wavenumber_per_m, float *phase_rad);
 
-// By the sums of I u^k, k below `powers`, of u = (|D|^2 - 2 P.D) / |P|^2, D the diode and P the point: r^2 =
-// |P|^2 (1 + u), so the moments are power series in u and the loop has no root and no division.
+// The same by the sums of I u^k, k below `powers`, with u = (|D|^2 - 2 P.D) / |P|^2, D the diode and P the
+// point: r^2 = |P|^2 (1 + u), so the moments are power series in u and the loop has no root and no division.
 struct NativeSeries {
   std::size_t powers;
   NativeSum sum;

@@ -15,7 +15,7 @@
 namespace pmdsim {
 namespace {
 
-// What float32 keeps of distances of some tens of metres.
+// The error of float32 at distances of some tens of metres.
 constexpr double largest_error_m = 10e-6;
 constexpr double largest_series_error_m = 1e-6; // beyond that of the moments
 // Enough for every thread, and little enough to be run in every round.

@@ -10,13 +10,14 @@
 
 namespace pmdsim {
 
-// As Vulkan on the CPU takes them: LP_NUM_THREADS where it is set, 1 at least; else the hardware's.
+// As many threads as Vulkan on the CPU takes: LP_NUM_THREADS where it is set, 1 at least; else the
+// hardware's.
 unsigned native_threads();
 
 // The inner loops for the instruction sets that this processor has, the best first.
 std::vector<const NativeSums *> available_native_sums();
 
-// What is summed. Places are relative to any origin, the same for both.
+// The points and the diodes of a sum. Places are relative to any origin, the same for both.
 struct NativeWork {
   std::vector<glm::dvec3> points_m; // at least one, none of them at the diodes' middle
   struct Source {
@@ -44,7 +45,7 @@ public:
   double error_max_m() const;
 
 private:
-  // At one point, relative to the way over the diodes' middle, in double.
+  // The phase at one point, relative to the way over the diodes' middle, in double.
   double true_phase_rad(std::size_t point) const;
   void sum_tiles(NativeSum sum, std::size_t first, std::size_t end);
 

@@ -1,4 +1,4 @@
-// What is awkward for whatever traces it.
+// Scenes that are awkward for whatever traces them.
 #include "host/bench/real/kinds.h"
 #include "host/bench/real/mesh.h"
 
@@ -70,7 +70,7 @@ Scene touching(std::uint32_t triangles) {
   return std::move(mesh).scene();
 }
 
-// Beside, inside and among the ring's diodes.
+// Rods beside, inside and among the ring's diodes.
 Scene piercing(std::uint32_t triangles) {
   Random random(8);
   Mesh mesh;

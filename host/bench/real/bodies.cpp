@@ -10,7 +10,7 @@
 namespace pmdsim {
 namespace {
 
-// Of a ball of about that many triangles.
+// The cells of a ball of about that many triangles.
 std::uint32_t cells_of(std::uint32_t triangles) {
   return static_cast<std::uint32_t>(std::lround(std::sqrt(triangles / 12.0)));
 }

@@ -1,4 +1,4 @@
-// What people build, and people.
+// Buildings, furniture and people.
 #include "host/bench/real/kinds.h"
 #include "host/bench/real/mesh.h"
 
@@ -10,13 +10,13 @@
 namespace pmdsim {
 namespace {
 
-// `from_m` to `to_m` turns by up to `spread` from `direction`.
+// The end of a part that begins at `from_m` and turns by up to `spread` from `direction`.
 glm::dvec3 joint(Random &random, const glm::dvec3 &from_m, double length_m, const glm::dvec3 &direction,
                  double spread) {
   return from_m + length_m * glm::normalize(direction + spread * random.unit_vector());
 }
 
-// Of ten capsules and a ball, `height_m` tall, with its feet near `foot_m`.
+// A figure of ten capsules and a ball, `height_m` tall, with its feet near `foot_m`.
 void add_figure(Mesh &mesh, Random &random, const glm::dvec3 &foot_m, double height_m, std::uint32_t facets,
                 std::uint32_t rows) {
   const double turn_rad = random.uniform(0, 2 * std::numbers::pi);

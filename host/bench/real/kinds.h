@@ -14,8 +14,8 @@ namespace pmdsim {
 struct SceneKind {
   const char *name; // "blob"
   const char *about;
-  bool awkward; // what tests want and benchmarks do not
-  // Of about that many triangles, 1000 at least; the same ones every time.
+  bool awkward; // tests want it and benchmarks do not
+  // The scene of about that many triangles, 1000 at least; the same one every time.
   Scene (*make)(std::uint32_t triangles);
 };
 
@@ -35,7 +35,7 @@ Scene terrain(std::uint32_t triangles);
 Scene lattice(std::uint32_t triangles);
 Scene blades(std::uint32_t triangles);
 Scene forest(std::uint32_t triangles);
-// What people build, and people.
+// Buildings, furniture and people.
 Scene colonnade(std::uint32_t triangles);
 Scene crowd(std::uint32_t triangles);
 Scene furnished(std::uint32_t triangles);

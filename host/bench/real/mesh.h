@@ -39,11 +39,11 @@ inline double centred(std::uint32_t i, std::uint32_t count) {
 
 class Mesh {
 public:
-  // What is added from here on is of this object and surface.
+  // All that is added from here on is of this object and surface.
   void begin(const std::string &object, double reflectivity, bool double_sided = false);
 
-  // On a grid of 2^-21 m, which float32 holds to 8 m: files have the same places, and parts that meet do so
-  // to the last bit.
+  // A vertex on a grid of 2^-21 m, which float32 holds to 8 m: files have the same places, and parts that
+  // meet do so to the last bit.
   std::uint32_t vertex(const glm::dvec3 &position_m);
   // Counter-clockwise where its front is seen; nothing where it has no area.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
@@ -65,12 +65,13 @@ public:
   // A rod with half a sphere at each end, of 2 facets (rows - 1) triangles.
   void capsule(const glm::dvec3 &from_m, const glm::dvec3 &to_m, double radius_m, std::uint32_t facets,
                std::uint32_t rows);
-  // Of 12 triangles; `axes_m` are half its edges.
+  // A box of 12 triangles; `axes_m` are half its edges.
   void box(const glm::dvec3 &centre_m, const glm::dmat3 &axes_m);
   void box(const glm::dvec3 &centre_m, const glm::dvec3 &half_m) {
     box(centre_m, glm::dmat3(half_m.x, 0, 0, 0, half_m.y, 0, 0, 0, half_m.z));
   }
-  // Two triangles each: upright, more than fills a view of +-0.5; level, to 6 m from the lens.
+  // Two triangles each: an upright wall that more than fills a view of +-0.5; level ground, to 6 m from the
+  // lens.
   void wall(double z_m);
   void ground(double y_m);
 

@@ -7,7 +7,7 @@
 
 namespace pmdsim {
 
-// It is called as
+// The program is called as
 //   PROGRAM SCENE.gltf DIODES.csv --res C R --fov-x-tan T --freq HZ --shadows --threads N --reps K
 // where T is the tangent of half the view, and prints a line with "frame_ms X" for each of the K frames that
 // it makes.
@@ -16,8 +16,8 @@ struct Peer {
   unsigned threads;
 };
 
-// What it prints of the last of `count` frames of the files' scene. Throws Error (input) where it cannot be
-// run, fails, or prints no such line.
+// The time that it prints for the last of `count` frames of the files' scene. Throws Error (input) where the
+// program cannot be run, fails, or prints no such line.
 double last_frame_ms(const Peer &peer, const SceneFiles &files, const Sensor &sensor, int count);
 
 } // namespace pmdsim

@@ -25,7 +25,7 @@ reference::Frame true_pixels(const Setup &setup, const Sensor &sensor,
       [](double) { throw_if_interrupted(); });
 }
 
-// What compare() asks about, as a frame of one column.
+// The data that compare() asks for, as a frame of one column.
 Measurement at_pixels(const Measurement &frame, const Pixels &pixels) {
   Measurement some;
   some.accuracy = frame.accuracy;

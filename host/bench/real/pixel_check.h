@@ -11,14 +11,13 @@
 namespace pmdsim {
 
 inline constexpr double checked_share = 0.01; // of a frame's pixels
-// Engines that decide by their own rounding may decide otherwise which diodes reach a point where these, seen
-// from there, are as close to a shadow's edge.
+// Engines that decide by their own rounding may decide otherwise which diodes reach a point where the diodes,
+// seen from there, are as close as this to a shadow's edge.
 inline constexpr double rounding_of_diode_m = 10e-6, rounding_of_point_m = 1e-6;
 
 struct PixelCheck {
   AccuracyCheck compared; // of these pixels, as a frame of one column
-  // Of the pairs that are apart: the reference decides them alike with the diodes and the points moved a
-  // little to each side.
+  // Pairs apart that the reference decides alike with the diodes and the points moved a little to each side.
   std::size_t pairs_beyond_rounding = 0;
 };
 

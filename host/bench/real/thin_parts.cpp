@@ -28,7 +28,7 @@ void add_blade(Mesh &mesh, Random &random, const glm::dvec3 &foot_m) {
   });
 }
 
-// Of 24 triangles of the trunk and 80 each of three cones.
+// A tree of 24 triangles for the trunk and 80 for each of three cones.
 void add_tree(Mesh &mesh, const glm::dvec3 &foot_m, double height_m) {
   const auto at = [&](double part) { return foot_m + glm::dvec3(0, part * height_m, 0); };
   mesh.rod(at(0), at(0.35), 0.035 * height_m, 0.025 * height_m, 6);

@@ -51,7 +51,7 @@ nlohmann::ordered_json or_null(const std::optional<Value> &value) {
   return value ? nlohmann::ordered_json(*value) : nullptr;
 }
 
-// Of what `json_of` makes of each.
+// An array of what `json_of` makes of each.
 nlohmann::ordered_json array_of(const auto &list, const auto &json_of) {
   nlohmann::ordered_json array = nlohmann::ordered_json::array();
   for (const auto &each : list)
@@ -82,7 +82,7 @@ std::vector<double> ambiguities_m(const Sensor &sensor);
 // amplitude_error_found (relative), unpromised, checked_pixels, check_ms. An error is null where nothing is
 // known of it.
 nlohmann::ordered_json accuracy_json(const AccuracyReport &report);
-// What a frame came to: mode and that.
+// A frame's mode, then the keys of its report.
 nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 
 // {"NAME": milliseconds, ...}

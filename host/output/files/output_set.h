@@ -11,17 +11,17 @@
 
 namespace pmdsim {
 
-// What becomes a file.
+// A file that is to be written.
 struct FileToWrite {
   std::string name; // a plain file name
   std::function<void(OutputFile &)> write;
 };
 
-// Closed.
+// Files that are written and closed.
 using WrittenFiles = std::vector<std::unique_ptr<OutputFile>>;
 
-// Several at once, on TBB's threads and the calling one; in the order of `files`. Where one fails, its
-// exception, Error (output) among others, comes out, and no file is left.
+// Writes several at once, on TBB's threads and the calling one; returns them in the order of `files`. Where
+// one fails, its exception, Error (output) among others, comes out, and no file is left.
 WrittenFiles write_files(const std::filesystem::path &directory, const std::vector<FileToWrite> &files);
 
 class OutputSet {
@@ -41,7 +41,7 @@ public:
   // Files of this directory that are written.
   void add(WrittenFiles files);
 
-  // Of the files added so far, in order, with the directory in front.
+  // The paths of the files added so far, in order, with the directory in front.
   std::vector<std::string> paths() const;
 
   // Removes the files in the directory that are named `obsolete`, where there are any, and renames all of the

@@ -21,8 +21,8 @@ bool is_repetitive(const unsigned char *row, std::size_t columns) {
   return 2 * std::size_t{same} >= columns;
 }
 
-// Of every second byte of `row`, what it is more than the one before, with `before` in front of the first;
-// returns the last byte.
+// Writes to `out` how much more every second byte of `row` is than the one before, with `before` in front of
+// the first; returns the last byte.
 unsigned char differences(const unsigned char *__restrict row, std::size_t count, unsigned char before,
                           unsigned char *__restrict out) {
   constexpr unsigned zero = 128;

@@ -39,7 +39,7 @@ std::mutex &drawing_mutex();
 
 class Canvas {
 public:
-  // White. Throws std::bad_alloc where there is no memory.
+  // A white canvas. Throws std::bad_alloc where there is no memory.
   Canvas(int width, int height);
 
   int width() const;
@@ -61,8 +61,8 @@ public:
   void bottom_axis(const Box &box, const Axis &axis);
   void left_axis(const Box &box, const Axis &axis);
   void right_axis(const Box &box, const Axis &axis);
-  // What lies below and around a plot's curves: lines at the ticks, that at 0 of the left axis of a colour of
-  // its own; the outline, the axes and their titles.
+  // grid() lies below a plot's curves: lines at the ticks, that at 0 of the left axis of a colour of its own.
+  // frame() lies around them: the outline, the axes and their titles.
   void grid(const Box &box, const Axis &bottom, const Axis &left, const Colour &at_zero = light_grey);
   void frame(const Box &box, const Axis &bottom, const Axis &left, const std::string &bottom_title,
              const std::string &left_title);
@@ -82,7 +82,8 @@ private:
 double text_width(const std::string &text, double size = text_size);
 // The widest label of an axis.
 double label_width(const Axis &axis);
-// Of a plot `top` below the upper edge of a canvas of this size, with room for its axes and their titles.
+// The box of a plot `top` below the upper edge of a canvas of this size, with room for its axes and their
+// titles.
 Box plot_box(int width, int height, double top, const Axis &left);
 
 // Position of a value along a length, 0 at the axis's minimum.

@@ -11,8 +11,8 @@
 
 namespace pmdsim {
 
-// What the picture's image area shows: at most 1024 pixels a side (whole blocks of pixels averaged, for
-// `turn` their first taken, since angles do not average), small frames enlarged by a whole factor.
+// The picture's image area: at most 1024 pixels a side (whole blocks of pixels averaged, for `turn` their
+// first taken, since angles do not average), small frames enlarged by a whole factor.
 struct PreviewImage {
   glm::uvec2 resolution;     // of `values`
   std::vector<float> values; // NaN where a block holds no value

@@ -65,7 +65,7 @@ std::string length_text(double length_m) {
 
 using Cells = std::vector<std::string>;
 
-// With as many digits at least, and no exponent where there are more.
+// The value with `digits` digits at least, and no exponent where there are more.
 std::string with_digits(double value, int digits) {
   return value < std::pow(10.0, digits) ? fmt::format("{:.{}g}", value, digits)
                                         : fmt::format("{:.0f}", value);
@@ -109,7 +109,7 @@ std::vector<Cells> rows_of(const std::vector<TradeoffPoint> &points) {
   return rows;
 }
 
-// Of UTF-8: its bytes less those that continue a character.
+// The characters of UTF-8: its bytes less those that continue a character.
 std::size_t characters(const std::string &text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));

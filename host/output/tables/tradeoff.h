@@ -10,14 +10,14 @@
 
 namespace pmdsim {
 
-// Of distances, wrapped, against the reference.
+// Errors of distances, wrapped, against the reference.
 struct DistanceErrors {
   std::size_t pixels = 0;
   std::optional<double> max_m, rms_m; // nothing where there are no pixels
 };
 
-// What varies from point to point: modes and precisions at the setup's samples, or the samples in mode exact.
-// Each sweep has a truth, and so a Pareto front, of its own.
+// The quantity that varies from point to point: modes and precisions at the setup's samples, or the samples
+// in mode exact. Each sweep has a truth, and so a Pareto front, of its own.
 enum class Sweep { modes, samples };
 
 struct FrameTime {
@@ -53,7 +53,7 @@ std::string tradeoff_text(const Tradeoff &tradeoff);
 std::string tradeoff_markdown(const Tradeoff &tradeoff);
 // "exact", "reduced", "auto" or "samples", by colour in the picture.
 std::string series_name(const TradeoffPoint &point);
-// What tells the point from others of its series: "fp32", "0.1 µm", "S = 4".
+// The label that tells the point from others of its series: "fp32", "0.1 µm", "S = 4".
 std::string point_label(const TradeoffPoint &point);
 
 } // namespace pmdsim
