@@ -78,7 +78,7 @@ Real3 meeting_point(Occluder shape, vec3 diode, vec3 centre) {
 
 vec3 place_of(uint bundle, uint d) { return texelFetch(place_texels, int(bundle * diodes_per_bundle + d)).xyz; }
 
-// Of a bundle's diodes those that the shape would keep off if it had no holes.
+// The bundle's diodes that the shape would keep off if it had no holes.
 uint diodes_behind(uint bundle, Cone cone) {
   uint behind = 0u;
   for (uint first = 0; first < diodes_per_bundle; first += lanes)
@@ -86,7 +86,7 @@ uint diodes_behind(uint bundle, Cone cone) {
   return behind;
 }
 
-// Of these those that it does keep off.
+// Those of the diodes `behind` that it does keep off.
 uint diodes_kept_off(uint bundle, uint behind, Occluder shape, vec3 centre) {
   ShapePaint paint = ShapePaints(window.paints).at[shape.id];
   SurfacePaint surface = SurfacePaints(window.surfaces).at[paint.surface];

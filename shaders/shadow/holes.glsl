@@ -1,4 +1,4 @@
-// What the shaders of the pass over shapes with holes share: samples in tiles, and lists of tiles.
+// Parts that the shaders of the pass over shapes with holes share: samples in tiles, and lists of tiles.
 #ifndef PMDSIM_HOLES_GLSL
 #define PMDSIM_HOLES_GLSL
 
@@ -25,7 +25,7 @@ Real3 point_of(TileSample at, HolesWindow window) {
   return point_of(at, constants.strip, constants.position, constants.ids, window.slope, window.chip);
 }
 
-// All the ways from a box of points to the window's diodes, and what rounding takes them for.
+// All the ways from a box of points to the window's diodes, widened by rounding.
 Shaft shaft_to_diodes(vec3 low, vec3 high, HolesWindow window) {
   vec3 size = max(abs(low), abs(high)), diodes = max(abs(window.box.low.xyz), abs(window.box.high.xyz));
   vec3 rounding = vec3(4e-7 * (size.x + size.y + size.z));

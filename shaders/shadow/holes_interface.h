@@ -1,4 +1,4 @@
-// What the host and the shaders of the pass over shapes with holes agree on, by the rules of interface.h.
+// The interface of the host and the shaders of the pass over shapes with holes, by the rules of interface.h.
 #ifndef PMDSIM_HOLES_INTERFACE_H
 #define PMDSIM_HOLES_INTERFACE_H
 
@@ -19,7 +19,7 @@ PMDSIM_CONSTANT hole_texels = 9;                                    // of a shap
 // So many ranges have lists of tiles at a time.
 PMDSIM_CONSTANT hole_batch = 16;
 
-// What the shaders look up about the scene and a window of diodes.
+// The data that the shaders look up about the scene and a window of diodes.
 struct HolesWindow {
   DiodeBox box;     // around the diodes
   vec4 slope;       // of samples that are depth records, as in SampleGrid
@@ -30,15 +30,15 @@ struct HolesWindow {
   uvec2 bundles;    // BundleDiodes[]
   uint shapes;
   uint first_block, first_range; // in the boxes, behind those over the shapes
-  float world_rounding;          // what double rounding in the world's frame leaves of places, m
+  float world_rounding;          // how far double rounding in the world's frame moves places, m
 };
 
-// Around a tile's samples, camera frame, m; low > high where it sees nothing.
+// The box around a tile's samples, camera frame, m; low > high where the tile sees nothing.
 struct TileBox {
   vec4 low, high;
 };
 
-// What follows: of each range its tiles.
+// The tiles of each range follow.
 struct HolesWork {
   WorkList ranges[hole_batch];
 };

@@ -1,4 +1,4 @@
-// What may stand in the light, by the rules of interface.h.
+// Shapes that may stand in the light, by the rules of interface.h.
 #ifndef PMDSIM_OCCLUDER_H
 #define PMDSIM_OCCLUDER_H
 

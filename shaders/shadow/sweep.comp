@@ -3,7 +3,8 @@
 // to a diode: the number of surfaces between changes only where the triangle of sample, lens and place meets an edge of a silhouette.
 // So an edge counts for the diodes in the angle that it takes about the lens's foot on the board, as far as they lie beyond it.
 //
-// A workgroup is a subgroup, its invocations neighbouring samples of a tile. What cannot be decided here is left to sweep_exact.comp.
+// A workgroup is a subgroup, its invocations neighbouring samples of a tile. Samples that cannot be decided here are left to
+// sweep_exact.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shadow/sweep.glsl"
 #include "shaders/shadow/sweep_weight.glsl"
@@ -46,7 +47,7 @@ float turn_of(vec2 q) {
   return q.x < 0.0 ? 2.0 - t : q.y < 0.0 ? 4.0 + t : t;
 }
 
-// Diodes of a smaller angle. A texel holds three ranks and the two angles between them.
+// The number of diodes of a smaller angle. A texel holds three ranks and the two angles between them.
 uint rank_of(float turn) {
   uvec4 bin = texelFetch(rank_texels, int(clamp(turn * (float(constants.rank_bins) / 4.0), 0.0, float(constants.rank_bins - 1u))));
   uint shift = (turn > uintBitsToFloat(bin.y) ? 10u : 0u) + (turn > uintBitsToFloat(bin.z) ? 10u : 0u);
@@ -59,7 +60,7 @@ const uint pair_wraps = 1u << 27, pair_doubled = 1u << 28, pair_negative = 1u <<
 SweepBoard board;
 // The sample of this invocation, board frame.
 bool sees, unclear; // whether it sees anything; whether it has to be left to sweep_exact.comp
-uint own;           // what it sees
+uint own;           // the shape that it sees
 Real3 exact_point;
 vec3 point, point_rest, to_lens;
 float depth;         // under the board
@@ -136,7 +137,7 @@ bool is_perhaps_hidden(SweepLists lists, uint tile) {
   return perhaps;
 }
 
-// Of the tile's items in a segment those that may matter here, an invocation an item: to `kept`; returns how many.
+// Writes to `kept` the tile's items in a segment that may matter here, an invocation an item; returns how many.
 uint keep_items(Ways ways, uint first, uint length) {
   uint count = 0u;
   for (uint i = 0; i < length; i += lanes) {
@@ -149,8 +150,8 @@ uint keep_items(Ways ways, uint first, uint length) {
   return count;
 }
 
-// Each invocation an item to load, then all the same item, each for its own sample: which angle it takes. The pairs of those that
-// take some go to `pairs`.
+// Each invocation loads an item; then all take the same item, each for its own sample, and find which angle it takes. The pairs
+// of those that take some go to `pairs`.
 void find_pairs(uint count) {
   found = 0u;
   for (uint i = 0; i < count; i += lanes) {
@@ -222,7 +223,7 @@ void find_pairs(uint count) {
   }
 }
 
-// Each invocation its own pairs: which diodes of the angle lie beyond the line.
+// Each invocation takes its own pairs, and finds which diodes of the angle lie beyond the line.
 void work_off_pairs() {
   uint most_found = subgroupMax(found);
   close_count = 0u;
@@ -299,7 +300,7 @@ void work_off_pairs() {
   }
 }
 
-// What was too close for floats, in Real, and the counts put right where the float was wrong.
+// Decides in Real what was too close for floats, and puts the counts right where the float was wrong.
 void decide_close() {
   unclear = unclear || close_count > most_close;
   uint most = subgroupMax(min(close_count, most_close));
@@ -325,7 +326,7 @@ void decide_close() {
   }
 }
 
-// The number of surfaces before the board's centre joins all diodes'.
+// The number of surfaces before the board's centre joins all diodes' counts.
 void add_base() {
   uint everywhere[bundles];
   [[unroll]] for (uint w = 0; w < bundles; ++w)
@@ -338,11 +339,11 @@ void add_base() {
   }
 }
 
-// The sample's bits, and its count of diodes.
+// Stores the sample's bits, and its count of diodes.
 void store_bits(uint i) {
   uint facing[bundles];
   find_facing(facing);
-  // A count below zero means nothing of a diode behind the sample's own surface; elsewhere something was left out.
+  // A count below zero means nothing for a diode behind the sample's own surface; elsewhere something was left out.
   uint below_zero = 0u;
   uint to_store[bundles];
   [[unroll]] for (uint w = 0; w < bundles; ++w) {

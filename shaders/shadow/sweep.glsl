@@ -1,4 +1,4 @@
-// What the shaders of the sweep share: samples in the board's frame, and what may lie between a tile and the board.
+// Parts that the shaders of the sweep share: samples in the board's frame, and what may lie between a tile and the board.
 #ifndef PMDSIM_SWEEP_GLSL
 #define PMDSIM_SWEEP_GLSL
 
@@ -51,7 +51,7 @@ Real3 point_of(TileSample at, SweepBoard board) {
   return point_of(at, constants.strip, constants.position, constants.ids, board.slope, board.chip);
 }
 
-// What it sees.
+// The shape that it sees.
 uint shape_seen(TileSample at) { return shape_of(at, constants.strip, constants.ids); }
 
 // The normal of the shape that a sample lies on, turned to the lens.
@@ -74,7 +74,7 @@ void slopes_of(vec3 p, SweepBoard board, out vec4 a, out vec4 b) {
   b = (along_diagonals(p.xy) - board.supports_b) * inverse_depth;
 }
 
-// What all the ways from some samples keep within.
+// The bounds that all the ways from some samples keep within.
 struct Ways {
   vec4 slopes_a, slopes_b;
   vec4 supports_a, supports_b;
@@ -143,7 +143,7 @@ Real3 diode_place(int d) {
 }
 
 vec3 floats(uvec4 texel) { return uintBitsToFloat(texel.xyz); }
-// What rounding to float took of an end: three numbers of ten bits.
+// The part that rounding to float took of an end: three numbers of ten bits.
 vec3 rest_of(uint packed, float rest_step) {
   ivec3 parts = ivec3(bitfieldExtract(int(packed), 0, 10), bitfieldExtract(int(packed), 10, 10), bitfieldExtract(int(packed), 20, 10));
   return rest_step * vec3(parts);
@@ -198,7 +198,7 @@ uint interleaved(uint i, uint count) {
   return i < half_count ? 2u * i : 2u * (i - half_count) + 1u;
 }
 
-// Where in the lists they are; `kind`: list_edges or list_hidden.
+// Where lengths, places, active tiles and samples are in the lists; `kind`: list_edges or list_hidden.
 const uint list_edges = 0u, list_hidden = 1u;
 uint length_at(uint kind, uint tile) { return 2u * kind * constants.tiles + tile; }
 uint place_at(uint kind, uint tile) { return (1u + 2u * kind) * constants.tiles + tile; }

@@ -52,7 +52,7 @@ Crossing cross_in_real(Real3 a, Real3 b, Real3 lens, Real3 diode) {
                   high(volume(a, b, diode)) > 0.0, high(far) > 0.0, false);
 }
 
-// Triangles between the sample and the lens that the lens does not see, an invocation a triangle.
+// Counts the triangles between the sample and the lens that the lens does not see, an invocation a triangle.
 int count_hidden(SweepLists lists, uint tile, Real3 point, Real3 lens, SweepBoard board) {
   uint length = lists.list[length_at(list_hidden, tile)], first = list_begin(lists, list_hidden, tile);
   int count = 0;
@@ -76,8 +76,8 @@ int count_hidden(SweepLists lists, uint tile, Real3 point, Real3 lens, SweepBoar
   return subgroupAdd(count);
 }
 
-// Of the segment's items those whose silhouettes count for the sample, an invocation an item: indices to `kept`, what they count to
-// `weights`.
+// Finds the segment's items whose silhouettes count for the sample, an invocation an item: indices go to `kept`, what they
+// count to `weights`.
 uint keep_items(uint first, uint length, uint own, Ways ways, Real3 point, SweepBoard board) {
   uint met = 0u, count = 0u;
   for (uint i = 0; i < length; i += lanes) {
@@ -121,7 +121,7 @@ void main() {
   if (!is_long && gl_WorkGroupID.x > 0u)
     return;
   uint begin = is_long ? diodes_per_bundle * gl_WorkGroupID.x : 0u, end = is_long ? begin + diodes_per_bundle : constants.diodes;
-  // Of all loops, asked before any: one that is too long takes the others' turns.
+  // The turns of all loops, asked before any: a loop that is too long takes the others' turns.
   uint steps = lists.list[length_at(list_hidden, tile)] / 2u + (3u + board.piercer_count) * ((end - begin) / lanes + 2u);
   if (steps > most_steps) {
     atomicMax(lists.at.lost, 1u);

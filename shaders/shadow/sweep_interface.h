@@ -1,4 +1,4 @@
-// What the host and the shaders of the sweep agree on, by the rules of interface.h.
+// The interface of the host and the shaders of the sweep, by the rules of interface.h.
 #ifndef PMDSIM_SWEEP_INTERFACE_H
 #define PMDSIM_SWEEP_INTERFACE_H
 
@@ -18,9 +18,9 @@ PMDSIM_CONSTANT tree_levels = 3;
 PMDSIM_CONSTANT line_directions = 512;
 PMDSIM_CONSTANT line_offsets = 256;
 
-// What t2 of an item is that is no edge between two triangles.
+// The t2 of an item that is no edge between two triangles.
 PMDSIM_CONSTANT item_boundary = 0xffffffffu; // an edge of one triangle alone
-// No edge, but a triangle that the lens does not see: a, b, and c in place of the normal; its packed rest in
+// No edge, but a triangle that the lens does not see: a, b, and c in place of the normal; c's packed rest in
 // place of the other normal's x.
 PMDSIM_CONSTANT item_hidden = 0xfffffffeu;
 
@@ -48,7 +48,7 @@ struct SweepBoard {
   uint piercer_count;
   float nearest;        // z below which samples are in front of the board
   float line_margin;    // by which a line may be off for the table of half-planes to be right
-  float world_rounding; // what double rounding in the world's frame leaves of places
+  float world_rounding; // how far double rounding in the world's frame moves places
 };
 
 // The bounds of the straight ways from a tile's samples to the board: u . xy + k z <= s for eight directions
@@ -69,8 +69,8 @@ PMDSIM_CONSTANT most_sweep_steps = 50000;
 PMDSIM_CONSTANT sweep_rounds = 16;
 PMDSIM_CONSTANT entries_per_round = 1u << 23;
 
-// Of a round: workgroups that write its lists, the sweep over its tiles, and the exact one over those of
-// their samples that it leaves.
+// A round: the workgroups that write its lists, those of the sweep over its tiles, and those of the exact
+// sweep over the samples that the sweep leaves.
 struct SweepRound {
   uint list_groups_x, list_groups_y, list_groups_z;
   uint tiles;
@@ -80,9 +80,9 @@ struct SweepRound {
   uint samples;
 };
 
-// Lists of the sweep. What follows: for each tile the length of its list of edges and the
-// entry where it begins, the same of its list of hidden triangles, then of each round its active tiles, then
-// the samples that have to be decided exactly.
+// Lists of the sweep. Behind it follow: for each tile the length of its list of edges and the entry where it
+// begins, the same of its list of hidden triangles, then of each round its active tiles, then the samples
+// that have to be decided exactly.
 struct SweepWork {
   SweepRound rounds[sweep_rounds];
   uint entries; // of all tiles' lists

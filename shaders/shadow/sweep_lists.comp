@@ -27,7 +27,7 @@ uint tile_of_invocation() {
   return at.x < tiles.x && at.y < tiles.y ? subsample * tiles.x * tiles.y + at.y * tiles.x + at.x : constants.tiles;
 }
 
-// What some tiles' samples see of the board.
+// The ways from some tiles' samples to the board and to the lens.
 struct Outlook {
   Ways ways;
   Sights sights;
@@ -72,7 +72,7 @@ void list_items(uint count, Outlook own) {
   }
 }
 
-// Room for both lists of a tile, and a place among the tiles of a round.
+// Makes room for both lists of a tile, and finds a place among the tiles of a round.
 void make_room(SweepLists lists, uint tile, bool is_shaded) {
   uint hidden = lists.list[length_at(list_hidden, tile)];
   uint place = listed + hidden > 0u ? atomicAdd(lists.at.entries, listed + hidden) : 0u, round_ = round_of(place);

@@ -16,8 +16,8 @@ int exact_side(vec4 plane_hi, vec4 plane_lo, Real3 p, SweepBoard board) {
   return abs(rounded) <= rounding ? 0 : rounded > 0.0 ? 1 : -1;
 }
 
-// What a triangle adds to its edges: its side as seen from the sample, but nothing where board and sample are on one side, so that it
-// can never be between. `board_side`: 1 or 2 where all of the board is in front of it or behind.
+// The weight that a triangle adds to its edges: its side as seen from the sample, but 0 where board and sample are on one side,
+// so that it can never be between. `board_side`: 1 or 2 where all of the board is in front of it or behind.
 int weight_of(int side, uint board_side) {
   return side == 0 || (side > 0 && board_side == 1u) || (side < 0 && board_side == 2u) ? 0 : side;
 }

@@ -32,7 +32,7 @@ TileSample tile_sample(Strip strip, uint tile, uint within) {
                     is_there ? subsample * strip.padded_pixels + pixel.y * strip.columns + pixel.x : 0u);
 }
 
-// Where it lies, camera frame; the lens itself where it sees nothing. `slope` and `chip` are those of depth records.
+// Where the sample lies, camera frame; the lens itself where it sees nothing. `slope` and `chip` are those of depth records.
 Real3 point_of(TileSample at, Strip strip, uvec2 position, uvec2 records, vec4 slope, uvec2 chip) {
   if (depth_records == 0)
     return load_position(position, at.i);
@@ -40,7 +40,7 @@ Real3 point_of(TileSample at, Strip strip, uvec2 position, uvec2 records, vec4 s
   return point_at_depth(grid_ray(slope, chip, place, general_chip != 0), load_record_depth(records, at.i));
 }
 
-// What it sees, 0 where it is not there.
+// The shape that the sample sees, 0 where the sample is not there.
 uint shape_of(TileSample at, Strip strip, uvec2 ids) {
   if (depth_records != 0)
     return load_record_ids(ids, at.i).y;

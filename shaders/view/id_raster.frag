@@ -1,6 +1,6 @@
 #version 460
 // Gives a visible fragment its pixel ID and its triangle ID (interface.h); the depth test keeps the nearest. Where shapes have
-// holes, what is not there where the fragment's ray meets it leaves no ids.
+// holes, a shape that is not there where the fragment's ray meets it leaves no ids.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_id.glsl"
 #include "shaders/shared/constants.h"
@@ -13,7 +13,7 @@ layout(location = 0) out uvec2 ids;
 
 Real3 term(float factor, vec4 hi, vec4 lo) { return scale3(real3(hi.xyz, lo.xyz), real(factor)); }
 
-// Of the sample that the fragment stands for, of any length.
+// The ray of the sample that the fragment stands for, of any length.
 Real3 fragment_ray() {
   BlockPlane block = BlockPlanes(constants.block).at;
   vec2 place = gl_FragCoord.xy - vec2(constants.tile_x, constants.tile_y) +

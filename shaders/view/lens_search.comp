@@ -64,7 +64,7 @@ bool is_there(uint id, Real3 point) {
   return cutouts == 0 || look_of(constants.shapes, constants.surfaces, id, point).is_there;
 }
 
-// What a sample has still to ask.
+// The shapes that a sample has still to ask.
 struct Search {
   uint seen[neighbours]; // by the fragments around its ray
   uint asked;            // a bit for each of them
@@ -73,7 +73,7 @@ struct Search {
   vec2 middle; // of the fragment that the ray falls in
 };
 
-// What the fragments around the ray see.
+// The search, which begins with what the fragments around the ray see.
 Search search_around(vec3 ray, RasterView view) {
   vec2 fragment = vec2(dot(view.x.xyz, ray), dot(view.y.xyz, ray)) / dot(view.z.xyz, ray);
   ivec2 cell = clamp(ivec2(floor(fragment)), ivec2(1), ivec2(view.columns, view.rows) - 2);
@@ -94,8 +94,8 @@ Search search_around(vec3 ray, RasterView view) {
   return search;
 }
 
-// Of what may be seen at that depth or before, one that has not been asked yet, and across the way from where it is seen to
-// the ray; no_triangle in the end.
+// The next shape that may be seen at that depth or before and has not been asked yet; no_triangle in the end. `across` becomes
+// the vector across the way from where the shape is seen to the ray.
 uint next(inout Search search, float depth_m, Real3 ray, RasterView view, inout vec3 across) {
   if (search.in_rim) {
     RimCandidate candidate = RimCandidates(constants.candidates).at[search.candidate++];
@@ -111,8 +111,8 @@ uint next(inout Search search, float depth_m, Real3 ray, RasterView view, inout 
   return triangle;
 }
 
-// Where the ray meets what is seen first. From what the fragments see the search walks from neighbour to neighbour, as
-// triangles smaller than fragments may not be seen by any; of a rim cell it knows all. It is a single loop that ends at its
+// The hit where the ray meets what is seen first. The search walks from what the fragments see from neighbour to neighbour, as
+// triangles smaller than fragments may not be seen by any; in a rim cell it knows all. It is a single loop that ends at its
 // end: lanes wait for each other, and lavapipe runs what follows a break once more for nobody.
 const uint longest_walk = 1024;
 Hit nearest(Real3 ray, RasterView view) {

@@ -1,4 +1,5 @@
-// What both points passes leave of a sample, and what the uniform-pixel pass and the demodulation of depth records make of it at once.
+// A sample's point, surface and backscatter: both points passes store them, and the uniform-pixel pass and the demodulation of
+// depth records use them at once.
 #ifndef PMDSIM_POINTS_GLSL
 #define PMDSIM_POINTS_GLSL
 
@@ -29,7 +30,7 @@ Sample sample_of(uint i, Strip strip) {
                 uvec2(subsample % strip.samples, subsample / strip.samples));
 }
 
-// Buffers of what is left, as in PointsConstants.
+// The buffers that samples are stored in, as in PointsConstants.
 struct PointBuffers {
   uvec2 position, surface, backscatter;
   uvec2 shapes, surfaces; // in: paint

@@ -1,5 +1,5 @@
-// What the fragments of a triangle share where they leave records, from the vertex shader: lavapipe fetches a flat input once
-// for all fragments that are shaded side by side, but a push constant for each.
+// Inputs from the vertex shader that the fragments of a triangle share where they leave records: lavapipe fetches a flat input
+// once for all fragments that are shaded side by side, but a push constant for each.
 #ifndef PMDSIM_SIGHT_GLSL
 #define PMDSIM_SIGHT_GLSL
 

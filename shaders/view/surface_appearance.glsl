@@ -1,4 +1,4 @@
-// What a shape looks like where a ray meets it: whether it is there at all, and how much it scatters back.
+// The look of a shape where a ray meets it: whether it is there at all, and how much it scatters back.
 #ifndef PMDSIM_SURFACE_APPEARANCE_GLSL
 #define PMDSIM_SURFACE_APPEARANCE_GLSL
 
