@@ -1,6 +1,6 @@
 #version 460
-// From a depth record to a pixel's channels at once, where a pixel is one sample and all sources are one run: accumulate.comp and
-// demodulate_depths.comp without the sum between them, which would be stored, and loaded with the depth anew.
+// Turns a depth record into a pixel's channels at once, where a pixel is one sample and all sources are one run. This is
+// accumulate.comp and demodulate_depths.comp without the sum between, which would be stored, and loaded with the depth anew.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/light/accumulate_depths.glsl"
 #define VISIBILITY_OF_BLOCK(i, block) visibility_of_block(i, block)
@@ -26,7 +26,7 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
   return backscatter_of(direct.shapes, direct.surfaces, ray, point, triangle, plane);
 }
 
-// What a return may be off by, in place of its sum.
+// Stores what a return may be off by, in place of its sum.
 void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, vec2 terms, float size) {
   if (holds_pixels == 0)
     return;

@@ -1,6 +1,6 @@
 #version 460
-// The uniform-pixel pass: from a pixel's IDs to its channels at once, where the pixel is one surface's that all diodes light and
-// face, so that few diodes may stand in for all and one point, or four, for all samples. Other pixels are listed for the
+// The uniform-pixel pass: from a pixel's IDs to its channels at once, where the pixel shows one surface that all diodes light
+// and face, so that few diodes may stand in for all and one point, or four, for all samples. Other pixels are listed for the
 // passes that go sample by sample.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/chip.glsl"
@@ -24,11 +24,11 @@ layout(constant_id = constant_quadrature_points) const uint quadrature_points = 
 layout(constant_id = constant_lists_pixels) const uint lists_pixels = lists_in_two;
 const bool by_four = quadrature_points == 4;
 const uint evaluations = by_four ? 4 : 1;
-// The variance of the samples' points, in half steps between them. Four points at its root each way from the centre share all
-// moments with the samples up to the third.
+// The variance of the samples' points, in half steps between them. Four points at its root from the centre each way share all
+// moments up to the third with the samples.
 float variance() { return float(side * side - 1u) / 3.0; }
 
-// Of a pixel's only sample the record has the depth, and no more of its plane is loaded than the light asks for: lavapipe loads
+// The record has the depth of a pixel's only sample, and no more of its plane is loaded than the light asks for: lavapipe loads
 // lane by lane.
 TrianglePlane load_seen_plane(uint triangle) {
   if (depth_records == 0)
@@ -37,10 +37,10 @@ TrianglePlane load_seen_plane(uint triangle) {
   return TrianglePlane(load_vec4(constants.planes, 3 * triangle), vec4(0.0), uintBitsToFloat(appearance.x), appearance.y, 0.0, 0.0);
 }
 
-// What the samples of a pixel have in common.
+// Properties that the samples of a pixel share.
 struct Seen {
   uvec2 ids;  // of the first
-  bool alike; // all have it
+  bool alike; // all have these
   bool lit;   // every diode lights whatever they see
 };
 
@@ -50,7 +50,7 @@ bool faces(TrianglePlane plane, UniformPixelsLight light) {
   return height > dot(abs(plane.plane_hi.xyz), light.extent_m.xyz);
 }
 
-// `plane`: of the first sample; any where it hits nothing.
+// `plane`: that of the first sample; any where it hits nothing.
 Seen see(uint pixel, UniformPixelsLight light, out TrianglePlane plane) {
   Strip strip = constants.strip;
   uvec2 in_strip = uvec2(pixel % strip.columns, pixel / strip.columns), extent = uvec2(strip.columns, strip.rows);
@@ -75,8 +75,8 @@ Seen see(uint pixel, UniformPixelsLight light, out TrianglePlane plane) {
   return seen;
 }
 
-// What the points of a plane pixel that stand in for its samples may be off by, times the condition (docs/theory.md, "Quadrature
-// within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
+// The errors of the points that stand in for a plane pixel's samples, to be multiplied by the condition (docs/theory.md,
+// "Quadrature within a pixel"). `ray` leads to the pixel's centre on the chip, `point` is what it meets.
 Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 step_y, vec3 point, UniformPixelsLight light) {
   float along = dot(plane.plane_hi.xyz, ray);
   float depth = length(point) / length(ray);
@@ -90,8 +90,8 @@ Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 ste
   float bent = 2.0 * sqrt(tilt2 * way2) + 0.5 * way2 * (1.0 / range + 1.0 / nearest); // of the path
   float amplitude = sqrt(tilt2 * way2) * slope + way2 * (slope * (slope + 1.0 / nearest) + 2.0 * light.wavenumber * light.wavenumber);
   float path = bent + 2.0 * way2 * slope + amplitude * light.spread_m;
-  // Of the second order; four points have that. Beyond it all is analytic within `nearest`, and the series of what is left begins
-  // with the fourth.
+  // These are of the second order, which four points have right. Beyond it all is analytic within `nearest`, and the series of
+  // what is left begins with the fourth.
   float farthest2 = 3.0 * max(way2 * slope * slope / 9.0, max(tilt2, 4.0 * light.wavenumber * light.wavenumber * way2));
   float share = by_four ? 20.0 * farthest2 : 1.0 + 10.0 * farthest2;
   share = farthest2 < 0.03 ? share : 1.0 / 0.0;
@@ -118,10 +118,10 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
   }
 }
 
-// What a pixel's points come to beside their returns.
+// The results of a pixel's points beside their returns.
 struct Quadrature {
   vec2 terms;
-  Real range, depth, reference_m; // the first two summed; of the first point, as the returns' phases are
+  Real range, depth, reference_m; // two sums; the first point's range, which the returns' phases are relative to
   float least_m, most_m;          // of the ranges
 };
 
@@ -130,13 +130,13 @@ uvec2 in_frame(uint pixel) {
   return uvec2(strip.column, strip.row) + uvec2(pixel % strip.columns, pixel / strip.columns);
 }
 
-// To a point of the pixel, from its centre in half steps between samples.
+// The ray to a point of the pixel, given from its centre in half steps between samples.
 Real3 ray_to(uint pixel, vec2 from_centre) {
   return general_chip != 0 ? chip_ray(Chips(constants.chip).at, constants.strip, in_frame(pixel), from_centre)
                            : nominal_ray(constants.slope, constants.strip, in_frame(pixel), from_centre);
 }
 
-// `z`: of each tone.
+// `z`: the return of each tone.
 void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, Real3 ray, uint number,
                inout Quadrature sum, inout vec4 z[tones]) {
   Real3 position;
@@ -210,7 +210,7 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
   return kept;
 }
 
-// From the pixel's centre to the next sample, in a ray (x, y, 1).
+// Half a step from sample to sample, in a ray (x, y, 1).
 vec3 half_step(uint axis, uvec2 pixel) {
   if (general_chip == 0)
     return axis == 0 ? vec3(constants.slope.x, 0.0, 0.0) : vec3(0.0, constants.slope.z, 0.0);

@@ -21,7 +21,7 @@ uint sample_of_invocation() {
   return listed != 0 ? listed_sample(PixelLists(constants.list), i, constants.padded_pixels) : i;
 }
 
-// Of the block's diodes, those that reach sample i, a bit each.
+// The block's diodes that reach sample i, a bit each.
 uint visibility_of_block(uint i, uint block) {
   if (shadowed == 0)
     return 0u;
@@ -37,7 +37,7 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 
 float load_backscatter(uint i) { return Floats(constants.backscatter).at[i]; }
 
-// What the terms of a sample come to without their phases, where pixels have to say how much of it their phases cancel.
+// Adds a sample's terms without their phases, where pixels have to say how much of the sum their phases cancel.
 void add_terms(uint i, float backscatter, vec2 terms) {
   if (keeps_terms == 0 || constants.adds_terms == 0)
     return;

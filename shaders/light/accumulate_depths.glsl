@@ -1,6 +1,6 @@
 // The same as in accumulate.glsl where all samples are summed, each of one record: its point follows from its depth, and the
-// backscatter joins in the demodulation. Of lit walls that face all diodes one load and, of a frame's only run, one store a
-// sample, which lavapipe does lane by lane.
+// backscatter joins in the demodulation. A lit wall that faces all diodes takes one load and, in a frame's only run, one store
+// a sample, which lavapipe does lane by lane.
 #ifndef PMDSIM_ACCUMULATE_DEPTHS_GLSL
 #define PMDSIM_ACCUMULATE_DEPTHS_GLSL
 
@@ -22,8 +22,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Bl
   uint list[];
 };
 
-// All of them, or those of a list of blocks. Where a block ends beyond its row, or a workgroup beyond the list, the last samples are
-// done again.
+// All samples, or those of a list of blocks. Where a block ends beyond its row, or a workgroup beyond the list, the last
+// samples are done again.
 uint sample_of_invocation() {
   if (block_list == no_blocks)
     return gl_GlobalInvocationID.x;
@@ -34,7 +34,7 @@ uint sample_of_invocation() {
   return block / block_samples + min(gl_LocalInvocationID.x % block_samples, block % block_samples);
 }
 
-// Of the block's diodes, those that reach sample i, a bit each.
+// The block's diodes that reach sample i, a bit each.
 uint visibility_of_block(uint i, uint block) {
   if (shadowed == 0)
     return 0u;
@@ -42,7 +42,7 @@ uint visibility_of_block(uint i, uint block) {
   return Words(constants.visibility).at[first / diodes_per_bundle * constants.plane + i] >> first % diodes_per_bundle;
 }
 
-// Where the host has summed the diodes, plane by plane.
+// A moment where the host has summed the diodes, plane by plane.
 float moment_of_run(uint i, uint k) { return Floats(constants.diodes).at[k * constants.plane + i]; }
 
 // `ray` leads to the point, at its depth.
@@ -52,7 +52,7 @@ ReferencePath load_point(uint i, LightRun run, out Point point, out Real3 ray, o
   position = point_at_depth(ray, load_record_depth(constants.records, i));
   vec4 surface = vec4(0.0);
   if (backscatter_model != backscatter_flat) {
-    // What only pads has no record.
+    // An invocation that only pads has no record.
     uint triangle = load_record_ids(constants.records, min(i, constants.samples - 1)).y;
     surface = load_vec4(constants.planes, 3 * triangle) * vec4(1.0, 1.0, 1.0, -1.0);
   }

@@ -16,8 +16,8 @@ void find_tap_phases(ReferencePath path, LightRun run, Tone tone, out float phas
 // (C + 1) / 4 of x in [-1, 1] turns.
 float quarter_wave(float turns) { return abs(abs(turns) - 0.5); }
 
-// What is summed is small, and so is its rounding; the larger part has the same sum of weights in every tap, whose rounding turns
-// nothing.
+// The differences summed are small, and so is their rounding; the larger part has the same sum of weights in every tap, whose
+// rounding turns nothing.
 void add_diode(inout float part[totals], float phases[distinct_taps], vec2 weight_difference, Tone tone) {
   float difference_turns = weight_difference.y * tone.turns_per_m.x;
   [[unroll]] for (uint k = 0; k < distinct_taps; ++k)
@@ -40,7 +40,7 @@ void add_block(inout float total[totals], Point point, float phases[distinct_tap
 void add_taps(uint i, float total[totals], float phases[distinct_taps], float backscatter) {
   float weight = total[distinct_taps];
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
-    uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
+    uint second = min(2 * p + 1, distinct_taps - 1); // the last of an odd number is there twice
     vec2 of_reference = 4.0 * vec2(quarter_wave(phases[2 * p]), quarter_wave(phases[second])) - 1.0;
     add_to_plane(p, i, backscatter, of_reference * weight + 4.0 * vec2(total[2 * p], total[second]));
   }

@@ -1,5 +1,5 @@
-// What the sums in Real share: a sample's point, and a diode's weight there and how much longer its path is than the reference
-// point's, both in Real.
+// The parts that the sums in Real share: a sample's point, and a diode's weight there and how much longer its path is than the
+// reference point's, both in Real.
 #ifndef PMDSIM_PRECISE_SUM_GLSL
 #define PMDSIM_PRECISE_SUM_GLSL
 

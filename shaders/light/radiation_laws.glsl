@@ -1,5 +1,6 @@
-// Radiation laws, J of the paper's eq. 5, each for floats and, where SUM_IN_REAL is defined, for Real: by other algebra, as a sum of
-// floats shares its one division. What the host asks of a law is its row in engine/light/radiation_laws.cpp.
+// Radiation laws, J of the paper's eq. 5, each for floats and, where SUM_IN_REAL is defined, for Real: by other algebra, as a
+// sum of floats shares its one division. The host takes all that it asks of a law from its row in
+// engine/light/radiation_laws.cpp.
 // DIAGRAM_VALUES: the address of the values of all measured diagrams, each with the next theta's.
 #ifndef PMDSIM_RADIATION_LAWS_GLSL
 #define PMDSIM_RADIATION_LAWS_GLSL
@@ -79,8 +80,8 @@ layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Pai
 vec2 pair_at(uint i) { return uintBitsToFloat(unpackDouble2x32(Pairs(DIAGRAM_VALUES).at[i])); }
 #endif
 
-// The last value of a row at or before a place in it, and how far beyond that is; places outside 0 ... last (and what is
-// not a number) are at its beginning.
+// The last value of a row at or before a place in it, and how far the place is beyond it; places outside 0 ... last (and what
+// is not a number) are at its beginning.
 struct Place {
   uint lower;
   float fraction;
@@ -104,7 +105,7 @@ struct Way {
   vec3 way;
   vec3 around;   // axis x way
   float r;       // its length
-  float along;   // of it, the axis
+  float along;   // its part along the axis
   float off_axis;
 };
 
@@ -133,8 +134,8 @@ float axial_diagram(Way way, GroupSource diode) {
   return theta.inside ? j : 0.0;
 }
 
-// Of any kind. One that is not the same for all phi is kept at its own angles, and the even grids tell which of them lie
-// around: first that of theta, then that of phi, then a row of thetas for each phi.
+// J of a diagram of any kind. One that is not the same for all phi is kept at its own angles, and the even grids tell which of
+// them lie around: first that of theta, then that of phi, then a row of thetas for each phi.
 float diagram(Way way, GroupSource diode) {
   Place theta = theta_place(way, diode), phi = phi_place(way, diode);
   bool axial = diode.row_length == 0u;

@@ -100,9 +100,9 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
   return path;
 }
 
-// What rounding does to cosines to the diodes' axes beyond 45 degrees, as terms. Of cos^n it is n / cos times as much as of the
-// cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n. Where less than 1e-4
-// is left of the cosine a beam ends: an edge as any other.
+// The errors that rounding makes in cosines to the diodes' axes beyond 45 degrees, as terms. In cos^n they are n / cos times as
+// much as in the cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n.
+// Where less than 1e-4 is left of the cosine a beam ends: an edge as any other.
 float beam_edge_terms(float weights, float height, float inverse, LightRun run) {
   float all = run.intensity * inverse * inverse; // without cosines
   if (backscatter_model == backscatter_lambert)
@@ -110,8 +110,8 @@ float beam_edge_terms(float weights, float height, float inverse, LightRun run) 
   return run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
 }
 
-// What a run's terms come to without their phases. What rounding does to Lambert's cosines where light grazes a surface, to the
-// rims of beams and to steep diagrams, is counted apart (Frequency).
+// The sum of a run's terms without their phases. The rounding of Lambert's cosines where light grazes a surface, of the rims of
+// beams and of steep diagrams is counted apart (Frequency).
 vec2 terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
   float terms = 0.0;

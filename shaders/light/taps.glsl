@@ -6,9 +6,9 @@
 
 layout(constant_id = constant_taps) const uint taps = 4;
 
-// Of an even N the later half follows from the first.
+// The later half of an even N follows from the first.
 const uint distinct_taps = taps % 2 == 0 ? taps / 2 : taps;
-const uint totals = distinct_taps + 1; // of w times what (C + 1) / 4 differs by from that of the reference path, and of w
+const uint totals = distinct_taps + 1; // of w times the difference of (C + 1) / 4 from the reference path's, and of w
 const uint tap_planes = (distinct_taps + 1) / 2;
 
 #endif

@@ -29,8 +29,8 @@ uint id_index(uvec2 pixel, uvec2 subsample, uvec2 extent, uint samples, bool til
   return at.y * extent.x * samples + at.x;
 }
 
-// Likewise of sample i, counted sub-sample by sub-sample, where samples are records and lie row by row; of what only pads the last place
-// that has memory.
+// Likewise of the record of sample i, counted sub-sample by sub-sample, where records lie row by row; for an invocation that
+// only pads, the last place that has memory.
 uint record_index(uint i, uint padded_pixels, uint columns, uint samples) {
   uint pixel = i % padded_pixels, subsample = i / padded_pixels;
   uint at = id_index(uvec2(pixel % columns, pixel / columns), uvec2(subsample % samples, subsample / samples), uvec2(columns, 0),
@@ -61,7 +61,7 @@ void store_words(uvec2 address, uint i, uvec2 words) { DoubleWords(address).at[i
 #endif
 // A sample's record (interface.h).
 uvec2 load_record_ids(uvec2 address, uint i) { return load_words(address, 2 * i); }
-// Of samples that have a record or, where `records` is 0, IDs alone.
+// The IDs of samples that have a record or, where `records` is 0, IDs alone.
 uvec2 load_ids(uvec2 address, uint i, uint records) { return load_words(address, records != 0 ? 2 * i : i); }
 Real load_record_depth(uvec2 address, uint i) { return real_of(load_words(address, 2 * i + 1)); }
 

@@ -1,6 +1,6 @@
-// What the host and the shaders agree on: structs, workgroup sizes, values of specialization constants. Read
-// by GLSL and C++ alike. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them out
-// in the same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a
+// The interface of the host and the shaders: structs, workgroup sizes, values of specialization constants.
+// GLSL and C++ both read it. Structs hold only 32-bit scalars, vec2 and vec4, so that both languages lay them
+// out in the same way; a double travels as a pair of floats (high part, rest), a buffer's device address as a
 // uvec2.
 #ifndef PMDSIM_INTERFACE_H
 #define PMDSIM_INTERFACE_H
@@ -16,7 +16,8 @@ PMDSIM_CONSTANT workgroup_size = 64;
 // (a sum of three levels keeps float32 exact to a few units in the last place).
 PMDSIM_CONSTANT diodes_per_block = 16;
 PMDSIM_CONSTANT blocks_per_stretch = 16;
-// A sample has a word for each bundle of a run's diodes, a bit for each: whether it reaches the sample.
+// A sample has a word for each bundle of a run's diodes, with a bit for each diode: whether it reaches the
+// sample.
 PMDSIM_CONSTANT diodes_per_bundle = 32;
 PMDSIM_CONSTANT no_triangle = 0xffffffffu;
 PMDSIM_CONSTANT fragment_hit = 1;
@@ -151,7 +152,7 @@ struct GroupSource {
   vec4 axis;       // unit axis, axis . position_m
   float intensity; // over the frame's largest
   float order;     // of the cosine; below 0 the number of another law (engine/light/radiation_laws.cpp)
-  // What follows is the law's own; of a measured diagram:
+  // The members below are the law's own; for a measured diagram:
   uint diagram; // index of its first value in the table of all (diagram_tables.h)
   float theta_steps;
   float first_theta; // rad
@@ -173,7 +174,7 @@ struct PreciseSource {
   vec4 across_rest;
 };
 
-// What the diodes of a run share.
+// Properties that the diodes of a run share.
 struct LightRun {
   vec4 reference_hi; // the group's reference point (camera frame, m)
   vec4 reference_lo; // its rest
@@ -194,12 +195,12 @@ struct LightRun {
 PMDSIM_CONSTANT largest_powers = 12; // of q
 PMDSIM_CONSTANT largest_moments = 9;
 
-// The sums of powers of q of a run as polynomials of the point (engine/light/point_polynomials.h). Behind it the
-// coefficients, of S_0 first: term by term, of each the components.
+// The sums of powers of q of a run as polynomials of the point (engine/light/point_polynomials.h). The
+// coefficients follow behind it, those of S_0 first, term by term, and the components of each term.
 struct PointPolynomials {
   vec4 axis;       // as in GroupSource, of all diodes
   float per_metre; // 1 / unit
-  float unit_m;    // that the coefficients have for lengths, a power of two
+  float unit_m;    // of lengths in the coefficients, a power of two
   float unit_m2;   // its square
   float padding;
 };
@@ -365,10 +366,10 @@ struct Frequency {
   float amplitude_limit, amplitude_fixed, amplitude_per_condition;
   uint diodes;      // of all illuminators
   uint lit_channel; // where the share of them that reaches a pixel goes
-  // Of samples at one range; and what per_condition_m grows by for each metre that they are apart.
+  // For samples at one range; and what near_per_condition_m grows by for each metre that they are apart.
   float near_fixed_m, near_per_condition_m, per_apart;
-  // Of weights that are off, in units of engine/model/accuracy.h: as distance, the same of samples at one range, and
-  // as amplitude, which is what the second grows by a metre, too.
+  // The errors of weights that are off, in units of engine/model/accuracy.h: as distance, as distance of
+  // samples at one range, and as amplitude, which is also what the second grows by a metre.
   float per_weight_m, near_per_weight_m, per_weight;
 };
 
@@ -405,8 +406,9 @@ struct WorkList {
 PMDSIM_CONSTANT tile_side = 8;
 PMDSIM_CONSTANT tile_samples = tile_side * tile_side;
 
-// Depth records in blocks of neighbours in a row, listed by what there is to do for them. A block is of one row, so that
-// what becomes of a sample does not depend on where strips end. An entry is `block_samples` times the block's first sample, and how many others it has.
+// Depth records in blocks of neighbours in a row, listed by what there is to do for them. A block is of one
+// row, so that the treatment of a sample does not depend on where strips end. An entry is `block_samples`
+// times the block's first sample, plus the number of its other samples.
 PMDSIM_CONSTANT block_samples = 8;
 PMDSIM_CONSTANT no_blocks = 0;     // no list: all samples
 PMDSIM_CONSTANT blocks_lit = 1;    // every diode reaches all that they see
@@ -444,8 +446,8 @@ struct DepthSumConstants {
   uvec2 blocks_of_list; // in, where only those of a list are summed: WorkList
 };
 
-// What becomes of a sum that goes to a pixel's channels at once. DepthSumConstants::sum leads here.
-// Behind it each Frequency.
+// The demodulation of a sum that goes to a pixel's channels at once. DepthSumConstants::sum leads here. Each
+// Frequency follows behind it.
 struct DirectPixels {
   uvec2 channels, shapes, surfaces, lit; // as in DepthDemodulationConstants
   uvec2 errors; // out, where terms are kept: vec2 of each tone and pixel, what it may be off by (ClaimsConstants)
@@ -453,7 +455,7 @@ struct DirectPixels {
   uint padding;
 };
 
-// What becomes of what the pixels may be off by.
+// Judges the errors that the pixels may have.
 struct ClaimsConstants {
   uvec2 errors; // in, of each tone plane by plane: distance, m, and relative amplitude, both negative where they are not
                 // within what was asked for
@@ -513,7 +515,7 @@ struct BudgetViolations {
 };
 
 // The light as the uniform-pixel pass sees it. The LightRuns of the diodes that stand in for all follow.
-// (What has an address in memory, lavapipe fetches for each lane.)
+// (Lavapipe fetches for each lane whatever has an address in memory.)
 PMDSIM_CONSTANT uniform_tones = 4; // at most
 struct UniformPixelsLight {
   vec4 middle_m;       // of the box around the light, camera frame
@@ -545,7 +547,7 @@ struct UniformPixelsConstants {
   uvec2 work;     // in and out: UniformPixelsWork
 };
 
-// Where the uniform-pixel pass leaves what it cannot do.
+// Where the uniform-pixel pass leaves the pixels that it cannot do.
 struct UniformPixelsWork {
   uvec2 lists[pixel_lists]; // PixelList
   uvec2 violations;         // BudgetViolations

@@ -1,4 +1,4 @@
-// What headers that GLSL and C++ both read begin with.
+// The beginning of headers that GLSL and C++ both read.
 #ifndef PMDSIM_LANGUAGES_H
 #define PMDSIM_LANGUAGES_H
 

@@ -138,7 +138,7 @@ Real length3(Real3 a) { return square_root(dot3(a, a)); }
 vec3 high3(Real3 a) { return vec3(high(a.x), high(a.y), high(a.z)); }
 vec3 rest3(Real3 a) { return vec3(rest(a.x), rest(a.y), rest(a.z)); }
 
-// What is left of `turns` beside whole turns, in [-1/2, 1/2].
+// The fraction of `turns` beside whole turns, in [-1/2, 1/2].
 Real real_turn_fraction(Real turns) { return add(turns, negate(round_to_whole(turns))); }
 float turn_fraction(Real turns) { return high(real_turn_fraction(turns)); }
 

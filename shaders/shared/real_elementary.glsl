@@ -44,7 +44,7 @@ RealComplex real_unit_phasor(Real turns) {
   return RealComplex((q & 2) == 0 ? turned.re : negate(turned.re), (q & 2) == 0 ? turned.im : negate(turned.im));
 }
 
-// The angle of z in turns, in [-1/2, 1/2]; z is not zero. What a float is off by is so small an angle that it is its tangent.
+// The angle of z in turns, in [-1/2, 1/2]; z is not zero. The error of a float is so small an angle that it is its tangent.
 Real real_angle_turns(RealComplex z) {
   float near = angle_turns(vec2(high(z.re), high(z.im)));
   RealComplex back = real_unit_phasor(real(-near));

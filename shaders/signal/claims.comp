@@ -1,7 +1,7 @@
 #version 460
-// What the pixels of direct_pixels.comp may be off by, together: the frame's claim, the pixels that a later class sums again, or the
-// returns that are beyond what was asked for. It is apart from the sum, as lavapipe takes its time for atomics where no lane has any to
-// do, and an invocation takes many pixels.
+// Judges what the pixels of direct_pixels.comp may be off by, together: the frame's claim, the pixels that a later class sums
+// again, or the returns that are beyond what was asked for. It is apart from the sum, as lavapipe takes its time for atomics
+// where no lane has any to do, and an invocation takes many pixels.
 // It has no Real.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/pixel_list.glsl"

@@ -59,7 +59,7 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
   }
 }
 
-// Of the sample nearest the pixel's centre; ties go up and left.
+// The IDs of the sample nearest the pixel's centre; ties go up and left.
 uvec2 central_ids(uint pixel) {
   uint middle = (constants.samples - 1u) / 2u;
   uvec2 at = uvec2(pixel % constants.columns, pixel / constants.columns);
@@ -76,7 +76,7 @@ void pass_on(uint pixel) {
   append_pixel(PixelLists(constants.later), pixel);
 }
 
-// What was asked for of a return holds, or the pixel passes on, or it is counted.
+// A return keeps what was asked for, or its pixel passes on, or the return is counted.
 void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, float size) {
   vec2 terms = largest_amplitude(constants.harmonics) * sum.terms;
   float apart_m = sum.apart_m.y - sum.apart_m.x;

@@ -1,6 +1,6 @@
 #version 460
-// demodulate.comp of depth records. Without a branch around it all, so that lavapipe reads what all
-// pixels share once for all lanes; beyond the last pixel is room for what only pads.
+// demodulate.comp for depth records. There is no branch around it all, so that lavapipe reads what all pixels share once for
+// all lanes; beyond the last pixel is room for invocations that only pad.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/sampling/grid.glsl"
 #include "shaders/view/meet.glsl"
@@ -15,7 +15,7 @@ layout(constant_id = constant_frequencies) const uint frequencies = 1;
 layout(constant_id = constant_one_backscatter) const uint one_backscatter = 0;
 const uint all_planes = frequencies * planes;
 
-// Of frequency f, the p-th of its planes, but for the backscatter.
+// The p-th plane of frequency f's sum, but for the backscatter.
 vec2 load_sum(uint f, uint p, uint i) {
   uint at = (f * planes + p) * constants.plane + i;
   return is_only != 0 ? uintBitsToFloat(load_words(constants.sum, at)) : compensated_value(load_vec4(constants.sum, at));
@@ -62,7 +62,7 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
     sum.lit += hits ? Words(constants.lit).at[i] : 0u;
 }
 
-// Of frequency f.
+// Stores the bound and the errors of frequency f.
 void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, float size) {
   Errors errors = errors_of(frequency, sum.terms, size, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
   store_bound(to, frequency, pixel, size, errors);
@@ -71,7 +71,7 @@ void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, fl
 
 void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
   store_ground_truth(to, side * side, pixel, sum);
-  uvec2 at = first + (side - 1) / 2; // of an even number of samples the upper left one
+  uvec2 at = first + (side - 1) / 2; // the upper left one of an even number
   uvec2 ids = load_record_ids(constants.records, at.y * constants.grid.columns + at.x);
   store_ids(to, ids, load_words(constants.planes, 6 * ids.y + 4).y, pixel);
 }

@@ -58,7 +58,7 @@ void see_nothing(out PixelSum sum) {
   sum.hits = sum.lit = 0u;
 }
 
-// Of `plane` of the sum.
+// The turns per metre of range of `plane` of the sum.
 Real turns_per_m(Frequency frequency, uint plane) {
   return multiply(real(frequency.turns_per_m.x, frequency.turns_per_m.y), real(float(plane + 1)));
 }
@@ -120,7 +120,7 @@ void find_taps(PixelSum sum, Frequency frequency, uvec2 harmonics, out float tap
   }
 }
 
-// What the camera makes of its taps.
+// The return that the camera makes of its taps.
 vec2 demodulate(float tap[taps]) {
   vec2 z = vec2(0.0);
   [[unroll]] for (uint k = 0; k < taps; ++k)
@@ -128,7 +128,7 @@ vec2 demodulate(float tap[taps]) {
   return z * (2.0 / float(taps));
 }
 
-// The same without the taps: of harmonic h, only h = 1 and N - 1 modulo N show. If there is none of these, z is exactly 0.
+// The same without the taps: only harmonics that are 1 or N - 1 modulo N show. If there is none of these, z is exactly 0.
 vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
   vec2 z = vec2(0.0);
   [[unroll]] for (uint p = 0; p < planes; ++p) {
@@ -147,7 +147,7 @@ RealComplex scale_complex(RealComplex z, Real factor) { return RealComplex(multi
 
 RealComplex add_complex(RealComplex a, RealComplex b) { return RealComplex(add(a.re, b.re), add(a.im, b.im)); }
 
-// Of square light, in Real: distinct taps lie two in a plane, and of an even N the later half follows from the first.
+// The same of square light, in Real: distinct taps lie two in a plane, and the later half of an even N follows from the first.
 RealComplex demodulate_precisely(PixelSum sum) {
   RealComplex z = RealComplex(real(0.0), real(0.0));
   [[unroll]] for (uint k = 0; k < taps; ++k) {
@@ -181,7 +181,7 @@ RealComplex precise_return(PixelSum sum, Frequency frequency, uvec2 harmonics) {
                                        : demodulate_harmonics_precisely(sum, frequency, harmonics);
 }
 
-// `turns` in [-1, 1]; not known where nothing returns.
+// `turns` in [-1, 1]. Phase and distance are not known where nothing returns.
 void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
   bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
@@ -199,15 +199,15 @@ void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, 
   store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
 }
 
-// Of what was summed over the samples hit; `samples`: S x S.
+// The mean of what was summed over the samples hit; `samples`: S x S.
 float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
   if (samples > 1)
     sum = divide(sum, real(float(max(pixel.hits, 1u))));
   return pixel.hits > 0u ? high(sum) : nan();
 }
 
-// `samples`: S x S of the pixel; of harmonics, `amplitudes` are those of the correlation function. Returns |z| over what one
-// sample's unit return would come to.
+// `samples`: S x S of the pixel; `amplitudes`: those of the correlation function's harmonics, where it has any. Returns |z|
+// over what one sample's unit return would come to.
 float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
   float scale = frequency.amplitude_scale / float(samples);
   float tap[taps];
@@ -255,7 +255,7 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
 Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, float apart_m) {
   float condition = terms.x > 0.0 ? terms.x / size : 0.0; // infinite where all cancels
   float weights = terms.y > 0.0 ? terms.y / size : 0.0;
-  // What is off by this part of itself is turned by more than a small part would be: by the arcsine.
+  // A sum that is off by this part of itself is turned by more than a small part would turn it: by the arcsine.
   float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * weights;
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
   float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
@@ -265,7 +265,7 @@ Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, floa
                 frequency.amplitude_fixed + relative);
 }
 
-// Of the amplitudes of the harmonics that N taps take for the fundamental: what each term is multiplied by, at most, in all.
+// The sum of the amplitudes of the harmonics that N taps take for the fundamental: the most that multiplies a term in all.
 float largest_amplitude(uvec2 harmonics) {
   if (waveform != waveform_harmonics)
     return 1.0;
@@ -281,15 +281,15 @@ bool is_kept(Frequency frequency, Errors errors) {
   return errors.distance_m <= frequency.limit_m && errors.amplitude <= frequency.amplitude_limit;
 }
 
-// What a return may be off by, for the frame's claim (ClaimsConstants): both negative where that is not within what was asked
-// for, or is no number.
+// The errors of a return for the frame's claim (ClaimsConstants): both negative where they are not within what was asked for,
+// or no numbers.
 vec2 held(Frequency frequency, Errors errors) {
   if (is_kept(frequency, errors))
     return vec2(errors.distance_m, errors.amplitude);
   return vec2(errors.distance_m > 0.0 ? -errors.distance_m : -1.0, errors.amplitude > 0.0 ? -errors.amplitude : -1.0);
 }
 
-// Of a return; not known where there is none.
+// Stores the bound of a return; not known where there is none.
 void store_bound(Channels to, Frequency frequency, uint pixel, float size, Errors errors) {
   if (keeps_bounds != 0)
     store(to, frequency.first_channel + bound_channel, pixel, size > 0.0 ? errors.distance_m : nan());

@@ -1,4 +1,4 @@
-// What pixels may be off by, and what becomes of that: the frame's claim, and how many returns do not keep what was asked for.
+// The errors that pixels may have, and their account: the frame's claim, and how many returns do not keep what was asked for.
 #ifndef PMDSIM_VIOLATIONS_GLSL
 #define PMDSIM_VIOLATIONS_GLSL
 
@@ -6,7 +6,7 @@
 
 layout(constant_id = constant_reports_kept) const uint reports_kept = 0;
 
-// As distance and as relative amplitude. Nothing where there is no light at all.
+// Errors as distance and as relative amplitude. Nothing where there is no light at all.
 struct Errors {
   float distance_m, amplitude;
 };
