@@ -47,7 +47,7 @@ const std::vector<fs::path> &sources() {
 }
 
 // The file's comments, those of lines that follow each other as one text: names may be cut by the end of a
-// line. What begins within a string or an address (http://) is none.
+// line. Slashes within a string or an address (http://) begin no comment.
 std::string comments_of(const std::string &source) {
   std::string comments;
   std::size_t begin = 0;
@@ -121,7 +121,7 @@ std::string anchor_of(const std::string &title) {
   return anchor;
 }
 
-// Of a page's name, a comma, and a section's title in quotes.
+// The references that name no section of ours: a page's name, a comma, and a section's title in quotes.
 std::vector<std::string> missing_sections(const std::string &text) {
   static const std::regex section("([\\w./-]+\\.md)[,:]? \"([^\"]+)\"");
   std::vector<std::string> missing;
@@ -153,7 +153,7 @@ std::vector<std::string> dead_links(const fs::path &page) {
   return dead;
 }
 
-// Of "`name` in `file`": those that the file does not have.
+// The names in texts like "`name` in `file`" that the file does not have.
 std::vector<std::string> strangers(const std::string &text) {
   static const std::regex inside(R"(`(\w+)`\s+in\s+`([\w./-]+\.\w+)`)");
   std::vector<std::string> found;

@@ -26,7 +26,7 @@ using MemberId = std::pair<Id, std::uint32_t>;
 
 std::string text(const std::uint32_t *words) { return reinterpret_cast<const char *>(words); }
 
-// What of a module bears on its structs.
+// The parts of a module that bear on its structs.
 struct Module {
   std::map<Id, std::string> names;
   std::map<MemberId, std::string> member_names;

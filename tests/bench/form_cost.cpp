@@ -1,5 +1,5 @@
-// What each special form of a frame's path saves: whole frames with it and without, in turn, warm. A round is
-// one frame of each. Prints Markdown for docs/decisions.md.
+// The time that each special form of a frame's path saves: whole frames with it and without, in turn, warm. A
+// round is one frame of each. Prints Markdown for docs/decisions.md.
 
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"

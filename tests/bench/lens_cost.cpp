@@ -1,6 +1,6 @@
-// What a lens with distortion costs, by what is seen through it: ordinary scenes, and thin things. Warm, of
-// 640 x 640 samples, whose triangles are first compared with the reference's. Not a test: times are reported,
-// never asserted. A part of a scene's name as argument: fewer.
+// The cost of a lens with distortion, by what is seen through it: ordinary scenes, and thin things. Frames
+// are warm and have 640 x 640 samples, whose triangles are first compared with the reference's. Not a test:
+// times are reported, never asserted. With a part of scenes' names as argument only those are measured.
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"

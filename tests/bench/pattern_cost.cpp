@@ -1,5 +1,5 @@
-// What the diodes' patterns cost: the accumulate pass on scenes/paper_ring.json, in alternation, warm. Not a
-// test: times are reported, never asserted. Each variant is compared with the reference before it is timed.
+// The cost of the diodes' patterns: the accumulate pass on scenes/paper_ring.json, in alternation, warm. Not
+// a test: times are reported, never asserted. Each variant is compared with the reference before it is timed.
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"

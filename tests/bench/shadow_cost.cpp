@@ -1,6 +1,6 @@
-// What shadows cost: every pass of a frame with and without them, in alternation, warm, and what it takes to
-// prepare one. Not a test: times are reported, never asserted. A smaller frame of each scene is compared with
-// the reference before anything is timed. Scenes may be named to measure only these.
+// The cost of shadows: every pass of a frame with and without them, in alternation, warm, and the preparation
+// of one. Not a test: times are reported, never asserted. A smaller frame of each scene is compared with the
+// reference before anything is timed. Scenes may be named to measure only these.
 
 #include "engine/reference/reference.h"
 #include "engine/simulator.h"
@@ -60,7 +60,7 @@ const std::vector<Case> cases{
     {"million", 3, million},
 };
 
-// Of the smaller frame.
+// The agreement of the smaller frame with the reference.
 struct Agreement {
   std::size_t pairs = 0, different = 0; // a sample and a diode each
   double lit = 0.0;                     // of the pairs

@@ -1,4 +1,4 @@
-// What frequencies and waveforms cost: the accumulate pass on scenes/paper_ring.json, in alternation, warm.
+// The cost of frequencies and waveforms: the accumulate pass on scenes/paper_ring.json, in alternation, warm.
 // Not a test: times are reported, never asserted. Each variant is compared with the reference before it is
 // timed.
 

@@ -10,7 +10,7 @@ struct Times {
   double median_ms, min_ms, max_ms;
 };
 
-// Of at least one.
+// The spread of at least one time.
 inline Times spread(std::vector<double> times_ms) {
   std::ranges::sort(times_ms);
   return {times_ms[times_ms.size() / 2], times_ms.front(), times_ms.back()};

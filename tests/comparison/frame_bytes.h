@@ -11,8 +11,8 @@ namespace pmdsim::test {
 
 std::string bytes_of(const Measurement &measurement);
 
-// What the repeatability frames have beyond a pinhole and a sine without shadows in mode
-// exact.
+// The repeatability frames' names, which say what each frame has beyond a pinhole and a sine without shadows
+// in mode exact.
 const std::vector<std::string> &repeatability_frames();
 
 struct RepeatabilityFrame {

@@ -12,7 +12,7 @@ namespace {
 
 bool grazes(const glm::dvec3 &point_m, const glm::dvec3 &normal, const Diode &diode) {
   const glm::dvec3 to_diode = glm::normalize(diode.position_m - point_m);
-  // Of the tests' diagrams too, which end at 90 degrees.
+  // The tests' diagrams end at 90 degrees, too.
   const bool at_rim =
       diode.pattern.kind != Pattern::Kind::isotropic && std::abs(glm::dot(diode.axis, to_diode)) < 0.01;
   return at_rim || std::abs(glm::dot(normal, to_diode)) < 0.01;

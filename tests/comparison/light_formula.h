@@ -16,7 +16,7 @@
 
 namespace pmdsim::test {
 
-// Of a direction in a diode's own frame; phi 0 to 2 pi.
+// The angles of a direction in a diode's own frame; phi is from 0 to 2 pi.
 struct Angles {
   double theta_rad, phi_rad;
 };
@@ -57,7 +57,7 @@ struct Errors {
   std::size_t lit = 0;
 };
 
-// Of all the pixels; checks that those are lit that the formula says.
+// The largest errors over all the pixels; checks that those are lit that the formula says.
 Errors errors_of(const WallCase &of, const SimulatorOptions &options);
 
 // Prints a line for each variant and checks it to 2 micrometres and the amplitude's tolerance.

@@ -21,8 +21,8 @@ double angle_to_edge_rad(const glm::dvec3 &ray, const glm::dvec3 &from_m, const 
   return std::min(angle_rad(ray, from_m), angle_rad(ray, to_m));
 }
 
-// Of a pixel: between the same samples of neighbouring ones, the nearer of both; a single pixel counts as
-// half a turn.
+// The angle that a pixel takes, between the same samples of it and of the nearest neighbour; a single pixel
+// counts as half a turn.
 double pixel_angle_rad(const reference::LensModel &lens, const Sensor &sensor, const glm::uvec2 &sample) {
   double smallest_rad = std::acos(-1.0);
   for (const glm::uvec2 step : {glm::uvec2(sensor.samples, 0), glm::uvec2(0, sensor.samples)}) {

@@ -14,7 +14,7 @@ struct SeenPlane {
   }
 };
 
-// Of the triangle or disc `id`, which faces the lens; `triangles` are the scene's in the camera frame.
+// The plane of the triangle or disc `id`, facing the lens; `triangles` are the scene's in the camera frame.
 SeenPlane plane_of(std::uint32_t id, const Scene &scene, const Sensor &sensor,
                    const std::vector<reference::CameraTriangle> &triangles);
 

@@ -11,7 +11,7 @@
 
 namespace pmdsim::test {
 
-// What two engines that decide by their own rounding may decide differently.
+// Two engines that decide by their own rounding may differ within this distance.
 inline constexpr double rounding_distance_m = 10e-6;
 
 struct ShadowClearance {
@@ -26,7 +26,7 @@ class ShadowClearances {
 public:
   ShadowClearances(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators);
 
-  // Of a sample that sees the triangle or disc `id`; diodes are counted through all illuminators.
+  // The clearance of a sample that sees the triangle or disc `id`; diodes count through all illuminators.
   ShadowClearance of(const glm::uvec2 &sample, std::uint32_t id, std::size_t diode) const;
 
 private:

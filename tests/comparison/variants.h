@@ -14,7 +14,7 @@ struct Variant {
   DiodeLoop loop;
 };
 
-// What this device is given, and what other devices are.
+// The variant that this device is given, and the one that other devices are given.
 inline const std::vector<Variant> variants{
     {"", SamplePrecision::automatic, DiodeLoop::automatic},
     {", float pairs, loop", SamplePrecision::double_float, DiodeLoop::looped},

@@ -13,8 +13,8 @@ struct ReachedComparison {
   std::size_t pairs = 0;   // these samples times the diodes
   std::size_t reached = 0; // of the pairs, says the reference
   std::size_t differing_pairs = 0;
-  // Of these, where the line from sample to diode clears every edge by more than rounding_distance_m; and of
-  // those, where neither of its ends lies as close to another shape either.
+  // The differing pairs whose line from sample to diode clears every edge by more than rounding_distance_m;
+  // and those of them neither of whose line's ends lies as close to another shape.
   std::size_t clear_of_edges = 0, clear_of_all = 0;
   std::vector<bool> differing_pixels; // where any pair of any sample differs
   double lit_error = 0.0; // the largest difference between `lit` and the simulator's own count of its pairs
@@ -29,7 +29,7 @@ ReachedComparison compare_reached(const Measurement &measured, const reference::
                                   const Scene &scene, const Sensor &sensor,
                                   const std::vector<Illuminator> &illuminators);
 
-// Of the pixels that either sees lit, the share whose distances differ by 3 micrometres at most.
+// The share of pixels whose distances differ by 3 micrometres at most, among those that either sees lit.
 double share_of_pixels_agreeing(const Measurement &measured, const reference::Frame &expected);
 
 // One line a comparison, under a heading.

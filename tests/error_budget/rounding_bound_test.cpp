@@ -139,7 +139,7 @@ TEST_CASE("samples of one pixel at one range, apart across the view of a lamp be
     return bound_of(beside, {.samples = 4, .sample_spread_m = 0.0, .pixel_rad = pixel_rad})->per_weight_m;
   };
   CHECK(of_pixel_m(0.2) - of_pixel_m(0.0) == Approx(0.5 * 0.4));
-  // What is not known of the pixel is bounded by how far the lamp is from the lens.
+  // Where the pixel's angle is not known, the lamp's distance from the lens bounds the error.
   CHECK(of_pixel_m(std::numeric_limits<double>::infinity()) > of_pixel_m(0.2));
 }
 

@@ -138,7 +138,7 @@ Case cancelling(double stronger, const Pattern &pattern) {
   return result;
 }
 
-// Of the pixel that cancels most, from the returns of each light alone.
+// The condition of the pixel that cancels most, from the returns of each light alone.
 double largest_condition(const Case &of) {
   const reference::Frame together = reference_of(of, of.lights);
   std::vector<double> terms(of.sensor.pixel_count(), 0.0);

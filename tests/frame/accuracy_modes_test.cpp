@@ -1,4 +1,4 @@
-// What the modes and precisions of engine/model/accuracy.h have to do with each other.
+// The modes and precisions of engine/model/accuracy.h, and how they are related.
 
 #include "engine/model/error.h"
 #include "tests/comparison/light_formula.h"

@@ -1,5 +1,5 @@
-// What depth records leave out changes nothing: a backscatter that is not looked up, ground truth that
-// has no channels.
+// Depth records change no result by what they leave out: a look-up of backscatter, and channels of ground
+// truth.
 
 #include "tests/comparison/frame_bytes.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
-// What goes from records to channels at once within an error: every pixel's bound holds, and the frame's
-// claim and the pixels that are summed again are the same whether the host finds them or the device.
+// Pixels that go from records to channels at once, within an error: every pixel's bound holds, and the
+// frame's claim and the pixels that are summed again are the same whether the host finds them or the device.
 
 #include "tests/comparison/light_formula.h"
 #include "tests/support/scenes.h"
@@ -16,8 +16,8 @@ using namespace pmdsim::test;
 
 namespace {
 
-// Of widths that no block of samples fits: a wall, a board that shades it, a floor that light grazes, and on
-// the right nothing.
+// A wall, a board that shades it, a floor that light grazes, and nothing on the right. No block of samples
+// fits the frame's width and height.
 struct Room {
   Scene scene;
   Sensor sensor;

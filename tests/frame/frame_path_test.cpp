@@ -52,8 +52,7 @@ struct Taken {
 Taken take(const Form &form, bool allowed) {
   SimulatorOptions options;
   options.loop = DiodeLoop::looped; // compiles faster
-  // What is summed beforehand or by the host has no loop over the diodes on the device, whose forms these
-  // are.
+  // These are forms of the device's loop over the diodes, which sums beforehand or by the host do not have.
   const bool of_loop = form.allowed == &PathForms::equal_weights || form.allowed == &PathForms::coplanar;
   options.allowed.point_polynomials = options.allowed.host_sum = !of_loop;
   options.allowed.*form.allowed = allowed;

@@ -130,7 +130,7 @@ Case in_corner(const std::string &name, std::uint32_t samples) {
   return result;
 }
 
-// What stands in the corner is partly in the shadow of a post.
+// The same corner, partly in the shadow of a post.
 Case behind_a_post(const std::string &name, std::uint32_t samples) {
   Case of = in_corner(name, samples);
   SceneBuilder post;

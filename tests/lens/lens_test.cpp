@@ -22,7 +22,7 @@ Sensor sensor_to(double corner_slope, const Distortion &distortion) {
   return sensor;
 }
 
-// Of r (1 - k r^2), which rises up to r = sqrt(1 / (3 k)).
+// The largest value of r (1 - k r^2), which rises up to r = sqrt(1 / (3 k)).
 double fold_of_barrel(double k) { return 2.0 / 3.0 * std::sqrt(1.0 / (3.0 * k)); }
 
 double distorted_radius(const Lens::Coefficients &c, double r) {

@@ -1,4 +1,4 @@
-// What the diodes of a run share, as the shaders read it.
+// The values that the diodes of a run share, as the shaders read them.
 
 #include "engine/light/accumulate_pass.h"
 
@@ -82,7 +82,7 @@ TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") 
 }
 
 TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {
-  // Of n cos^(n - 1) down to cos = 10^-3 the largest over n in (0, 1).
+  // The largest n cos^(n - 1) down to cos = 10^-3, over n in (0, 1).
   double steepest = 0.0;
   for (double order = 0.001; order < 1.0; order += 0.001)
     steepest = std::max(steepest, order * std::pow(1e-3, order - 1.0));

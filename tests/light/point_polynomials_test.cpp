@@ -89,7 +89,7 @@ TEST_CASE("Polynomials of the point are the sums over the diodes") {
       const glm::dvec4 surface(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7),
                                random.uniform(-1.0, -0.5), random.uniform(0.5, 3.0));
       for (std::uint32_t power = 0; power < groups.polynomials.powers; ++power) {
-        // Of the terms, all taken as positive: as far as q reaches.
+        // The terms' sum, all of them taken as positive, as far as q reaches.
         const double most = 200.0 * 4.0 * std::pow(0.01 + 0.2 * glm::length(point_m), power);
         CHECK(std::abs(beforehand(words, dimensions, point_m, surface, power) -
                        direct(groups, point_m, surface, power)) <= 0x1p-24 * most);

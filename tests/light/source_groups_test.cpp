@@ -25,7 +25,7 @@ std::vector<Diode> ring_of(int count, double radius_m) {
 
 std::vector<CameraIlluminator> one(const std::vector<Diode> &diodes) { return {{diodes}}; }
 
-// Of scenes/paper_ring.json.
+// The diodes of scenes/paper_ring.json.
 std::vector<Diode> five_rings() {
   std::vector<Diode> diodes;
   for (int i = 0; i < 5; ++i)

@@ -68,7 +68,7 @@ bool holds(const shader::DiodeBox &box, const glm::dvec3 &p) {
          glm::all(glm::lessThanEqual(p, glm::dvec3(box.high)));
 }
 
-// What is told of a bundle is true of each of its diodes; `times` counts those that shine.
+// Checks that a bundle's record is true of each of its diodes; `times` counts those that shine.
 void check_bundle(const shader::BundleDiodes &bundle, std::uint32_t bits, const shader::DiodeBox &box,
                   std::span<const SourcePosition> places, std::vector<int> &times) {
   for (std::uint32_t i = 0; i < shader::diodes_per_bundle; ++i) {

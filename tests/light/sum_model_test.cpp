@@ -1,4 +1,4 @@
-// What the sum leaves out for each light.
+// The terms that the sum leaves out for each light.
 
 #include "engine/light/accumulate_pass.h"
 
@@ -16,7 +16,7 @@ Pattern table(const std::vector<double> &phi_rad) {
   return {Pattern::Kind::diagram, 0.0, std::make_shared<const Diagram>(diagram)};
 }
 
-// Of two illuminators, the patterns dealt out in turn.
+// The model of two illuminators, each of which gets every pattern in turn.
 SumModel model_of(const std::vector<Pattern> &patterns) {
   std::vector<CameraIlluminator> lights(2);
   for (std::size_t i = 0; i < 2 * patterns.size(); ++i)

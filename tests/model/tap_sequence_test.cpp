@@ -1,4 +1,4 @@
-// What the camera makes of taps that were taken one after the other.
+// The return that follows from taps that were taken one after the other.
 
 #include "engine/model/tap_sequence.h"
 #include "engine/reference/reference.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double modulation_hz = 20e6;
 
-// Of one pixel, for a correlation function of the phase.
+// The taps of one pixel, for a correlation function of the phase.
 template <typename Correlation>
 std::vector<std::vector<float>> taps_of(std::uint32_t count, double phase_rad, Correlation correlation) {
   std::vector<std::vector<float>> taps;

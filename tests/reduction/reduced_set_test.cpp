@@ -162,7 +162,7 @@ struct Found {
   Real of_bound = 0;                  // the largest share of what is claimed
 };
 
-// Of points, and of pixels with some samples, at random.
+// The largest error over points, and over pixels with some samples, at random.
 Found largest_error(const Light &light, const ReducedLight &reduced, const Boxes &visible, bool lambert,
                     double wavenumber_rad_m) {
   std::mt19937 random(11);

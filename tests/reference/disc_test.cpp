@@ -75,7 +75,7 @@ TEST_CASE("a disc smaller than a pixel returns light by its share of the pixel")
   Diode diode;
   diode.intensity_w_sr = intensity_w_sr;
   const auto frame = disc_frame(disc_at({0, 0, z_m}, radius_m, {rho}), sensor, diode);
-  // Of the 16 x 16 samples those in a circle of 4 spacings about a corner of their grid: 52.
+  // 52 of the 16 x 16 samples lie in a circle of 4 spacings about a corner of their grid.
   CHECK(frame.coverage[0] == 52 / 256.0);
   CHECK(frame.coverage[0] == Approx(std::numbers::pi * std::pow(radius_m / pixel_m, 2)).epsilon(0.05));
   CHECK(frame.returns[0].amplitude[0] ==

@@ -1,5 +1,5 @@
 #pragma once
-// What the reference sees by a light in the lens.
+// The frame that the reference sees by a light in the lens.
 
 #include "engine/reference/reference.h"
 #include "tests/support/scenes.h"

@@ -44,7 +44,7 @@ Paint paint_with(const glm::uvec2 &size, const std::vector<glm::vec4> &texels, T
 
 glm::vec4 grey(float value, float alpha = 1.0f) { return {value, value, value, alpha}; }
 
-// What the pixels' reflectivities must have been: the constant backscatter of the monostatic unit light.
+// The pixels' reflectivities, found from the constant backscatter of the monostatic unit light.
 std::vector<double> reflectivities(const reference::Frame &frame) {
   std::vector<double> result = frame.returns[0].amplitude;
   for (std::size_t pixel = 0; pixel < result.size(); ++pixel)

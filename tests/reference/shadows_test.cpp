@@ -128,7 +128,7 @@ TEST_CASE("the penumbra of a half plane is the count of the diodes that clear it
     REQUIRE(frame.lit[pixel] == static_cast<double>(clear_m.size()) / 240);
     partly_lit += !clear_m.empty() && clear_m.size() < 240;
     if (pixel % 7 == 0 && !clear_m.empty()) {
-      // What only these make of the pixel.
+      // The pixel as these diodes alone make it.
       const Frame alone = frame_of(builder.scene(), sensor, {diodes_at(sensor, clear_m)}, {});
       REQUIRE(frame.returns[0].z[pixel] == alone.returns[0].z[pixel]);
     }

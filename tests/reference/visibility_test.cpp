@@ -1,4 +1,4 @@
-// What the lens sees: nearest wins, culled faces do not exist, and no ray slips between neighbours.
+// The lens sees the nearest shape, culled faces do not exist, and no ray slips between neighbours.
 
 #include "engine/reference/reference.h"
 #include "engine/reference/view/ray_caster.h"

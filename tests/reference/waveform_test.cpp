@@ -166,7 +166,7 @@ TEST_CASE("the triangle's harmonics approach square light as their number grows"
   const auto exact = column_frame(square, 4);
   for (const int last : {1, 9, 99}) {
     const auto truncated = column_frame(truncated_triangle(last), 4);
-    // What is left out is largest in phase: the sum of 8 / (pi h)^2 over the odd h beyond.
+    // The harmonics left out add up to most in phase: to the sum of 8 / (pi h)^2 over the odd h beyond.
     const double left_out = 4 / (std::numbers::pi * std::numbers::pi * (last + 1));
     double largest = 0;
     for (std::size_t pixel = 0; pixel < exact.range_m.size(); ++pixel)

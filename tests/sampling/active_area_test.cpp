@@ -1,4 +1,4 @@
-// What a pixel sees through its active area, by the places of its samples.
+// A pixel's view through its active area, by the places of its samples.
 
 #include "tests/comparison/planes.h"
 #include "tests/support/scenes.h"
@@ -56,7 +56,8 @@ TEST_CASE("an edge outside the active area is not seen, within it it is") {
 TEST_CASE("the coverage of an active area, counted by hand") {
   const Engine engine = both_engines();
   // Samples at -20, 0 and 20 mm across, -13.3, 0 and 13.3 mm down: the wall fills the first two columns and
-  // the last two rows of them. Of a whole pixel, at -33, 0 and 33 mm, it would be the middle one only.
+  // the last two rows of them. If the whole pixel were active, with samples at -33, 0 and 33 mm, it would
+  // fill the middle one only.
   const Sensor sensor = three_by_three_sensor({0.6, 0.4}, 3);
   const Measurement measured = measure_wall(engine, sensor, {-0.025, -0.01}, {0.015, 0.02});
   for (std::size_t pixel = 0; pixel < 9; ++pixel)

@@ -181,7 +181,7 @@ DistortedFigures check_distorted_blocks(const Sensor &sensor) {
   check_every_pixel_once(sensor, blocks);
   const Lens lens(sensor);
   DistortedFigures figures;
-  // Of pixels filled in part, too, a fragment is as wide as those of full ones.
+  // A fragment is as wide in pixels that are filled in part as in full ones.
   Sensor filled = sensor;
   filled.fill_factor = glm::dvec2(1.0);
   for (const RasterBlock &block : blocks) {

@@ -22,7 +22,7 @@ constexpr double wall_m = 2.0;
 // The shadow's edge may fall on either side of a line that passes it as close as this.
 constexpr double edge_tolerance_m = 10e-6;
 
-// Of everything here: the wall from -0.6 to 0.6 m and a bit, in 96 x 72 pixels.
+// The sensor of all tests here. It sees the wall from -0.6 to 0.6 m and a bit, in 96 x 72 pixels.
 Sensor wall_sensor() {
   Sensor sensor;
   sensor.resolution = {96, 72};
@@ -114,7 +114,7 @@ struct HalfPlane {
   }
 };
 
-// What a pixel measures of diodes of 1 W/sr that light one point of a wall of reflectivity 1 across the axis.
+// The values of a pixel that sees a wall of reflectivity 1 across the axis, lit by diodes of 1 W/sr.
 struct Expected {
   double lit, distance_m;
 };

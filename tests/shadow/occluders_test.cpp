@@ -1,4 +1,5 @@
-// What is left out of the occluders never blocks anything; what needs no shadows has none.
+// Shapes that are left out of the occluders never block anything; a scene that needs no shadows has no
+// occluders.
 
 #include "engine/shadow/occluders.h"
 

@@ -59,7 +59,7 @@ std::vector<BoardCase> board_cases() {
           {"more diodes than a window has", {rings(0.0, 600)}}};
 }
 
-// What all boards are tried on.
+// The camera and the scene that all boards are tried on.
 struct BoardScene {
   Sensor sensor;
   Scene scene;

@@ -16,7 +16,7 @@ namespace {
 
 const SimulatorOptions with_taps{.device = {}, .keep_taps = true};
 
-// What one pixel reads, in units of its light.
+// The readings of one pixel, in units of its light.
 struct Reading {
   std::vector<double> taps;
   double amplitude, phase_turns;
@@ -170,7 +170,7 @@ TEST_CASE("the taps of harmonics are their sums of cosines") {
     check_single_path("harmonics, 4 taps, 1/8 turn", four, 0.125, {{c, c, -c, -c}, 0.8, 0.125});
   }
   SECTION("a sixth") {
-    // Of 60, -30, -120 and -210 degrees; the third harmonic aliases to 0.2 exp(-j 180 degrees).
+    // The phases are 60, -30, -120 and -210 degrees; the third harmonic aliases to 0.2 exp(-j 180 degrees).
     const double c = std::sqrt(0.75);
     check_single_path("harmonics, 4 taps, 1/6 turn", four, 1.0 / 6,
                       {{0.45, c - 0.15, -0.15, -c - 0.15}, std::sqrt(0.84), turns_of(c, 0.3)});

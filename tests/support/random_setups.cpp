@@ -26,7 +26,7 @@ const T &one_of(Random &random, const std::array<T, n> &choices) {
   return choices[static_cast<std::size_t>(random.uniform(0, n))];
 }
 
-// What shaders are compiled for.
+// The properties of a setup that shaders are compiled for.
 struct Form {
   Waveform waveform;
   std::size_t frequencies;

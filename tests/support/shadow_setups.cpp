@@ -11,7 +11,7 @@ namespace pmdsim::test {
 
 namespace {
 
-// Of a length between these, in any direction.
+// A step of a length between these, in any direction.
 glm::dvec3 random_step_m(Random &random, double shortest_m, double longest_m) {
   const double length_m = random.log_uniform(shortest_m, longest_m);
   return length_m * random.unit_vector();

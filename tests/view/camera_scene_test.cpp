@@ -1,4 +1,4 @@
-// What the points passes are told of a triangle: its plane and where rays can meet it.
+// The record of a triangle for the points passes: its plane and where rays can meet it.
 
 #include "engine/light/camera_light.h"
 #include "engine/view/camera_scene.h"

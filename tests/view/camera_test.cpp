@@ -143,7 +143,7 @@ const std::vector<Case> everything{
      }},
 };
 
-// What this device is given, and what other devices are with the sum of moments as such.
+// The options for this device, and those for other devices with the sum of moments as such.
 const std::vector<SimulatorOptions> variants{
     {.device = {}, .keep_sample_ids = true, .keep_taps = true},
     {.device = {},

@@ -35,7 +35,7 @@ Sensor level_sensor(std::uint32_t samples) {
   return sensor;
 }
 
-// Of a pixel's samples above, on and below the middle those below see the floor.
+// A pixel has samples above, on and below the middle; only those below see the floor.
 void check_middle_row(const Measurement &frame, const Sensor &sensor) {
   const std::uint32_t row = sensor.resolution.y / 2;
   for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {

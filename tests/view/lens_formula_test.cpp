@@ -20,7 +20,7 @@ namespace {
 
 constexpr double largest_error_pixels = 1e-6;
 
-// What both lens models can say of a sensor.
+// The questions about a sensor that both lens models can answer.
 class SimulatorsLens {
 public:
   explicit SimulatorsLens(const Sensor &sensor) : lens_(sensor) {}
@@ -54,7 +54,8 @@ struct Errors {
   std::size_t without_ray = 0;
 };
 
-// Of every pixel's centre: its ray by the formula to a pixel, and by the lens's own way back.
+// The largest errors over every pixel's centre: its ray taken to a pixel by the formula, and by the lens's
+// own way back.
 template <typename SomeLens, typename Model>
 Errors errors_of(const Sensor &sensor, const Model &distortion) {
   const SomeLens lens(sensor);

@@ -36,7 +36,7 @@ TEST_CASE("a point covers its area") {
   const Engine engine = both_engines();
   const double radius_m = GENERATE(0.02, 0.05, 0.08);
   const Measurement measured = measure_monostatic(engine, point_at({0.01, -0.005, 2}, radius_m), one_pixel());
-  // Of 256 samples a circle of radius r cuts about 2 pi r of the cells' edges; they err at random.
+  // On a grid of 256 samples a circle of radius r cuts about 2 pi r of the cells' edges; they err at random.
   const double share = std::numbers::pi * radius_m * radius_m / 0.04;
   check_within(engine, "share of the pixel that a point covers", share, measured.coverage[0], 0.02);
   check_within(engine, "its amplitude over coverage", 0.8 / 4.0,

@@ -73,7 +73,7 @@ bool cut_through_each_other(const Corners &one, const Corners &other) {
   return false;
 }
 
-// Of 0.1 to 1 m, somewhere in the view.
+// A triangle of 0.1 to 1 m, somewhere in the view.
 Corners triangle_in_view(Random &random, const Sensor &sensor) {
   const Lens lens(sensor);
   const double column = random.uniform(0, sensor.resolution.x), row = random.uniform(0, sensor.resolution.y);

@@ -1,5 +1,5 @@
-// What is thinner than samples lie apart, or stands behind holes that are, is seen by the samples whose rays
-// meet it, through every lens.
+// Things thinner than samples lie apart, and things behind holes as fine, are seen by the samples whose rays
+// meet them, through every lens.
 
 #include "tests/comparison/frame_bytes.h"
 #include "tests/support/scenes.h"
@@ -90,7 +90,7 @@ public:
     }
   }
 
-  // Of every lens and count of samples, what `scene` makes for them.
+  // Checks the scene that `scene` makes for each lens and each count of samples.
   template <typename MakeScene>
   void check_all(std::initializer_list<std::uint32_t> samples, const MakeScene &scene) {
     for (const BendingLens &lens : lenses)
@@ -126,7 +126,7 @@ Scene mask_before_a_wall() {
   return scene;
 }
 
-// Of 0.4 m, 2 m off: hundreds of triangles a sample.
+// A ball of 0.4 m radius, 2 m off: hundreds of triangles a sample.
 Scene fine_ball() {
   constexpr std::uint32_t around = 400, up = 200;
   std::vector<glm::dvec3> corners_m;

@@ -1,4 +1,4 @@
-// What is compiled once is not compiled again while there is room.
+// A pipeline that was compiled once is not compiled again while there is room.
 
 #include "engine/vulkan/device.h"
 

@@ -1,5 +1,5 @@
-// What random setups claim at the two errors that people ask for, beside what they are found to be off by
-// over all pixels.
+// The errors that random setups claim, beside those that are found over all pixels, for each of the two
+// errors that people ask for.
 
 #include "engine/model/error.h"
 #include "tests/support/random_setups.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t claiming_setups = 200;
 
-// Of one setup.
+// The errors of one setup.
 struct Claim {
   std::string refusal; // empty where there is a frame
   std::optional<double> claimed_m;

@@ -21,11 +21,11 @@ using namespace pmdsim::test;
 namespace {
 
 constexpr std::uint32_t setups = 200;
-// Of the setups, at most as many may be refused: those with measured diagrams, of whose error theory has no
-// bound, and those whose rounding may exceed the budget, as returns of two lights cancel, a float's last bit
-// of a long distance is more than a micrometre, the waveform is no sine and has no sum in double precision,
-// or a point lies in the dark beside a measured beam, which is looked up in float. A quarter are, most of
-// them of budgets below 10 micrometres.
+// At most these shares of the setups may be refused: those with measured diagrams, of whose error theory has
+// no bound, and those whose rounding may exceed the budget. The latter have returns of two lights that
+// cancel, a long distance whose last bit in float is more than a micrometre, a waveform that is no sine and
+// has no sum in double precision, or a point in the dark beside a measured beam, which is looked up in float.
+// A quarter of the setups are refused, most of them with budgets below 10 micrometres.
 constexpr double most_without_bound = 0.0, most_beyond_rounding = 0.25;
 
 Accuracy within_budget(const RandomSetup &setup) {
@@ -42,7 +42,7 @@ Measurement measure(Simulator &simulator, const RandomSetup &setup) {
   return simulator.measure();
 }
 
-// What became of one setup.
+// The result of one setup.
 struct Outcome {
   std::string refusal; // empty where there is a frame
   std::size_t pixels = 0, left_out = 0;
@@ -71,7 +71,7 @@ Outcome outcome_of(Simulator &simulator, const RandomSetup &setup) {
           .accuracy = measured.accuracy};
 }
 
-// Of all setups of a kind.
+// The results of all setups of a kind.
 struct Row {
   std::size_t setups = 0, refused = 0, pixels = 0, left_out = 0;
   double error_over_budget = 0.0;

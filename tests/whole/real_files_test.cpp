@@ -101,7 +101,7 @@ glm::dvec3 normal_of(const Scene &scene, const std::string &object) {
       glm::cross(scene.positions_m[b] - scene.positions_m[a], scene.positions_m[c] - scene.positions_m[a]));
 }
 
-// What a pixel that looks straight at a point measures: rho, or nothing where the object is not there.
+// The rho measured by a pixel that looks straight at a point, or 0 where the object is not there.
 double reflectivity_at(Simulator &simulator, const Scene &scene, const std::string &object,
                        const json &point) {
   const Sensor sensor = looking_at(vector_of(point.at("point_m")), normal_of(scene, object));
@@ -114,7 +114,7 @@ double reflectivity_at(Simulator &simulator, const Scene &scene, const std::stri
   return static_cast<double>(measured.returns[0].amplitude[0]) * range_m * range_m;
 }
 
-// Of the object's vertex at `point_m`, by its paint and its own colour; NaN where there is none.
+// The rho of the object's vertex at `point_m`, by its paint and its own colour; NaN where there is none.
 double reflectivity_of_vertex(const Scene &scene, const std::string &object, const glm::dvec3 &point_m) {
   const auto rho = [&](std::uint32_t shape, std::uint32_t vertex) {
     const bool found = scene.objects[scene.object_of(shape)] == object &&
@@ -229,7 +229,7 @@ bool inside_object(const Measurement &a, const Scene &scene_a, const Measurement
   return seen.size() == 1 && !seen.begin()->empty();
 }
 
-// Of objects that stand still: the keys of the others are quantized, too.
+// Only objects that stand still are compared: the keys of the others are quantized, too.
 bool is_animated(const std::string &object) {
   static const std::set<std::string> animated{"Plate", "Cart", "Spinner", "Sleeve"};
   return animated.contains(object);
@@ -238,8 +238,8 @@ bool is_animated(const std::string &object) {
 struct Difference {
   std::size_t pixels = 0;
   double distance_max_m = 0.0;
-  // Of pixels that see the same facet, from its point to the packed facet's plane: distance times the cosine
-  // of incidence.
+  // Over pixels that see the same facet, from its point to the packed facet's plane: distance times the
+  // cosine of incidence.
   double surface_max_m = 0.0;
   double amplitude_mean = 0.0;
 };

@@ -25,7 +25,7 @@ struct Chip {
   std::uint32_t samples, coarser; // pixels are so many times as wide and high
 };
 
-// Of many samples coarser, as the reference takes minutes for 1.6 billion terms.
+// Chips of many samples are coarser, as the reference takes minutes for 1.6 billion terms.
 const std::vector<Chip> whole_chips{{1, 1}, {2, 1}, {4, 2}}, coarse_chips{{1, 4}, {2, 4}};
 
 Sensor with_chip(Sensor sensor, const Chip &chip) {

@@ -22,7 +22,7 @@ bool is_at_step(const glm::dvec3 &point_m, const glm::dvec3 &normal, const Diode
   return at_rim || (backscatter == Backscatter::constant && in_plane);
 }
 
-// What is not asked of a setup's pixels, a flag each.
+// The pixels of a setup of which nothing is asked, a flag each.
 class LeftOut {
 public:
   LeftOut(const RandomSetup &setup, const Measurement &measured, const reference::Frame &expected)

@@ -79,7 +79,7 @@ Sensor fisheye_sensor(const glm::uvec2 &resolution) {
   return sensor;
 }
 
-// What the reference cannot afford at all.
+// A sensor that the reference cannot afford at all.
 Sensor demanding(Sensor sensor) {
   sensor.samples = 16;
   sensor.taps = 16;

@@ -1,4 +1,4 @@
-// What is said of how exact frames are.
+// The reports on how exact frames are.
 
 #include "host/bench/timing.h"
 #include "host/output/files/manifest.h"

@@ -1,4 +1,4 @@
-// What the suite's check of some pixels finds, and that it finds what is wrong.
+// The suite's check of some pixels passes a sound frame, and finds what is wrong in others.
 
 #include "host/bench/real/pixel_check.h"
 #include "host/bench/real/scene_files.h"

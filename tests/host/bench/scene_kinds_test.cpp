@@ -75,7 +75,7 @@ TEST_CASE("every kind of scene has about the triangles asked for, all sound") {
     for (const std::uint32_t triangles : {few, many}) {
       INFO(kind.name << ", " << triangles);
       const Scene scene = kind.make(triangles);
-      // Of few triangles a whole number of parts may be far off.
+      // With few triangles a whole number of parts may be far off.
       CHECK(static_cast<double>(scene.triangles.size()) ==
             Approx(triangles).epsilon(triangles == few ? 0.4 : 0.1));
       REQUIRE(scene.objects.size() == scene.surfaces.size());

@@ -23,7 +23,7 @@ Sensor two_frequencies() {
   return sensor;
 }
 
-// Of one pixel; `number` tells it from others.
+// A measurement of one pixel; `number` tells it from others.
 Measurement exposure_number(float number, std::uint32_t taps) {
   Measurement measurement;
   measurement.range_m = {number};

@@ -1,4 +1,4 @@
-// What a sequence leaves in its directory, with frames made of words instead of measurements.
+// The files that a sequence leaves in its directory, with frames made of words instead of measurements.
 
 #include "engine/model/error.h"
 #include "host/capture/frame_sequence.h"
@@ -60,7 +60,7 @@ public:
     sequence_.write(measure, part_bytes);
   }
 
-  // Of the frames that the manifest lists.
+  // The files of the frames that the manifest lists.
   std::set<std::string> listed() const {
     std::set<std::string> names;
     const auto manifest = nlohmann::json::parse(content_of(directory() / "manifest.json"));

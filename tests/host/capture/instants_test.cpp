@@ -12,7 +12,7 @@ namespace {
 
 Setup moving_setup() { return load_setup(test::scene("motion.json")); }
 
-// Of the first triangles' corners and the second illuminator's place.
+// The places of all illuminators.
 std::vector<double> places(const Instant &instant) {
   std::vector<double> numbers;
   for (const Illuminator &illuminator : instant.illuminators)

@@ -1,5 +1,5 @@
 #pragma once
-// What a test asks of a directory that was written to.
+// Queries of a directory that was written to.
 
 #include <filesystem>
 #include <fstream>

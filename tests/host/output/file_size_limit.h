@@ -1,5 +1,5 @@
 #pragma once
-// What a full disk does, on every machine.
+// The effect of a full disk, on every machine.
 
 #include <csignal>
 #include <sys/resource.h>

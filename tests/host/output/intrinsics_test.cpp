@@ -146,7 +146,7 @@ TEST_CASE("OpenCV's formulas with the manifest's figures project rays as the len
       const glm::dvec3 ray = glm::normalize(random.in_box({-0.5, -0.5, 1.0}, {0.5, 0.5, 1.0}));
       const auto chip_m = lens.chip_m(ray);
       REQUIRE(chip_m);
-      // Of OpenCV the centre of the first pixel lies at (0, 0), of the lens at (0.5, 0.5).
+      // The centre of the first pixel lies at (0, 0) in OpenCV, and at (0.5, 0.5) in the lens.
       const glm::dvec2 expected = lens.pixel(*chip_m) - 0.5;
       INFO(camera.dump(1));
       CHECK(glm::distance(opencv_pixel(camera, ray), expected) < 1e-9);

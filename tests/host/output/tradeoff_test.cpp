@@ -59,7 +59,7 @@ Tradeoff example() {
 
 std::ptrdiff_t lines(const std::string &text) { return std::ranges::count(text, '\n'); }
 
-// Of the picture, those that are neither white nor grey.
+// The number of the picture's pixels that are neither white nor grey.
 int coloured_pixels(Canvas canvas) {
   return pmdsim::test::count_pixels(canvas, [](std::uint32_t colour) {
     const auto [least, most] = std::minmax({colour & 0xffu, (colour >> 8) & 0xffu, colour >> 16});

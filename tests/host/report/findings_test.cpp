@@ -1,4 +1,4 @@
-// What check finds in a setup, against figures worked out by hand.
+// The findings of check on a setup, against figures worked out by hand.
 
 #include "engine/reference/reference.h"
 #include "host/report/findings.h"

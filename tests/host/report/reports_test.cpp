@@ -1,4 +1,4 @@
-// What check and bench say of a setup, in text and in JSON.
+// The reports of check and bench on a setup, in text and in JSON.
 
 #include "tests/program/program.h"
 

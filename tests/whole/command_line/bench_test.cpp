@@ -1,4 +1,4 @@
-// What `bench SETUP --json` tells. No test looks at how long anything took.
+// The output of `bench SETUP --json`. No test looks at how long anything took.
 
 #include "tests/program/program.h"
 #include "tests/program/refusal.h"

@@ -1,4 +1,4 @@
-// What the commands print and leave behind.
+// The commands' output, and the files that they leave behind.
 
 #include "tests/program/program.h"
 

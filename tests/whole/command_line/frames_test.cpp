@@ -73,7 +73,7 @@ std::string bytes_of(const std::string &file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// What moves in scenes/motion.json, seen by its sensor, tap by tap, and by another in one exposure.
+// The moving things of scenes/motion.json, seen by its sensor, tap by tap, and by another in one exposure.
 std::string moving_setup_of_two_sensors() {
   const std::string setup =
       with(bytes_of(scene("motion.json")), "\"moving.gltf\"", "\"" + scene("moving.gltf") + "\"");

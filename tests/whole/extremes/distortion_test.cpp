@@ -1,4 +1,4 @@
-// What a lens with distortion makes hard: triangles smaller than pixels, and images one pixel wide.
+// Cases that a lens with distortion makes hard: triangles smaller than pixels, and images one pixel wide.
 
 #include "engine/lens/lens.h"
 #include "tests/comparison/comparison.h"

@@ -24,7 +24,7 @@ bool sees_the_same(const Measurement &measured, const reference::Frame &expected
   return true;
 }
 
-// Of a pixel that light returns to.
+// Whether the values of a pixel that light returns to are possible.
 bool is_possible(const Return &measured, double ambiguity_m, std::size_t pixel) {
   const auto within = [](float value, double end) {
     return value >= 0.0f && static_cast<double>(value) < end;
@@ -84,7 +84,7 @@ double ExtremeTruth::limit_m(std::size_t pixel) const {
 bool ExtremeTruth::is_known(std::size_t pixel) const {
   if (!(frame_.returns[0].amplitude[pixel] > 0))
     return false;
-  // Of a path's phase: that of the sine, and of the path's length in turns.
+  // The rounding of a path's phase is that of the sine and that of the path's length in turns.
   const double rounding_turns = (1.0 + frame_.range_m[pixel] / ambiguity_m()) * 0x1p-52;
   return condition(pixel) * rounding_turns * ambiguity_m() < 0.1e-6;
 }

@@ -10,9 +10,9 @@
 
 namespace pmdsim::test {
 
-// What the reference says, and what is asked of each pixel: 1 micrometre or 1.2e-7 of the distance (of the
-// point or of the wrapped distance, whichever is larger: the last bits of its float), and a thousandth of the
-// ambiguity range at most; times the pixel's condition, as far as returns cancel.
+// The reference's frame, and the largest error that is allowed at each pixel: 1 micrometre or 1.2e-7 of the
+// distance (of the point or of the wrapped distance, whichever is larger: the last bits of its float), and a
+// thousandth of the ambiguity range at most; times the pixel's condition, as far as returns cancel.
 class ExtremeTruth {
 public:
   explicit ExtremeTruth(const ExtremeSetup &setup);
@@ -26,7 +26,7 @@ public:
   // Light returns, and does not cancel so far that rounding shows in the reference's double.
   bool is_known(std::size_t pixel) const;
 
-  // Of all pixels that are known.
+  // Over all pixels that are known.
   double smallest_limit_m() const;
   double largest_condition() const;
 

@@ -28,7 +28,8 @@ struct ExtremeSetup {
   double behind_w_sr = 0.0;    // of a second ring, as far behind the wall as the lens is before it; 0: none
   double over_wall_m = 0.0;    // height of the diodes, spread before the wall; 0: a ring around the lens
   // A second ring of as many diodes whose light arrives half a turn later, by its modulation phase or by its
-  // place, half a wavelength behind the lens. What it leaves of the first one's return, on the optical axis.
+  // place, half a wavelength behind the lens. `left_over` is what it leaves of the first one's return, on the
+  // optical axis.
   enum class Opposed { no, phase, path } opposed = Opposed::no;
   double left_over = 0.0;
 };

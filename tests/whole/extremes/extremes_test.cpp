@@ -209,7 +209,7 @@ std::string errors(const ExtremeRun &run) {
                      run.impossible > 0 ? fmt::format(" !{}", run.impossible) : "");
 }
 
-// What mode auto picked, and the error that it claims.
+// The precision and diodes that mode auto picked, and the error that it claims.
 std::string choice(const ExtremeRun &run) {
   if (!run.refusal.empty())
     return fmt::format("{:>21}", "");
@@ -235,7 +235,7 @@ void check(const ExtremeTruth &truth, const Runs &runs) {
     CHECK(run->differing <= truth.frame().range_m.size() / 20);
   }
   CHECK(runs.chosen.error_over_limit <= 1.0);
-  // What mode auto promises is the same for all pixels.
+  // Mode auto promises the same error for all pixels.
   CHECK(runs.chosen.error_m <= truth.smallest_limit_m());
 }
 

@@ -8,7 +8,7 @@
 
 namespace pmdsim::test {
 
-// What `action` throws, which has to be an Error with ExitCode::input in one line of bearable length.
+// The message of what `action` throws, an Error with ExitCode::input in one line of bearable length.
 template <class Action>
 std::string input_error_of(Action action) {
   try {

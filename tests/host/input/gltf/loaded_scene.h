@@ -1,5 +1,5 @@
 #pragma once
-// What a glTF document loads as, or why it does not.
+// The scene that a glTF document loads as, or the error if it does not load.
 
 #include "host/input/gltf/loader.h"
 #include "tests/host/input/file/input_error_of.h"

@@ -1,4 +1,4 @@
-// What comes later is refused by name, never ignored.
+// Features of glTF that are not supported are refused by name, never ignored.
 
 #include "host/input/gltf/extensions.h"
 #include "host/input/schema/schema_check.h"

@@ -7,7 +7,7 @@
 
 namespace pmdsim::test {
 
-// What a PNG stores: rows as the format packs them, the more significant byte first.
+// The contents of a PNG: rows as the format packs them, the more significant byte first.
 struct PngImage {
   std::uint32_t width = 1, height = 1;
   int bits = 8;

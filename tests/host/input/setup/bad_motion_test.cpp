@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-// Of loading alone: that is when all this is found.
+// The error of loading alone: that is when all this is found.
 std::string error_of(const json &gltf) {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.gltf", gltf.dump());
