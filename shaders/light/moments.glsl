@@ -10,17 +10,17 @@
 layout(constant_id = constant_moments) const uint moments = 4;
 layout(constant_id = constant_tones) const uint tones = 1;
 
-// What is summed over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
+// The sums over the diodes: sum_m w_m e_m^k or, where `powers` is not 0, S_i = sum_m (w_m r_m^p) q_m^i.
 const uint sums = powers > 0 ? powers : moments;
-// Of equal weights S_1 is linear in the point and needs no loop, as S_0; the loop has something to do in any case.
+// With equal weights S_0 is known and S_1 is linear in the point: neither needs the loop.
 const bool linear_known = equal_weights != 0 && powers > 2;
 
-// Of a run, the diodes summed beforehand (engine/light/point_polynomials.h).
+// A run's diodes may be summed beforehand (engine/light/point_polynomials.h).
 layout(constant_id = constant_point_dimensions) const uint point_dimensions = 0;
-// Or the host has, sample by sample (engine/light/host/law_sums.h).
+// Or the host has summed them, sample by sample (engine/light/host/law_sums.h).
 layout(constant_id = constant_summed_by_host) const uint summed_by_host = 0;
 
-// Of equal weights only the places are there.
+// Diodes of equal weights are stored as places only.
 GroupSource load_diode(uvec2 diodes, uint i) {
   if (equal_weights == 0)
     return Diodes(diodes).at[i];
@@ -50,9 +50,9 @@ void add_block(inout float total[sums], Point point, uvec2 diodes, uint block, u
     total[k] += part[k];
 }
 
-// What a run's diodes come to without their phases, and what rounding grows by, as the terms of their polynomial in u, all taken
-// as positive, may come to more: |u| <= t^2 + 2 t |P - G| / rho, t the run's radius over rho, where only what the diodes' plane
-// sees of P counts.
+// The sum of a run's weights, and the factor by which the terms of their polynomial in u, all taken as positive, may exceed it:
+// rounding grows by that factor. |u| <= t^2 + 2 t |P - G| / rho, t the run's radius over rho. Only the part of P - G in the
+// diodes' plane counts where the diodes are coplanar.
 struct Weights {
   float sum, growth;
 };
@@ -72,13 +72,12 @@ float growth_at(Point point, LightRun run) {
   return sum;
 }
 
-// Of a weight, beside its intensity.
-const uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
-
 // With w = (w r^p) rho^-p (1 + u)^(-p/2), e = rho (sqrt(1 + u) - 1) and u = q / rho^2 both are functions of u, for which the run has
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
 // `unit_m2`: of the sums, by their power of q.
 void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments], out Weights weights) {
+  // The cosines in a weight, beside its intensity.
+  const uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   float scale = 1.0 / (point.rho * point.rho), inverse_rho2 = unit_m2 * scale;
   if (powers > 0)
     [[unroll]] for (uint i = 0; i < lengths; ++i)
@@ -109,7 +108,7 @@ const uint components = backscatter_model == backscatter_lambert ? point_dimensi
 uint triangular(uint n) { return n * (n + 1) / 2; }
 uint tetrahedral(uint n) { return n * (n + 1) * (n + 2) / 6; }
 
-// Of S_degree, by Horner's rule; `first` is the degree's first coefficient.
+// One component of S_degree, by Horner's rule; `first` is the degree's first coefficient.
 float polynomial_of(Floats from, uint first, uint degree, uint component, vec3 at) {
   float in_z = 0.0;
   [[unroll]] for (uint l_down = 0; l_down < (point_dimensions == 3 ? powers : 1); ++l_down) {
@@ -152,12 +151,12 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
   }
 }
 
-// Of the diodes of a run's block, counted from the run's first, those that reach sample i, a bit each; only asked where `shadowed`.
+// A bit for each diode of a run's block, counted from the run's first, that reaches sample i. It is asked only where `shadowed`.
 #ifndef VISIBILITY_OF_BLOCK
 #define VISIBILITY_OF_BLOCK(i, block) 0u
 #endif
 
-// The run's k-th moment at sample i, and behind them what its polynomials' terms are to be held against; only asked where
+// The run's k-th moment at sample i, and behind them the sum that its polynomials' terms are held against. It is asked only where
 // `summed_by_host`.
 #ifndef MOMENT_OF_RUN
 #define MOMENT_OF_RUN(i, k) 0.0
