@@ -16,18 +16,18 @@
 namespace pmdsim {
 namespace {
 
-// Of what rounding leaves of the error asked for, how much the reduced set may take in each plan. The rest is
-// for pixels whose returns cancel in part.
+// The share that the reduced set may take in each plan of what rounding leaves of the error asked for. The
+// rest is for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
 // error than rounding does, or this share.
 constexpr double least_share_of_reduction = 0.02;
 
 // Pixels whose bound is so many times that of one in which nothing cancels are summed in double, wherever
-// they can be: few are, and the frame claims what the worst of the others may be off by.
+// they can be. There are few of them, and the frame claims the worst bound of the others.
 constexpr double largest_bound_in_float = 2.0;
 
-// Relative, one rounding; of paint, texture and vignetting.
+// Relative errors: one rounding; those of paint, texture and vignetting.
 constexpr double plain_backscatter_error = 0x1p-24, painted_backscatter_error = 0x1p-21;
 
 std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
@@ -37,7 +37,7 @@ std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
   return result;
 }
 
-// Of a pixel, seen from the lens; at most.
+// An upper bound of a pixel's angle, seen from the lens.
 double pixel_rad(const Sensor &sensor) {
   if (sensor.has_distortion() || !sensor.chip.is_nominal())
     return std::numeric_limits<double>::infinity();
@@ -63,7 +63,7 @@ std::optional<RoundingBound> bound_of(const LightFacts &view, const SourceGroups
   return rounding_bound(groups, view.visible, view.model, view.modulation, scope);
 }
 
-// The same of pixels whose samples are at one range; nothing where there is only one.
+// The same for pixels whose samples are at one range; nothing where there is only one sample.
 std::optional<RoundingBound> at_one_range(const LightFacts &view, const SourceGroups &groups,
                                           Precision precision, std::uint32_t samples,
                                           bool beforehand = false) {
@@ -130,9 +130,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     SourceGroups groups = groups_of(view, view.lights, precision);
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
-    // Of one sample a pixel, near ones may pass to a class in double; of several, that takes too long. Where
-    // shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart, may
-    // pass.
+    // With one sample a pixel, near pixels may pass to a class in double; with several, that takes too long.
+    // Where shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart,
+    // may pass.
     const bool several = view.sensor.samples > 1;
     const auto usual =
         several && view.modulation.lit ? at_one_range(view, groups, precision, view.sensor.samples) : bound;
@@ -146,7 +146,7 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   refuse(accuracy, why_unbounded(view.lights));
 }
 
-// `at_one_range`: the same of pixels whose samples are.
+// `at_one_range`: the rounding of pixels whose samples are at one range.
 ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &rounding, const ReducedLight &light,
                           const std::optional<RoundingBound> &at_one_range = std::nullopt) {
   ErrorBound bound{accuracy.max_error_m,
@@ -175,8 +175,8 @@ double largest_growth(const FramePlan &plan) {
   return growth;
 }
 
-// At most, where all paths of a pixel differ so little that none cancels another, and nothing but light
-// counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
+// An upper bound of the condition, where all paths of a pixel differ so little that none cancels another, and
+// nothing but light counts as terms (terms_of in shaders/light/sum.glsl); nothing where it may be more.
 std::optional<double> largest_condition(const LightFacts &view, const FramePlan &plan) {
   const double wavenumber = view.modulation.largest_wavenumber_rad_m();
   const double half_rad = 0.5 * wavenumber * glm::distance(plan.extent.box.low_m, plan.extent.box.high_m);
@@ -188,7 +188,7 @@ std::optional<double> largest_condition(const LightFacts &view, const FramePlan 
   return largest_growth(plan) / std::cos(half_rad);
 }
 
-// What no pixel is off by more than, if that is known before the frame.
+// The errors that no pixel exceeds, if they are known before the frame.
 struct SureBound {
   double distance_m, amplitude;
 };
@@ -205,7 +205,7 @@ std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bo
                    bound.amplitude_fixed + relative};
 }
 
-// Of what is asked for, every pixel makes sure, where it is not known before.
+// Where no bound is known before the frame, every pixel makes sure of the limits, so that these are claimed.
 void claim_within_limits(const LightFacts &view, const ErrorBound &bound, FramePlan &plan) {
   const auto sure = sure_bound(view, bound, plan);
   plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
@@ -265,7 +265,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
     plan.refined_bound = bound_at(2, point_spread_m);
 }
 
-// Of the bounds of what is summed in float, at a condition.
+// The largest of the bounds of what is summed in float, at a condition.
 double largest_m(const FramePlan &plan, double condition) {
   double largest = 0.0;
   for (const auto *bound : {&plan.bound, &plan.bound_of_all, &plan.bound_beforehand})
@@ -275,8 +275,8 @@ double largest_m(const FramePlan &plan, double condition) {
   return largest;
 }
 
-// For the pixels that float is not exact enough for. Bits that tell who reaches a sample are in the order of
-// the plan's sources.
+// For the pixels that float is not exact enough for. Bits that tell which sources reach a sample are in the
+// order of the plan's sources.
 void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
   if (plan.surely_kept || plan.precision == Precision::fp64 || accuracy.precision ||
       view.sensor.has_distortion() || (view.modulation.lit && plan_windows(plan.all).size() > 1))
@@ -290,7 +290,7 @@ void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, Frame
   plan.bound_of_precise =
       error_bound_of(accuracy, *rounding, whole_light(view.lights),
                      at_one_range(view, *plan.precise, Precision::fp64, view.sensor.samples));
-  // Diagrams take long to be looked up in double: only what is beyond the budget tries it.
+  // Diagrams take long to be looked up in double: only pixels beyond the budget try it.
   if (std::ranges::any_of(plan.all.positions,
                           [](const SourcePosition &place) { return place.law_error > 0.0; }))
     return;
@@ -406,7 +406,7 @@ std::optional<std::string> beyond_bound(const shader::BudgetViolations &violatio
 std::optional<std::string> beyond_check(const AccuracyReport &found, const Accuracy &asked_for,
                                         double ambiguity_m) {
   const double found_m = found.found_m.value_or(0.0), amplitude = found.found_amplitude.value_or(0.0);
-  // What is compared is rounded to float itself.
+  // The distances that are compared are themselves rounded to float.
   const double rounding_m = 0x1p-24 * ambiguity_m;
   // Which pixels' amplitudes are not promised is not known one by one.
   const bool amplitude_holds = amplitude <= asked_for.max_amplitude_error + 0x1p-23 || found.unpromised > 0;

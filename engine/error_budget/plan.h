@@ -26,47 +26,47 @@ struct LightFacts {
   bool painted = true; // some surface's backscatter is looked up
 };
 
-// What the uniform-pixel pass has to know of the light.
+// The light's extent, for the uniform-pixel pass.
 struct LightExtent {
   VisibleBox box;             // holds all diodes, camera frame
   double pattern_slope = 0.0; // radiation_laws.h
 };
 
-// Four points of a pixel, whose ranges differ by no more, may stand in for its samples.
+// Four points of a pixel may stand in for its samples where their ranges differ by no more.
 inline constexpr double point_spread_m = 0.1;
 
 struct FramePlan {
   Precision precision = Precision::fp32;
   SourceGroups all;            // every diode
-  SourceGroups reduced;        // of those, with other intensities, that do where all light and face a point
+  SourceGroups reduced;        // some of those, with other intensities, for points that all light and face
   SourceGroups uniform_groups; // the reduced set in float, for the uniform-pixel pass
   LightExtent extent;          // of the light, as the reduced set's bound has it
-  // Of what the reduced set sums, and of what all do; nothing where no error was asked for.
+  // The bounds of the reduced set's sum and of the sum of all; nothing where no error was asked for.
   std::optional<ErrorBound> bound, bound_of_all;
-  // Of all, summed beforehand (point_polynomials.h); likewise, and nothing where they cannot be.
+  // The bound of all, summed beforehand (point_polynomials.h); nothing also where they cannot be.
   std::optional<ErrorBound> bound_beforehand;
-  // Every diode in fp64, for pixels that may be beyond the bound in float, and what rounding leaves of those;
-  // nothing where there are no such pixels, or float is all there is.
+  // Every diode in fp64, for pixels that may be beyond the bound in float, and the bound of those; nothing
+  // where there are no such pixels, or float is all there is.
   std::optional<SourceGroups> precise;
   std::optional<ErrorBound> bound_of_precise;
-  // Of what the uniform-pixel pass sums; nothing where that is not exact enough.
+  // The bound of the uniform-pixel pass's sum; nothing where that is not exact enough.
   std::optional<ErrorBound> uniform_bound;
-  // Likewise of pixels of several samples that it sums at four points.
+  // Likewise for pixels of several samples that it sums at four points.
   std::optional<ErrorBound> refined_bound;
-  bool surely_kept = false; // by every pixel, which is known before the frame
-  // Before the frame; nothing where theory knows no bound.
+  bool surely_kept = false; // every pixel's error is within the limits, as is known before the frame
+  // The errors claimed before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
 
   bool is_reduced() const { return reduced.diodes.size() < all.diodes.size(); }
 };
 
-// Of pixels of which some keep the one and some the other.
+// The bound of pixels of which some keep the one bound and some the other.
 ErrorBound worse_of(ErrorBound a, const ErrorBound &b);
 
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;
 
-// The `attempt`-th of them. Throws Error (accuracy) where none can bound what is asked for.
+// Makes the `attempt`-th of them. Throws Error (accuracy) where none can bound what is asked for.
 FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt);
 
 // Why some pixels of a frame do not keep the error that was asked for; nothing where all pixels' bounds do.

@@ -81,14 +81,15 @@ LawRounding law_rounding(const SourceGroups &groups, const SumModel &model, cons
           scope.beam_edges_are_terms ? beam_cosine : scope.emission_cosine};
 }
 
-// What is left of u = q / rho^2, u: |q| <= 2 rho R + R^2, six roundings in its larger part and three in its
+// The rounding of q / rho^2, u: |q| <= 2 rho R + R^2 has six roundings in its larger part and three in its
 // smaller; 1 / rho^2 is a product and a division of the rounded rho.
 constexpr double inverse_square = division_u + 3.0;
 double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
 
-// Of a polynomial's terms: of the i-th, i products in the loop over the diodes, then i times 1 / rho^2 and
-// as many sums. Summed beforehand a coefficient is rounded, and in place of the loop's products come those of
-// the point's coordinates, two sums and a product each, and of heights the sum over the axes.
+// The rounding of a polynomial's terms, u: the i-th takes i products in the loop over the diodes, then i
+// times 1 / rho^2 and as many sums. Summed beforehand, a coefficient is rounded, and in place of the loop's
+// products come those of the point's coordinates, two sums and a product each, and for heights the sum over
+// the axes.
 double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) {
   if (scope.beforehand)
     return beforehand_error_u(groups.polynomials.powers) + 2.0 * groups.polynomials.powers;
@@ -126,7 +127,7 @@ double weight_error(const SourceGroups &groups, const SumModel &model, const Rou
   return error;
 }
 
-// b of e = q / (r + rho), m over u: what rounding does to q, R the largest radius, and the rest.
+// b of e = q / (r + rho), m over u: the rounding of q, R the largest radius, and the rest.
 double excess_error_m(const SourceGroups &groups, const RoundingScope &scope) {
   const double t = groups.radius_over_range;
   if (groups.polynomials.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
@@ -137,7 +138,7 @@ double excess_error_m(const SourceGroups &groups, const RoundingScope &scope) {
          groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
 
-// Of every term: its weight, relative, and its path.
+// The errors of every term: of its weight, relative, and of its path.
 struct TermError {
   double weight, path_m;
 
@@ -166,8 +167,8 @@ public:
 
 private:
   // Sums of nonnegative terms: within blocks, then of blocks, then of their stretches (in fp64 one after the
-  // other), then of runs and samples, where only a rest is rounded. What is added to nothing, and what is
-  // dark, is not rounded.
+  // other), then of runs and samples, where only a rest is rounded. A term that is added to nothing, or that
+  // is dark, is not rounded.
   double summation() const {
     const double samples = scope_.samples;
     const double of_rests = 0x1p-47 * (static_cast<double>(groups_.runs.size()) + samples * samples);
@@ -187,7 +188,7 @@ private:
     return groups_.polynomials.powers > 0 ? groups_.polynomials.path_terms_m : groups_.path_difference_m;
   }
 
-  // Phases that differ by more than the paths': as bad as any.
+  // Where the groups' own phases differ, the spread is as bad as any.
   double spread_m() const {
     const auto other = [&](const SourceRun &run) { return run.phase_turns != groups_.runs[0].phase_turns; };
     return std::ranges::any_of(groups_.runs, other) ? std::numeric_limits<double>::infinity()
@@ -225,7 +226,7 @@ private:
     return error;
   }
 
-  // What the camera takes from the sum.
+  // The bounds of what the camera takes from the sum.
   RoundingBound fixed(double wavenumber_rad_m) const {
     double ambiguity_m = std::numbers::pi / wavenumber_rad_m;
     if (scope_.precision == Precision::fp64) // half a unit in the last place of the largest float below
@@ -244,7 +245,7 @@ private:
     return bound;
   }
 
-  // All of harmonics is turned by its whole phase, in float; those whose returns the taps mistake for the
+  // Every harmonic is turned by its whole phase, in float; those whose returns the taps mistake for the
   // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
     const double rotation = modulation_.waveform == shader::waveform_harmonics ? phasor * u_ : 0.0;
@@ -304,7 +305,7 @@ private:
   double weight_; // relative error of each
 };
 
-// Of all that lies in `box`, seen from diodes within `from`: the cosine to `axis`, at least.
+// A lower bound of the cosine to `axis` of all that lies in `box`, seen from diodes within `from`.
 double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const VisibleBox &box) {
   const glm::dvec3 low_m = box.low_m - from.high_m, high_m = box.high_m - from.low_m;
   const glm::dvec3 along_m = glm::min(axis * low_m, axis * high_m);
@@ -312,7 +313,7 @@ double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const Visibl
   return height_m / glm::length(glm::max(glm::abs(low_m), glm::abs(high_m)));
 }
 
-// Some `most` boxes that hold all of `boxes`.
+// At most `most` boxes that hold all of `boxes`.
 std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t most) {
   const std::size_t each = (boxes.size() + most - 1) / most;
   std::vector<VisibleBox> result;

@@ -1,6 +1,6 @@
 #pragma once
-// What rounding may do to a frame, from theory: known before the frame, from the light and from boxes around
-// what is visible.
+// A bound of the rounding of a frame, from theory: known before the frame, from the light and from boxes
+// around what is visible.
 
 #include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
@@ -13,19 +13,19 @@
 
 namespace pmdsim {
 
-// Of any pixel, against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms| over
-// |sum|, >= 1, the terms times what rounding grows by there (MomentPolynomials::growth at most); for
-// harmonics the terms are those of all harmonics, each times its amplitude.
+// The error of any pixel against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms|
+// over |sum|, >= 1, the terms times the factor by which rounding grows there (MomentPolynomials::growth at
+// most); for harmonics the terms are those of all harmonics, each times its amplitude.
 struct RoundingBound {
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
-  // Included above: what a relative error of every weight does, over that error.
+  // Included above: the effect of a relative error of every weight, over that error.
   double per_weight_m, amplitude_per_weight;
   // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
   double beam_edge_error;
-  // For each metre that the ranges of a pixel's samples differ by, the first two together grow by no more, at
-  // any condition; infinite where that is not known.
+  // The most that fixed_m and per_condition_m together grow by for each metre between the ranges of a pixel's
+  // samples, at any condition; infinite where that is not known.
   double per_apart;
 
   double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
@@ -47,21 +47,21 @@ struct RoundingScope {
   // Every diode that lights the pixel does so at these cosines at least: to the surface's normal, which
   // matters to Lambert's law, and to its own axis.
   double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
-  // What is more than 45 degrees off a diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
+  // Light more than 45 degrees off its diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
   bool beam_edges_are_terms = false;
   bool beforehand = false; // the groups are summed beforehand (point_polynomials.h)
-  // Of a surface's backscatter, relative: one rounding. Paint and vignetting are a few more.
+  // The relative error of a surface's backscatter: one rounding. Paint and vignetting add a few.
   double backscatter_error = 0x1p-24;
 };
 
-// Nothing where a diode's law has no bound (law_error); else what is off in diagrams is in the pixel's terms
-// (shaders/light/sum.glsl), as grazing light is where the scope's cosine is 1.
+// Nothing where a diode's law has no bound (law_error). The errors of diagrams are in the pixel's terms
+// (shaders/light/sum.glsl), as grazing light is where the scope's incidence_cosine is 1.
 std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
                                             const std::vector<VisibleBox> &visible, const SumModel &model,
                                             const Modulation &modulation, const RoundingScope &scope);
 
-// For RoundingScope: a bound from below over all that is visible, at least grazing_cosine; where that is more
-// than is true, pixels in grazing light have no bound.
+// For RoundingScope: a lower bound of the emission cosine over all that is visible, but at least
+// grazing_cosine. Pixels with a smaller one have no bound.
 double least_emission_cosine(const SourceGroups &groups, const std::vector<VisibleBox> &visible);
 
 } // namespace pmdsim

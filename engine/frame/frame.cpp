@@ -26,7 +26,7 @@ void Frame::clear_violations(vulkan::PassRecorder &recorder) const {
   recorder.finish();
 }
 
-// What is left to the host: frames in which nothing stands in any light, and samples that see nothing.
+// The part left to the host: frames in which nothing stands in any light, and samples that see nothing.
 void Frame::finish_visibility(Measurement &measurement) const {
   if (on_.path.windows == 0) {
     measurement.lit.resize(measurement.coverage.size());
@@ -38,7 +38,7 @@ void Frame::finish_visibility(Measurement &measurement) const {
     clear_unseen(measurement);
 }
 
-// What the pixels that keep what was asked for claim together, and how many do not.
+// The joint claim of the pixels that keep what was asked for, and the number of returns that do not.
 void Frame::finish_claims(Measurement &measurement) const {
   const shader::BudgetViolations words = budget_violations(on_.memory->buffers);
   AccuracyReport &report = measurement.accuracy;
@@ -63,7 +63,7 @@ Measurement Frame::measure(vulkan::PassRecorder &recorder, Measurement &&memory,
   recorder.reset();
   Measurement measurement = make_measurement(on_.sensor, on_.modulation, options_, std::move(memory));
   const double memory_ms =
-      vulkan::milliseconds_since(start); // of a first frame, to which the system gives it
+      vulkan::milliseconds_since(start); // long for a first frame, to which the system gives the memory
   measurement.number = number;
   measurement.accuracy = on_.report;
   const bool shaded = shadows_ == Shadows::automatic;

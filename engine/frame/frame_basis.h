@@ -1,5 +1,5 @@
 #pragma once
-// What all that is made for a frame follows from.
+// The basis of everything that is made for a frame.
 
 #include "engine/error_budget/plan.h"
 #include "engine/frame/frame_facts.h"

@@ -14,7 +14,7 @@
 
 namespace pmdsim {
 
-// What is measured, and how well. The scene outlives the preparation only.
+// The scene, sensor and light to measure, and how exactly. The scene outlives the preparation only.
 struct FrameRequest {
   const Scene &scene;
   Sensor sensor;
@@ -33,7 +33,7 @@ struct FrameFacts {
   Projection projection;
   PaintUse paint;
   std::uint32_t largest_strip; // samples
-  bool has_doubles;            // what is done once a sample is done in them
+  bool has_doubles;            // the work done once a sample is done in them
   bool host_is_device;         // the device is the processor that the program runs on
 };
 

@@ -12,21 +12,22 @@ namespace pmdsim {
 
 class FrameGraph {
 public:
-  // `left`: what another list has left to be read.
+  // `left`: the resources that another list has left to be read.
   explicit FrameGraph(Resources left = no_resource) : written_(left) {}
 
-  // Passes before the windows of visibility bits, of each window, and after all of them; in this order.
+  // Add passes before the windows of visibility bits, to each window, and after all of them; in this order.
   // Throws std::logic_error where a pass reads what none before it has written.
   void add_before(Pass pass);
   void add_to_window(Pass pass);
   void add_after(Pass pass);
 
-  // A strip's passes, from the first to the host's share of the last. `progress` hears of parts done, 0 to 1.
+  // Runs a strip's passes, from the first to the host's share of the last. `progress` is told the fraction of
+  // a pass's parts that is done, 0 to 1.
   void run(vulkan::PassRecorder &recorder, const PlannedStrip &planned, std::size_t strip,
            std::size_t windows, const std::function<void(double)> &progress, Measurement &to) const;
 
-  // Every pass once over a single pixel, and each that has a first and a later form twice: lavapipe compiles
-  // a shader at its first dispatch. The pixel is put into every list; what becomes of it is of no interest.
+  // Runs every pass once over a single pixel, and each that has a first and a later form twice: lavapipe
+  // compiles a shader at its first dispatch. The pixel is put into every list; its values are of no interest.
   void warm_up(vulkan::PassRecorder &recorder, PlannedStrip planned, std::size_t windows) const;
 
 private:
@@ -34,7 +35,7 @@ private:
     vulkan::PassRecorder &recorder;
     const PlannedStrip &planned;
     std::size_t strip;
-    const std::function<void(double)> *progress = nullptr; // of a warm-up, as below
+    const std::function<void(double)> *progress = nullptr; // null in a warm-up, as below
     Measurement *to = nullptr;
     bool open = false;                                   // commands are being recorded
     Resources written = no_resource, read = no_resource; // since the last barrier

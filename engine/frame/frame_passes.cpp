@@ -22,7 +22,7 @@ namespace {
 std::vector<shader::TrianglePlane> planes_of(const FrameFacts &facts, const FrameRequest &request) {
   auto planes = triangle_planes(facts.camera, request.scene, request.backscatter,
                                 request.sensor.has_distortion() ? AlongRay::range : AlongRay::depth);
-  if (planes.empty()) // what sees nothing looks the first one up
+  if (planes.empty()) // samples that see nothing look the first one up
     planes.emplace_back();
   return planes;
 }
@@ -47,7 +47,7 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
   return truth;
 }
 
-// What a strip keeps of its samples.
+// The layout of what a strip keeps of its samples.
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
                        const FramePath &path) {
   const bool depth_only = path.keeps_depths_only();
@@ -108,7 +108,7 @@ Pass raster_pass(const FrameBasis &on, const std::shared_ptr<const IdRasterPass>
           }};
 }
 
-// What each sample sees, and where.
+// The passes that find what each sample sees, and where.
 void list_view(const FrameBasis &on, const std::shared_ptr<const IdRasterPass> &raster,
                const std::optional<ChipGrid> &grid, FrameGraph &graph) {
   graph.add_before(raster ? raster_pass(on, raster, grid) : host_raster_pass(on, grid));
@@ -148,7 +148,7 @@ struct ClassLists {
   const vulkan::Buffer *list = nullptr, *later = nullptr;
 };
 
-// A sum over all that every source reaches is taken beforehand where it can be.
+// A sum over samples that every source reaches is taken beforehand where it can be.
 void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
              SumScope scope, FrameGraph &graph) {
   scope.beforehand =
@@ -161,7 +161,7 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
   scope.list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
 }
 
-// The device goes on from the host's sums, which shadows are in already.
+// The device goes on from the host's sums, which contain the shadows already.
 void add_host_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                   SumScope scope, FrameGraph &graph) {
   graph.add_to_window(host_sum_pass(on, groups, scope));
@@ -198,7 +198,7 @@ void sum_records(const FrameBasis &on, const SourceGroups &groups, const std::ve
   add_sum(on, groups, windows, std::move(scope), graph);
 }
 
-// What becomes of it, and of what its pixels may be off by.
+// The passes behind that sum: its demodulation, and the claims on its pixels' errors.
 void demodulate_records(const FrameBasis &on, const SourceGroups &groups, SumScope scope, FrameGraph &graph) {
   const bool settles = holds_pixels(on.modulation);
   if (on.path.direct) {
@@ -239,7 +239,7 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
 }
 
-// How much there is to do for the classes that follow, which the last one has listed pixels for.
+// Counts the work of the classes that follow, for which the last one has listed pixels.
 Pass count_pass(const std::shared_ptr<const PixelLists> &lists) {
   return {.name = "accumulate",
           .reads = pixel_lists,
@@ -283,7 +283,7 @@ void list_classes(const FrameBasis &on, const BlockLists *blocks, FrameGraph &gr
   }
 }
 
-// Some pixels of a strip again, with every sample and source. The bits of the last window are there still.
+// Some pixels of a strip again, with every sample and source. The bits of the last window are still there.
 void list_check(const FrameBasis &on, const SpotCheck &check, const ShadowPasses &shadow, FrameGraph &graph) {
   Modulation modulation = on.modulation;
   modulation.keeps_terms = modulation.reports_kept = false;
@@ -313,7 +313,7 @@ void list_check(const FrameBasis &on, const SpotCheck &check, const ShadowPasses
   graph.add_after(std::move(read_back));
 }
 
-// What is known before the frame.
+// The part of the report that is known before the frame.
 AccuracyReport report_of(const FramePlan &plan, const FramePath &path) {
   AccuracyReport report;
   report.precision = plan.precision;

@@ -40,7 +40,7 @@ struct SpareMemory {
   std::optional<RasterImages> images;
 };
 
-// As the `attempt`-th of frame_plans has it. Throws Error: out_of_memory, accuracy.
+// Made by the `attempt`-th of frame_plans plans. Throws Error: out_of_memory, accuracy.
 FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &options,
                         const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
                         SpareMemory &&spare);

@@ -27,7 +27,7 @@ Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
                                          : Summation::moments;
 }
 
-// With what it sums beforehand the device is as fast, so that only shaded samples go to the host.
+// Where it sums beforehand the device is as fast, so that only shaded samples go to the host.
 HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const SourceGroups &groups,
                     const PathForms &allowed) {
   if (path.windows > 1 || !facts.host_is_device || !allowed.host_sum ||
@@ -38,13 +38,13 @@ HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const Source
   return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::shaded : HostSum::none;
 }
 
-// Within a pixel the light has to change as a known function does: paint may not, nor where beams end.
+// Whether the light within a pixel changes as a known function does: paint does not, nor do beams' ends.
 bool is_smooth(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
   return !facts.paint.painted && sensor.vignetting == Vignetting::none &&
          std::isfinite(plan.extent.pattern_slope);
 }
 
-// Some pixels may not face or be lit by all sources.
+// Whether some pixels may not face all sources, or not be lit by all.
 bool has_rest(const FrameFacts &facts) {
   return facts.modulation.lit || facts.model.backscatter != shader::backscatter_flat;
 }
@@ -60,7 +60,7 @@ bool can_fuse(const SourceGroups &groups, const Modulation &modulation, const Se
          groups.runs.size() * groups.blocks_per_run <= usual_run_blocks;
 }
 
-// How many points of a pixel whose light is uniform do for its samples; nothing where none do.
+// The number of points that do for the samples of a pixel whose light is uniform; nothing where none do.
 std::optional<std::uint32_t> uniform_points(const FrameFacts &facts, const FramePlan &plan,
                                             const FrameRequest &request, const PathForms &allowed) {
   const Sensor &sensor = request.sensor;
@@ -89,7 +89,7 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
     classes.push_back({PixelsOf::uniform, true, *points, Precision::fp32, false, plan.uniform_bound});
   if (points && samples > 1 && plan.refined_bound && allowed.refined_uniform_pixels)
     classes.push_back({PixelsOf::uniform_refined, true, 4, Precision::fp32, false, plan.refined_bound});
-  // Of one sample a pixel, the uniform ones are all that every source lights; those that may not keep the
+  // With one sample a pixel, the uniform pixels are all that every source lights; those that may not keep the
   // bound with the reduced set go to the rest.
   if (!points || samples > 1 || (!plan.surely_kept && !plan.precise))
     classes.push_back({PixelsOf::unshadowed, true, samples, plan.precision, false, plan.bound});
@@ -110,14 +110,14 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
     add_precise(facts, plan, samples, classes);
     return classes;
   }
-  // Of one sample a pixel, classes are worth their lists only where fewer sources do for some of them.
+  // With one sample a pixel, classes are worth their lists only where fewer sources do for some of them.
   const bool uniform = uniform_points(facts, plan, request, allowed).has_value();
   const bool is_thinned = uniform && request.sensor.samples > 1;
   const bool is_reduced = plan.is_reduced() && (uniform || has_rest(facts));
   const bool sorted = can_sort(facts, windows) && (is_thinned || is_reduced);
   if (sorted)
     return sorted_classes(facts, plan, request, allowed);
-  // Where all samples are alike, what stands in for the sources does so for all of them.
+  // Where all samples are alike, the reduced set does for all of them.
   const bool reduced = plan.is_reduced() && !has_rest(facts);
   std::vector<PixelClass> classes{{PixelsOf::all, reduced, samples, plan.precision, facts.modulation.lit,
                                    reduced ? plan.bound : plan.bound_of_all}};
@@ -147,7 +147,7 @@ bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePl
          modulation.frequencies() <= most_direct_frequencies;
 }
 
-// Where samples that a source does not light or does not face are summed apart or are not there.
+// 0 unless samples that some source does not light or face are summed apart or are not there.
 std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
   const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
   const bool is_plain = !path.is_sorted() && !path.classes.front().reduced &&
@@ -156,9 +156,9 @@ std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, c
   return takes_all && is_plain && path.host_sum != HostSum::all ? plan.all.polynomials.point_dimensions : 0;
 }
 
-// Within an error sorting pixels and reducing the sources costs more than it saves where sums beforehand do
-// not depend on how many there are, or where few sources less do; of several samples a pixel, where no point
-// of it stands in for them, or shadows fall on many pixels.
+// Within an error, sorting pixels and reducing the sources costs more than it saves where sums beforehand do
+// not depend on the number of sources, or where the reduced set saves less than half of them. With several
+// samples a pixel this holds only where no point stands in for them, or where shadows may fall.
 bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
                         const PathForms &allowed) {
   const bool beforehand =
@@ -168,7 +168,7 @@ bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const Fr
   return !thins_out && (beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size());
 }
 
-// Whether what was asked for can be held against the sums of records.
+// Whether the sums of records can be held against what was asked for.
 bool can_hold_records(const FrameFacts &facts, const FrameRequest &request) {
   return request.accuracy.mode == Mode::automatic && !request.sensor.adaptive_samples &&
          facts.modulation.waveform == shader::waveform_sine &&
@@ -182,13 +182,13 @@ bool can_raster_on_host(const FramePath &path, const FrameFacts &facts, const Se
          is_even(path.grid, sensor);
 }
 
-// Of one sample a pixel, the classes begin with depths, and points are made for the lists of the later ones.
+// With one sample a pixel, the classes begin with depths, and points are made for the later ones' lists.
 bool begins_with_depths(const FramePath &path, const Sensor &sensor, const PathForms &allowed) {
   return allowed.depth_records && path.is_sorted() && sensor.samples == 1 && is_even(path.grid, sensor);
 }
 
-// What is there already, points of distorted samples or bits in the order of the plan's sources, is in the
-// plan's precision.
+// Points of distorted samples, and bits in the order of the plan's sources, are there in the plan's
+// precision.
 Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor) {
   return (facts.modulation.lit && !plan.precise) || sensor.has_distortion() ? plan.precision
                                                                             : Precision::fp64;

@@ -1,5 +1,5 @@
 #pragma once
-// The one decision on how a frame is summed, made of what the setup holds and the device can. It knows no
+// The one decision on how a frame is summed, made from the setup and from what the device can do. It knows no
 // device: whoever makes passes and memory reads it.
 
 #include "engine/error_budget/plan.h"
@@ -13,21 +13,21 @@
 
 namespace pmdsim {
 
-// Where the samples lie: evenly over an upright chip, evenly over a chip that stands anyhow, in tiles of
-// equal places in pixels that are filled in part, or along the rays of a lens that bends lines.
+// Where the samples lie: evenly over an upright chip, evenly over a chip in any pose, in tiles of equal
+// places in pixels that are filled in part, or along the rays of a lens that bends lines.
 enum class SampleGrid { nominal, posed, tiled, distorted };
 
-// What is kept of a sample before the sum: its IDs and its depth (16 bytes), or its point and surface.
+// The record of a sample before the sum: its IDs and its depth (16 bytes), or its point and surface.
 enum class SampleRecord { depth, point };
 
-// What is summed over the sources: powers of r_nm^2 - rho^2, powers of the path difference, or each source's
-// return.
+// The terms that are summed over the sources: powers of r_nm^2 - rho^2, powers of the path difference, or
+// each source's return.
 enum class Summation { polynomial_moments, moments, per_diode };
 
 // Samples that the host sums over the sources.
 enum class HostSum { none, shaded, all };
 
-// Which pixels.
+// The pixels of a class.
 enum class PixelsOf {
   all,             // every pixel
   uniform,         // of one surface that every source lights and that faces them all
@@ -44,16 +44,16 @@ struct PixelClass {
   std::uint32_t points; // of a pixel: 1, 4, or its samples
   Precision precision;
   bool shadowed;                   // not every source reaches every sample
-  std::optional<ErrorBound> bound; // what its error is held against
+  std::optional<ErrorBound> bound; // the bound that its error is held against
 };
 
 struct FramePath {
   SampleGrid grid;
   SampleRecord record;
-  bool host_raster;          // what samples see is found by the host
+  bool host_raster;          // the host finds what samples see
   bool points_first;         // every sample's point is made before the sum, not only those of a class
   std::uint32_t windows;     // of visibility bits; 0: every source reaches every sample
-  bool host_sweep;           // what all others keep off is found by the host
+  bool host_sweep;           // the host finds the light that shapes without holes keep off
   bool holes;                // something with holes stands in the light
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
@@ -68,14 +68,14 @@ struct FramePath {
   bool sums_records;     // the class of all pixels is summed from depth records
   bool direct;           // and goes to channels at once
   bool host_reads_truth; // coverage, depth and IDs come off the records
-  // In the order in which they are summed. One class of all pixels, or classes that pixels are sorted into:
-  // those that the first ones leave are listed for those that follow.
+  // The classes in the order in which they are summed: one of all pixels, or several that pixels are sorted
+  // into. Pixels that the first ones leave are listed for those that follow.
   std::vector<PixelClass> classes;
   std::optional<Precision> check; // of the spot check; nothing where no error was asked for
 
   const PixelClass *of(PixelsOf who) const;
-  // Whether depths are all that is ever there of the samples; else points are made of those of a class that
-  // asks for them, and of those that are checked.
+  // Whether depths are all that is ever kept of the samples; else points are made for the samples of a class
+  // that asks for them, and for those that are checked.
   bool keeps_depths_only() const { return sums_records && !of(PixelsOf::precise) && !check; }
   // Whether pixels are sorted into classes.
   bool is_sorted() const { return classes.front().who != PixelsOf::all; }

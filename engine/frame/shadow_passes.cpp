@@ -20,7 +20,7 @@ Pass sweep_pass(Resources samples, const std::shared_ptr<const SweepPass> &sweep
   return pass;
 }
 
-// `blocks`: where it lists them, too.
+// `blocks`: given where it lists them, too.
 Pass host_sweep_pass(Resources samples, const std::shared_ptr<const HostSweep> &sweep,
                      const std::shared_ptr<const BlockLists> &blocks) {
   return {.name = "lit",

@@ -25,10 +25,10 @@ struct ShadowPasses {
 
 ShadowPasses make_shadow_passes(const FrameBasis &on, const std::optional<ChipGrid> &grid);
 
-// Adds them to those of each window.
+// Adds the shadow passes to each window's passes.
 void list_shadow_passes(const FrameBasis &on, const ShadowPasses &shadow, FrameGraph &graph);
 
-// The bits for the host.
+// Brings the bits to the host.
 Pass visibility_read_back_pass(const FrameBasis &on, const std::shared_ptr<const SourceGroups> &sources);
 
 } // namespace pmdsim

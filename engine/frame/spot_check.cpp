@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t checked_pixels = 1024;
 
-// Of a frame, row by row; each once, as two invocations must not work on the same sample.
+// Pixels of a frame, counted row by row; each once, as two invocations must not work on the same sample.
 std::set<std::uint32_t> choose_pixels(std::uint64_t count) {
   std::mt19937_64 random(1); // whose numbers the standard fixes
   std::set<std::uint32_t> pixels;

@@ -1,6 +1,5 @@
 #pragma once
-// A random set of a frame's pixels, evaluated again with every sample and every diode: what the frame is off
-// by.
+// A random set of a frame's pixels, evaluated again with every sample and every diode, to find its error.
 
 #include "engine/light/accumulate_pass.h"
 #include "engine/model/measurement.h"
@@ -16,10 +15,10 @@ public:
   SpotCheck(const PassSetup &on, const std::vector<PlannedStrip> &strips);
 
   const vulkan::Buffer &list() const { return *list_; }
-  // Fills it with the strip's pixels.
+  // Fills the list with the strip's pixels.
   Pass list_pass() const;
-  // Largest difference of the measured strip from the channels that were read back, into the measurement's
-  // report. Returns whose bounds are kept and beyond the limit are left out.
+  // Puts the largest difference of the measured strip from the channels that were read back into the
+  // measurement's report. Returns with a stored bound beyond the limit are left out.
   void compare(std::size_t strip, const shader::Strip &of, const StripBuffers &buffers, double limit_m,
                Measurement &measured) const;
 

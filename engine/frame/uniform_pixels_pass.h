@@ -16,11 +16,11 @@ struct UniformPixels {
   bool refines = false; // pixels for which one point is not enough are listed for four
   bool sums = true;     // false: the pass only lists pixels
   bool lists = true;    // false: it takes all, and none can be beyond the bound
-  bool leaves_truth = false; // to the host, which finds it in the records
-  bool parts = true;         // what every diode lights is listed apart from the rest
+  bool leaves_truth = false; // the host finds the ground truth in the records
+  bool parts = true;         // pixels that every diode lights are listed apart from the rest
 };
 
-// `groups` stand in for all diodes, whose light has that `extent`; `bound` is what their sum is held
+// `groups` stand in for all diodes, whose light has that `extent`; `bound` is the one that their sum is held
 // against.
 Pass uniform_pixels_pass(const PassSetup &on, const SourceGroups &groups, const LightExtent &extent,
                          const ErrorBound &bound, const UniformPixels &pixels,

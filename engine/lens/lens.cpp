@@ -225,7 +225,7 @@ std::optional<glm::dvec3> Lens::undistorted(const glm::dvec2 &slope) const {
 
 namespace {
 
-// What is wrong with the ray through a place of the image.
+// The fault of the ray through a place of the image.
 std::optional<LensFault> fault_at(const Lens &lens, const glm::dvec2 &pixel) {
   if (lens.ray(lens.on_chip_m(pixel)))
     return std::nullopt;

@@ -56,8 +56,7 @@ private:
                           // folds over
 };
 
-// Whether every pixel of a sensor has a ray: what makes its image impossible; nothing where every place of it
-// has a ray.
+// The reason why a sensor's image is impossible; nothing where every place of it has a ray.
 enum class LensFault {
   chip_behind_lens,
   distortion_folds,

@@ -16,8 +16,8 @@
 namespace pmdsim {
 namespace {
 
-// What rounding does to a diode's height over a surface: this often u, 2^-24 of float and 2^-45 of fp64,
-// times the size of the light with its distance from the lens.
+// The rounding of a diode's height over a surface: this often u, 2^-24 for float and 2^-45 for fp64, times
+// the size of the light with its distance from the lens.
 constexpr double height_rounding = 14.0;
 
 std::string_view module_of(const Modulation &modulation, const SumScope &scope) {
@@ -45,7 +45,7 @@ bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
   return groups.polynomials.equal_weights && !scope.shadowed && !scope.by_host;
 }
 
-// What a run's diodes at `first` to `last` - 1 come to where their beams end (beam_edge_terms in
+// Sets the terms of a run's diodes `first` to `last` - 1 where their beams end (beam_edge_terms in
 // shaders/light/sum.glsl).
 void set_beam_edges(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
                     shader::LightRun &record) {
@@ -101,7 +101,7 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
   for (const SourceRun &run : groups.runs) {
-    double intensity = 0.0, diagrams = 0.0; // relative; times what the laws are off by
+    double intensity = 0.0, diagrams = 0.0; // relative; times the laws' errors
     glm::dvec4 detours(0.0);
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
@@ -167,11 +167,11 @@ private:
   std::uint32_t moments_; // of each run
   vulkan::Buffer tones_, diodes_, diagrams_;
   vk::DeviceSize run_bytes_;      // of the diodes of each run
-  vulkan::ComputePipeline first_; // the first of a frame's runs; of depth records all
+  vulkan::ComputePipeline first_; // the first of a frame's runs; for depth records all
   vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
-// What a run's diodes are summed from.
+// The data that a run's diodes are summed from.
 vulkan::Buffer upload_sum(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
   return scope.beforehand ? vulkan::upload(on.device, point_polynomials(groups, on.model,
                                                                         groups.polynomials.point_dimensions))

@@ -1,7 +1,7 @@
 #pragma once
 // The accumulate pass: every sample of its pixels times every source, run by run of sources, in a fixed
-// order. By moments, which serve every tone at once, or, where light is square, diode by diode for one
-// frequency at a time.
+// order. It sums by moments, which serve every tone at once, or, where light is square, diode by diode for
+// one frequency at a time.
 
 #include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
@@ -22,8 +22,8 @@
 
 namespace pmdsim {
 
-// What passes are made of: the device, what is measured, and the memory in which they meet, which has to stay
-// in its place while they are used.
+// The things that passes are made of: the device, what is measured, and the memory in which passes meet,
+// which has to stay in its place while they are used.
 struct PassSetup {
   const vulkan::Device &device;
   const SimulatorOptions &options;
@@ -50,8 +50,8 @@ struct SumScope {
   const vulkan::Buffer *list = nullptr;  // of pixels; else all
   const vulkan::Buffer *later =
       nullptr;                       // of pixels that may be beyond the bound, for a later class; else none
-  bool looped = false;               // no straight line, which few pixels are not worth compiling
-  std::optional<ErrorBound> bound{}; // what the sum's error is to be held against
+  bool looped = false;               // a loop, as few pixels are not worth compiling a straight line
+  std::optional<ErrorBound> bound{}; // the bound that the sum's error is held against
   std::optional<ChipGrid> depth_records{};   // where these are all that is known of the samples
   std::optional<SampleBlocks> blocks{};      // of depth records, only these
   std::shared_ptr<const SumOutput> output{}; // of depth records
@@ -61,7 +61,7 @@ struct SumScope {
 Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
                      const std::vector<SourceWindow> &windows, const SumScope &scope);
 
-// What the runs' diodes share, as the shaders read it. What rounding does to some weights beyond the
+// Each run's record of what its diodes share, as the shaders read it. The rounding of some weights beyond the
 // bound counts as light.
 std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound,
                                          bool beforehand = false);

@@ -12,9 +12,9 @@ namespace {
 constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Linear interpolation on an even grid that has a node at every angle of a diagram is the diagram itself.
 // Where no grid within these steps does it, the finest stands in: beside an angle where the slope of J
-// changes by s, it is off by s / 4 of a step at most. Of 180 degrees that is 1.9e-7 rad * s.
+// changes by s, it is off by s / 4 of a step at most. For 180 degrees that is 1.9e-7 rad * s.
 constexpr std::uint32_t most_steps = 1u << 22;
-// What rounding takes from a direction, as a part of its angles.
+// The rounding of a direction, as a part of its angles.
 constexpr double direction_rounding = 16 * 0x1p-24;
 
 // The fewest even steps of `span_rad` from the first angle, up to most_steps, that meet all the others to
@@ -51,8 +51,8 @@ double place_among(const std::vector<double> &angles, double angle) {
   return static_cast<double>(above - angles.begin() - 1) + (angle - lower) / (*above - lower);
 }
 
-// How far off the even grid is, at most, that holds `value_of` the place among `angles` at each of its steps:
-// as at one of them, where it bends.
+// The largest error of the even grid that holds `value_of` the place among `angles` at each of its steps: it
+// is found at one of the angles, where the value bends.
 template <class ValueOf>
 double grid_error(const std::vector<double> &angles, double steps_per_rad, ValueOf value_of) {
   const auto value_at_step = [&](double step) {
@@ -73,7 +73,7 @@ double value_at(const std::vector<double> &values, double place) {
   return std::lerp(values[lower], values[upper], place - static_cast<double>(lower));
 }
 
-// Of J, from an angle to the next in theta, and in phi.
+// The largest changes of J from an angle to the next, in theta and in phi.
 glm::dvec2 largest_steps(const Diagram &diagram) {
   const std::size_t columns = diagram.phi_rad.size(), rows = diagram.theta_rad.size();
   const auto value = [&](std::size_t t, std::size_t p) {
@@ -145,7 +145,7 @@ void append(std::uint32_t steps, std::vector<glm::vec2> &table, const ValueOf &v
   }
 }
 
-// Of a diagram that is not the same for all phi; `theta_place`: which of its angles a step of theta is.
+// Appends a diagram that is not the same for all phi; `theta_place`: which of its angles a step of theta is.
 template <class ThetaPlace>
 void append_both(const Diagram &diagram, const ThetaPlace &theta_place, DiagramGrid &grid,
                  std::vector<glm::vec2> &table) {

@@ -26,14 +26,14 @@ struct DiagramGrid {
   double error = 0.0; // of J, at most, as the even grid and rounding make it; infinite where J is a step
 };
 
-// What J changes by, at most, where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +
+// The largest change of J where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +
 // |dJ/dphi| / sin theta, the latter as directions near the axis are uncertain in phi. Infinite where J varies
 // about the axis itself. Where a table ends it may jump to 0; that is an edge like a shadow's.
 double diagram_slope(const Diagram &diagram);
 
 class DiagramTables {
 public:
-  // The same grid for the same diagram.
+  // Returns the same grid for the same diagram.
   DiagramGrid grid_of(const std::shared_ptr<const Diagram> &diagram);
 
   // Each value with the next one.

@@ -13,13 +13,12 @@ constexpr std::uint32_t most_powers = shader::largest_powers;
 constexpr std::uint32_t probes =
     97; // where errors are looked for; between the zeros of any of the polynomials
 
-// Of the cosines that a weight's factors are, the least that matters (shaders/light/sum.glsl: where beams
-// end).
+// The least cosine that matters among a weight's factors (shaders/light/sum.glsl: where beams end).
 constexpr double least_cosine = 1e-4;
 constexpr double smallest_float = 1e-30,
-                 largest_float = 1e36; // what is much smaller than others does not count
+                 largest_float = 1e36; // terms much smaller than others do not count
 
-// Of u.
+// A range of u.
 struct Interval {
   double low, high;
 
@@ -67,13 +66,13 @@ Coefficients interpolate(const Interval &interval, std::uint32_t inverse_powers,
   return a;
 }
 
-// At least `so_far`; what is no number is as bad as can be.
+// Raises `so_far` to `value`; a NaN is as bad as can be.
 void raise(double &so_far, double value) {
   if (!(value <= so_far))
     so_far = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
-// What the polynomial is off by, at most, over the interval, relative to the weight.
+// The polynomial's largest error over the interval, relative to the weight.
 double error_of(const Coefficients &a, const Interval &interval, std::uint32_t inverse_powers,
                 std::uint32_t k) {
   double error = 0.0;
@@ -118,7 +117,7 @@ double path_terms_m(std::span<const Coefficients> of_moments, const PathDifferen
                     double wavenumber_rad_m) {
   constexpr int places = 32;
   double most_m = 0.0;
-  for (int i = 0; i <= places && std::isfinite(reach.range_m); ++i) { // nothing is seen where it is not
+  for (int i = 0; i <= places && std::isfinite(reach.range_m); ++i) { // nothing is seen at infinity
     const double rho_m =
         reach.range_m * std::pow(reach.farthest_m / reach.range_m, static_cast<double>(i) / places);
     raise(most_m, path_terms_at_m(of_moments, largest_u(reach.radius_m, rho_m), rho_m, wavenumber_rad_m));
@@ -211,7 +210,7 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
   const double phase_rad = wavenumber_rad_m * reach.path_difference_m;
   std::optional<NearPolynomials> widest;
   constexpr int steps = 10;
-  double within = 0.0, beyond = 1.0; // what they are exact enough for, and what not
+  double within = 0.0, beyond = 1.0; // they are exact enough for the one, and not for the other
   for (int step = 0; step < steps; ++step) {
     const double u = 0.5 * (within + beyond);
     const Run run = fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m);

@@ -29,32 +29,32 @@ struct MomentPolynomials {
   // Where no shadow falls, the diodes' weights differ by their distances only; those that pad a run have
   // none.
   bool equal_weights = false;
-  // Of the coordinates in which sums over the diodes of any run are polynomials of the point
+  // The number of coordinates in which sums over the diodes of any run are polynomials of the point
   // (point_polynomials.h); 0 where the loop over the diodes is shorter.
   std::uint32_t point_dimensions = 0;
-  // At most, of any run. What the polynomials are off by, of the sum of the weights: by itself, and as an
-  // angle at the highest frequency.
+  // The largest errors of any run's polynomials: of the weights' sum, over itself, and as an angle at the
+  // highest frequency.
   double weight_error = 0.0, angle_error_rad = 0.0;
-  // Likewise, of the moments' sums over i, all terms taken as positive: those of the weights, over the
-  // weights (a sample's own is growth_at in shaders/light/moments.glsl); and what those of e, e^2, ... turn
-  // the return by, over kappa and those of the weights, m.
+  // Likewise, for the moments' sums over i with all terms taken as positive: the sum for the weights, over
+  // the weights (a sample's own is growth_at in shaders/light/moments.glsl); and the angle that those for e,
+  // e^2, ... turn the return by, over kappa and the sum for the weights, m.
   double growth = 1.0, path_terms_m = 0.0;
 };
 
 // `reaches` are the runs'; `moments` and wavenumber_rad_m as in SourceGroups, `least_intensity` that of a
-// diode that shines, relative. None where the polynomials would be longer than is worth it, or where W could
-// leave float's range.
+// diode that shines, relative. No powers where the polynomials would be longer than is worth it, or where W
+// could leave float's range.
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity);
 
-// Those of so many powers for places where |u| is at most `largest_u`: the widest that are off by no more
-// than these errors, and by a quarter of what those of fit_polynomials may be, whose arguments these are.
+// Polynomials of so many powers for places where |u| is at most `largest_u`: the widest whose errors are at
+// most those below, and a quarter of what fit_polynomials allows, whose arguments these are.
 struct NearPolynomials {
   double largest_u;
   MomentPolynomials::Table table;
 };
-// How many powers such tables have, the fewest first, beside a frame's polynomials of so many; 0: it has
-// none.
+// The numbers of powers that such tables have, the fewest first, beside a frame's polynomials of `of_frame`
+// powers; 0: it has none.
 std::vector<std::uint32_t> near_powers(std::uint32_t of_frame);
 inline constexpr double near_weight_error = 0x1p-25, near_angle_error_rad = 0x1p-26;
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,

@@ -10,12 +10,12 @@
 namespace pmdsim {
 namespace {
 
-// What a diode costs the loop, in coefficients: its record's loads, and some products for each power.
+// A diode's cost in the loop, in coefficients: its record's loads, and some products for each power.
 constexpr std::size_t coefficients_per_diode = 6;
-// Of diodes that stand in no plane. Beyond it the code grows faster than it saves.
+// The most powers for diodes that stand in no plane. Beyond that the code grows faster than it saves.
 constexpr std::uint32_t most_spatial_powers = 7;
-// How much the distances of a run's diodes along their axis may differ, over their radius: what rounding to
-// float makes of such a distance.
+// How much the distances of a run's diodes along their axis may differ, over their radius: the rounding of
+// such a distance to float.
 constexpr double same_distance = 0x1p-24;
 
 using Powers = std::array<double, shader::largest_powers>; // 1, x, x^2, ...
@@ -54,12 +54,12 @@ bool share_an_axis(const SourceGroups &groups, const SourceRun &run) {
   return std::ranges::all_of(diodes, same);
 }
 
-// Of the heights over a surface: the reference's, and what a diode's place takes off it along each axis.
+// The components of heights over a surface: the reference's, and the part of a diode's place along each axis.
 std::size_t components_of(const SumModel &model, std::uint32_t dimensions) {
   return model.backscatter == shader::backscatter_lambert ? 1 + dimensions : 1;
 }
 
-// Of a polynomial of a degree.
+// The terms of a polynomial of a degree.
 std::size_t terms_of(std::uint32_t degree, std::uint32_t dimensions) {
   const std::size_t n = degree + 1;
   return dimensions == 2 ? n * (n + 1) / 2 : n * (n + 1) * (n + 2) / 6;
@@ -79,7 +79,7 @@ std::size_t place_of(std::uint32_t j, std::uint32_t k, std::uint32_t l, std::uin
                          : n * (n + 1) * (n + 2) / 6 + of_y_and_z * (of_y_and_z + 1) / 2 + l;
 }
 
-// Adds a diode to the coefficients of S_0, S_1, ... of all components.
+// A diode's part in the coefficients of S_0, S_1, ... of all components.
 struct Term {
   double constant; // of q, as a polynomial of the point, over the unit's square
   glm::dvec3 slope;

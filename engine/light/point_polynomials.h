@@ -12,16 +12,16 @@
 
 namespace pmdsim {
 
-// In how many dimensions the diodes of every run stand, 2 or 3, where such polynomials do for the model and
-// are shorter than the loop over the diodes; else 0.
+// The number of dimensions in which the diodes of every run stand, 2 or 3, where such polynomials do for the
+// model and are shorter than the loop over the diodes; else 0.
 std::uint32_t point_dimensions(const SourceGroups &groups, const SumModel &model);
 
-// What rounding does to the sums of so many powers, in units of float's, relative to their terms taken as
-// positive: to a coefficient, by Horner's rule, and to the products with heights and their sum.
+// The rounding of the sums of so many powers, in units of float's, relative to their terms taken as positive:
+// of a coefficient, of Horner's rule, and of the products with heights and their sum.
 constexpr double beforehand_error_u(std::uint32_t powers) { return 3.0 * powers + 11.0; }
 
-// Of all runs, one after the other, as the shader reads them (PointPolynomials in shaders/shared/interface.h,
-// the coefficients behind it).
+// The polynomials of all runs, one after the other, as the shader reads them (PointPolynomials in
+// shaders/shared/interface.h, the coefficients behind it).
 std::vector<float> point_polynomials(const SourceGroups &groups, const SumModel &model,
                                      std::uint32_t dimensions);
 

@@ -12,7 +12,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double full_turn_rad = 2.0 * std::numbers::pi;
-// What rounding takes from a direction, as a part of its angles.
+// The rounding of a direction, as a part of its angles.
 constexpr double precise_direction_rounding = 16 * 0x1p-45;
 // Straight behind the diode rounding must not lead beyond the last angle: there the table goes on.
 constexpr double beyond_half_a_turn = 0.51;

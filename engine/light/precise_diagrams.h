@@ -12,12 +12,12 @@
 
 namespace pmdsim {
 
-// Of a diagram: how many thetas and phis there are (of the latter 0 where it is the same for all of them);
-// the thetas and the phis, in turns, the latter from the first phi on and that again at the end; J, a row of
+// Each diagram's part: the numbers of thetas and of phis (0 phis where it is the same for all of them); the
+// thetas and the phis, in turns, the latter from the first phi on and that again at the end; J, a row of
 // thetas for each of these phis. J is 0 below the first theta and beyond the last.
 class PreciseDiagrams {
 public:
-  // The index of its first number; the same for the same diagram.
+  // The index of the diagram's first number; the same for the same diagram.
   std::uint32_t first_of(const std::shared_ptr<const Diagram> &diagram);
 
   const std::vector<glm::vec2> &values() const { return values_; }
@@ -27,7 +27,7 @@ private:
   std::vector<glm::vec2> values_;
 };
 
-// Of J, at most, as directions are rounded in fp64; infinite where J is a step.
+// The largest error of J, as directions are rounded in fp64; infinite where J is a step.
 double precise_diagram_error(const Diagram &diagram);
 
 } // namespace pmdsim

@@ -89,8 +89,8 @@ double cosine_rounding_u(float order, const LawRounding &sum) {
   return is_multiplied ? std::max(real, whole) : real;
 }
 
-// At least n of cos^n. Below 1 as much as n cos^(n - 1) comes to down to cos = 10^-3, where such a beam ends
-// as a step. A half-space, order 0, has no rim but an edge.
+// The steepness of cos^n is n. For n below 1 it is the most that n cos^(n - 1) comes to down to cos = 10^-3,
+// where such a beam ends as a step. A half-space, order 0, has no rim but an edge.
 std::optional<BeamEdge> cosine_edge(float order) {
   const auto power = static_cast<double>(order);
   if (power <= 0.0)
@@ -134,7 +134,7 @@ LawForm diagram_form(const Pattern &pattern) {
   return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any, 0};
 }
 
-// Of the interpolation; what the direction is off by is in the table's error.
+// The rounding of the interpolation; that of the direction is in the table's error.
 double diagram_rounding_u(float, const LawRounding &) { return 6.0; }
 
 double diagram_error(const Pattern &pattern, DiagramTables &tables) {

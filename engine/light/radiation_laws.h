@@ -34,7 +34,7 @@ struct LawRounding {
 
 // How the light ends beyond 45 degrees off a diode's axis (beam_edge_terms in shaders/light/sum.glsl).
 struct BeamEdge {
-  double steepness; // how many times its own relative error a cosine's is in J, at most
+  double steepness; // J's relative error over that of the cosine, at most
   double power;     // J falls like this power of the cosine, >= 1, or more slowly
 };
 
@@ -43,8 +43,8 @@ struct LawSeries {
   std::optional<double> order; // of a cosine around the axis; nothing: J is 1
 };
 
-// What is left out is not claimed: a law of which the first three members are given is summed in mode exact
-// alone, with no bound of its error, and its diodes are never reduced.
+// A law claims nothing for members that are left out: with the first three alone it is summed in mode exact
+// only, with no bound of its error, and its diodes are never reduced.
 struct RadiationLaw {
   Pattern::Kind kind;
   // GroupSource::order of its diodes, by which shaders/light/radiation_laws.glsl knows the law: below 0, as
@@ -57,14 +57,14 @@ struct RadiationLaw {
   void (*describe_precisely)(const Diode &, PreciseDiagrams &, shader::PreciseSource &) = nullptr;
   // The cheapest form for diodes that are alike in this; left out: pattern_any.
   LawForm (*form)(const Pattern &) = nullptr;
-  // And the one beside others: shader::pattern_general, or pattern_any for what that does not know.
+  // And the form beside other laws: shader::pattern_general, or pattern_any where that does not know the law.
   std::uint32_t form_beside_others = shader::pattern_any;
   // The largest slope of ln J over what is visible, per radian, and such that its square bounds the
   // curvature. Left out: infinite, and no pixel of several samples is summed at fewer points.
   double (*slope)(const Diode &, const std::vector<VisibleBox> &) = nullptr;
-  // What J is off by, relative to itself, u; `order` is the largest GroupSource::order.
+  // The error of J, relative to itself, u; `order` is the largest GroupSource::order.
   double (*rounding_u)(float order, const LawRounding &) = nullptr;
-  // And beside that, as such; left out: 0. Infinite where there is no bound of it.
+  // The absolute error of J beside that; left out: 0. Infinite where it has no bound.
   double (*error)(const Pattern &, DiagramTables &) = nullptr;
   double (*precise_error)(const Pattern &) = nullptr; // in fp64
   // Why an error cannot be promised where there is no bound.
@@ -79,11 +79,11 @@ struct RadiationLaw {
 const RadiationLaw &law_of(const Pattern &pattern);
 const RadiationLaw &law_of(const shader::GroupSource &diode);
 
-// What J of a diode is off by beside its rounding; infinite where its law claims nothing.
+// The error of a diode's J beside its rounding; infinite where its law claims nothing.
 double law_error(const Pattern &pattern, DiagramTables &tables);
 double precise_law_error(const Pattern &pattern); // in fp64
 
-// Of a diode's beam, and how the reduction expands its J; nothing where its law has none.
+// A diode's beam edge, and the series by which the reduction expands its J; nothing where its law has none.
 std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode);
 std::optional<LawSeries> law_series(const Pattern &pattern);
 
@@ -94,8 +94,8 @@ LawForm form_of(const std::vector<CameraIlluminator> &illuminators);
 double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
                      const std::vector<VisibleBox> &visible);
 
-// The largest rounding of J of any diode, u, and that at the rims of beams, as in RadiationLaw; 0
-// of laws that claim none.
+// The largest rounding of J of any diode, u, and that at the rims of beams, as in RadiationLaw; 0 for laws
+// that claim none.
 double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 

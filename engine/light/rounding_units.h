@@ -1,7 +1,7 @@
 #pragma once
-// What rounding leaves of the lengths and cosines that a diode's weight is made of, counted operation by
-// operation in units u: 2^-24 of float, 2^-45 of fp64 and of pairs of floats. t is the largest radius of a
-// group over its range, so that r >= (1 - t) rho.
+// The rounding of the lengths and cosines that a diode's weight is made of, counted operation by operation in
+// units u: 2^-24 for float, 2^-45 for fp64 and for pairs of floats. t is the largest radius of a group over
+// its range, so that r >= (1 - t) rho.
 
 namespace pmdsim {
 
@@ -10,7 +10,7 @@ inline constexpr double division_u = 5.0, root_u = 9.0;
 // Inverse roots of the host's loops (engine/model/lanes.h), one step of Newton's from the processor's guess.
 inline constexpr double host_root_u = 5.5;
 
-// Of r^2 = rho^2 + q: |q| <= 2 rho R + R^2, and six roundings are in its larger part, two in its smaller.
+// The rounding of r^2 = rho^2 + q: |q| <= 2 rho R + R^2 takes six in its larger part, two in the other.
 constexpr double squared_range_error_u(double t) {
   return 1.0 + (3.0 + 12.0 * t + 2.0 * t * t) / ((1.0 - t) * (1.0 - t));
 }
@@ -18,7 +18,7 @@ constexpr double squared_range_error_u(double t) {
 // An inner product with a unit vector, `count` roundings of the length rho, as a cosine: over r.
 constexpr double cosine_error_u(double count, double t) { return count / (1.0 - t); }
 
-// Of the cosine to a diode's axis.
+// The rounding of the cosine to a diode's axis.
 constexpr double along_error_u(double t) { return cosine_error_u(6.0 + 2.0 * t, t); }
 
 } // namespace pmdsim

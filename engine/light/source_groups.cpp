@@ -19,9 +19,9 @@ constexpr double largest_phase_rad =
 constexpr double largest_radius_over_range = 0.5; // beyond it r^2 = rho^2 + q would cancel
 // A straight line in fp64 takes several times as long to compile as one in float.
 constexpr std::uint32_t largest_precise_run_blocks = 4;
-// What a run costs beside its diodes, in blocks of diodes: fetching the samples and their reference path.
+// A run's cost beside its diodes, in blocks of diodes: fetching the samples and their reference path.
 constexpr std::uint64_t run_overhead_blocks = 4;
-// Of the strongest diode's intensity: what is weaker would leave float's range on its way over distances.
+// The least intensity, over the strongest: a weaker one would leave float's range on its way over distances.
 constexpr double weakest_intensity = 1e-25;
 
 struct NumberedDiode : Diode {
@@ -44,7 +44,7 @@ struct Group {
 
 Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
   const VisibleBox box = box_of(diodes);
-  // The box's middle; of a single diode exactly the diode, so that its path needs no correction at all.
+  // The box's middle; for a single diode exactly its place, so that its path needs no correction at all.
   Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
   std::vector<glm::dvec3> places_m;
   for (const Diode &diode : diodes)
@@ -90,7 +90,7 @@ glm::vec4 rest(const glm::dvec4 &value, const glm::vec4 &rounded) {
   return glm::vec4(value - glm::dvec4(rounded));
 }
 
-// What rounding to `rounded` took; nothing of a dark one.
+// The diode with the rest that rounding to `rounded` took; no rest for a dark one.
 shader::PreciseSource precise_diode(const shader::GroupSource &rounded, const Diode &diode,
                                     const glm::dvec3 &reference_m, double largest_intensity_w_sr,
                                     PreciseDiagrams &diagrams) {
@@ -188,7 +188,7 @@ std::uint32_t cheapest_run_blocks(const std::vector<Group> &groups, std::uint32_
   return cheapest;
 }
 
-// Of all diodes, in both precisions.
+// The diagrams of all diodes, in both precisions.
 struct Diagrams {
   DiagramTables in_float;
   PreciseDiagrams precise;

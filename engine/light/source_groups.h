@@ -13,14 +13,14 @@
 
 namespace pmdsim {
 
-// Of the sum of the weights: (kappa * e)^K / K! of the moments left out (docs/theory.md, "The sum by
-// moments").
+// The largest (kappa * e)^K / K! of the moments left out, over the sum of the weights (docs/theory.md, "The
+// sum by moments").
 inline double largest_remainder(Precision precision) {
   return precision == Precision::fp64 ? 0x1p-45 : 0x1p-26;
 }
 
-// What the remainder may come to where kappa * e is `phase_rad`: where a wavelength is long, that much of a
-// turn would be a long way, so it is no more than 16 times as much of e, too.
+// The largest remainder where kappa * e is `phase_rad`: where a wavelength is long, that much of a turn would
+// be a long way, so it is no more than 16 times as much of e, too.
 inline double largest_term(double phase_rad, double remainder) {
   return remainder * std::min(1.0, 16.0 * phase_rad);
 }
@@ -59,8 +59,8 @@ struct SourceGroups {
   MomentPolynomials polynomials;  // what the moments are summed by, run by run
 };
 
-// Blocks of a run at most, one straight line of code: of any diodes, and of such as are alike
-// (MomentPolynomials), which take little of it.
+// The most blocks of a run, one straight line of code: of any diodes, and of such as are alike
+// (MomentPolynomials), which take little code.
 constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 
 // A group's diodes are of one illuminator, whose modulation phase they share. `visible` bounds the points
@@ -78,7 +78,7 @@ SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
 // The smallest K whose remainder (kappa * e)^K / K! is at most that.
 std::uint32_t moments_needed(double phase_rad, double remainder);
 
-// Those that are no padding.
+// The number of diodes that are no padding.
 std::uint32_t shining_diodes(const SourceGroups &groups);
 
 } // namespace pmdsim

@@ -27,11 +27,11 @@ std::vector<SourceWindow> plan_windows(const SourceGroups &groups);
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
                                              const SourceGroups &groups);
 
-// What the shaders know of a window's diodes.
+// A window's diodes, as the shaders know them.
 struct WindowDiodes {
   shader::DiodeBox box; // around all
   std::vector<shader::BundleDiodes> bundles;
-  std::vector<std::uint32_t> bits; // of each bundle those that stand for a diode that shines
+  std::vector<std::uint32_t> bits; // for each bundle, those that stand for a diode that shines
 };
 
 WindowDiodes diodes_of(const SourceWindow &window, const SourceGroups &groups);

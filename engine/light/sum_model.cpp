@@ -32,7 +32,7 @@ bool have_equal_weights(const SourceGroups &groups, const SumModel &model) {
          });
 }
 
-// Of a diode that shines, relative to the strongest.
+// The least intensity of a diode that shines, relative to the strongest.
 double least_intensity(const SourceGroups &groups) {
   double least = 1.0;
   for (const shader::GroupSource &diode : groups.diodes)

@@ -1,5 +1,5 @@
 #pragma once
-// What the sum over the sources has to model of a setup.
+// The parts of a setup that the sum over the sources has to model.
 
 #include "engine/light/camera_light.h"
 #include "engine/light/source_groups.h"
@@ -14,7 +14,7 @@
 
 namespace pmdsim {
 
-// What the sum has to model; what a setup does not need is compiled out.
+// The model that the sum has to follow; parts that a setup does not need are compiled out.
 struct SumModel {
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
@@ -22,7 +22,7 @@ struct SumModel {
   bool of_lengths = true;    // a diode's weight is a product of factors and of a power of 1 / r
   bool all_facing = false;   // every surface faces every diode
 
-  // Of normals and heights a sample: none, one, or, to double precision, two.
+  // The vectors of normals and heights a sample: none, one, or, in double precision, two.
   std::uint32_t surface_vectors(Precision precision) const {
     return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
   }

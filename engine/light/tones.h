@@ -19,9 +19,9 @@ struct Modulation {
   bool keep_taps;                    // the taps are channels, too
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
-  bool keeps_terms = false;          // an error was asked for: what the terms come to is kept
+  bool keeps_terms = false;          // an error was asked for: the sum of the terms' sizes is kept
   bool reports_kept = false;         // and the largest bound of the pixels that keep theirs
-  bool keeps_bounds = false;         // what each pixel may be off by is a channel, too
+  bool keeps_bounds = false;         // each pixel's bound is a channel, too
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
 
   std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }

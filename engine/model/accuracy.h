@@ -18,7 +18,7 @@ enum class Precision { fp32, fp64 };
 
 inline constexpr double default_max_error_m = 10e-6;
 
-// What is asked for.
+// The accuracy asked for.
 struct Accuracy {
   Mode mode = Mode::exact;
   std::optional<Precision> precision; // nothing: fp32, or what the error takes
@@ -28,38 +28,39 @@ struct Accuracy {
   bool strict = false; // a frame some of whose pixels may be off by more is refused, not returned
 };
 
-// What a frame came to. Errors are of distance, wrapped, and of amplitude, relative; the largest of all
-// pixels that keep what was asked for.
+// The accuracy of a frame. Errors are of distance, wrapped, and of amplitude, relative, each the largest of
+// all pixels that keep what was asked for.
 struct AccuracyReport {
-  Precision precision = Precision::fp32; // of pixels that few places did not do for in float
+  Precision precision = Precision::fp32; // of pixels for which few points in float were not enough
   std::uint32_t diodes = 0;              // summed where all reach a point: those that stand in for all
   // A bound from theory, known before the frame or kept by every pixel; nothing where theory has none.
   std::optional<double> claimed_m, claimed_amplitude;
-  // Of pixels chosen at random (fixed seed) and evaluated exactly; nothing where that was not asked for.
+  // The errors of pixels chosen at random (fixed seed) and evaluated exactly; nothing where that was not
+  // asked for.
   std::optional<double> found_m, found_amplitude;
   std::size_t checked_pixels = 0;
   double check_ms = 0.0; // not part of Measurement::frame_ms
-  // Pixels' returns that may be off by more than was asked for, one for each frequency
+  // The number of returns, one for each pixel and frequency, that may be off by more than was asked for
   // (Return::error_bound_m).
   std::size_t unpromised = 0;
 };
 
-// Of what a weight is off by, relative: small, so that little light keeps its digits.
+// The unit of weights' relative errors: small, so that little light keeps its digits.
 inline constexpr double weight_error_unit = 0x1p-24;
 
-// What is asked for of every pixel: an error within the limit. It is off by fixed + per_condition * condition
+// Every pixel's error, and the limit that was asked for. A pixel is off by fixed + per_condition * condition
 // at most, the condition being sum of |terms| / |sum| over its samples and diodes.
 struct ErrorBound {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
-  // What is off in single diodes' weights beside that is counted apart, in this part of them; 0: it is not.
+  // Further errors of single diodes' weights, relative, are summed apart, times this factor; 0: they are not.
   double terms_per_weight_error = 0.0;
-  // Where beams may end in view: the same of what rounding does to a cosine to a diode's axis, of order 1.
+  // Where beams may end in view: that factor times the rounding of a cosine to a diode's axis, for order 1.
   double terms_of_beam_edges = 0.0;
-  // As distance and as amplitude, of weights that are off by themselves, over |sum|.
+  // The errors of distance and of amplitude from weights' own errors, for each unit of those over |sum|.
   double per_weight_m = 0.0, amplitude_per_weight = 0.0;
-  // The same of distance where a pixel's samples are at one range, and what the first two of these grow by
-  // together for each metre that their ranges differ by, at most; nothing where that is not known.
+  // The same for distance where a pixel's samples are at one range, and the most that fixed_m and
+  // per_condition_m together grow by for each metre between the ranges; nothing where that is not known.
   struct AtOneRange {
     double fixed_m, per_condition_m, per_weight_m, per_apart;
   };

@@ -36,7 +36,7 @@ struct DeviceSlot {
   std::uint32_t index; // of a tap: that of tap 0
 };
 
-// What the ends of a picture's colours stand for.
+// The values that the ends of a picture's colours stand for.
 enum class ColourScale {
   sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
   zero_centred, // the same, made symmetric about zero

@@ -19,7 +19,7 @@ struct DeviceInfo {
 // Every device that Vulkan offers, in Vulkan's order. Empty where there is no Vulkan at all.
 std::vector<DeviceInfo> list_devices();
 
-// What one pass of a frame took on the device.
+// The time that one pass of a frame took on the device.
 struct PassTime {
   std::string name;
   double ms = 0.0;

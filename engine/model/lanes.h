@@ -39,7 +39,7 @@ inline void store(T *to, const V &values) {
 inline Floats all(float value) { return value - Floats{}; }
 inline Ints all(std::int32_t value) { return value - Ints{}; }
 
-// b where neither is.
+// Lanes where neither is smaller, or larger, take b.
 template <class V>
 inline V smaller(const V &a, const V &b) {
   return a < b ? a : b;
@@ -87,7 +87,7 @@ inline Floats multiply_add(const Floats &a, const Floats &b, const Floats &c) {
 #endif
 }
 
-// 1 / v, to 1.5e-7 of it.
+// 1 / v, to a relative error of 1.5e-7.
 inline Floats inverse(const Floats &v) {
 #if defined(__AVX512F__)
   const auto guess = reinterpret_cast<Floats>(_mm512_maskz_rcp14_ps(0xffff, reinterpret_cast<__m512>(v)));
@@ -133,7 +133,7 @@ inline Floats gathered(const float *from, const Ints &at) {
 #endif
 }
 
-// Four floats in a row from from[at] on of each lane.
+// Each lane's four floats in a row, from from[at] on.
 struct Floats4 {
   Floats of[4];
 };
@@ -142,7 +142,7 @@ inline Floats4 gathered4(const float *from, const Ints &at) {
   alignas(vector_bytes) std::int32_t place[lanes];
   store(place, at);
   asm("" : "+m"(place)); // read from memory, which is faster than from the vector lane by lane
-  // Of every fourth lane, from `lane` on.
+  // The four floats of every fourth lane, from `lane` on.
   const auto rows = [&](int lane) {
     __m512 row = _mm512_castps128_ps512(_mm_loadu_ps(from + place[lane]));
     row = _mm512_insertf32x4(row, _mm_loadu_ps(from + place[lane + 4]), 1);
@@ -163,7 +163,7 @@ inline Floats4 gathered4(const float *from, const Ints &at) {
 #endif
 }
 
-// Of each lane one of the values of both tables, whose numbers go on from the first to the second.
+// Each lane's value number `at` of both tables, whose numbers go on from the first to the second.
 inline Floats picked(const Floats (&tables)[2], const Ints &at) {
 #if defined(__AVX512F__)
   return reinterpret_cast<Floats>(_mm512_permutex2var_ps(reinterpret_cast<__m512>(tables[0]),
@@ -183,7 +183,7 @@ inline Floats picked(const Floats (&tables)[2], const Ints &at) {
 #endif
 }
 
-// Square roots of what is above 0, to 3.3e-7 of them, with AVX-512 to 2e-7.
+// Square roots of values above 0, to a relative error of 3.3e-7, with AVX-512 2e-7.
 inline Floats guessed_inverse_root(const Floats &v) {
 #if defined(__AVX512F__)
   return reinterpret_cast<Floats>(_mm512_maskz_rsqrt14_ps(0xffff, reinterpret_cast<__m512>(v)));
@@ -257,7 +257,7 @@ inline Mask mask_of(std::uint32_t bits) {
 inline Ints add_where(Mask mask, const Ints &to, const Ints &amount) { return to + (mask.lanes & amount); }
 #endif
 
-// Moves some lanes beside each other, to the first ones.
+// Packs some of a vector's lanes side by side into the first ones.
 class Packing {
 public:
   explicit Packing(std::uint32_t bits) : bits_(bits) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the camera measures of one frame. Every channel is row-major, row 0 at the top, rows * columns values.
+// The camera's measurement of one frame. Every channel is row-major, row 0 at the top, rows * columns values.
 
 #include "engine/model/accuracy.h"
 #include "engine/model/device_info.h"
@@ -10,8 +10,8 @@
 
 namespace pmdsim {
 
-// Of one modulation frequency f. Phase and amplitude are those of z, which the camera forms from its N taps
-// c_k as (2/N) sum_k c_k exp(+j 2 pi k / N); for a sine that is eq. 5 to 7's mean return.
+// The return at one modulation frequency f. Phase and amplitude are those of z, which the camera forms from
+// its N taps c_k as (2/N) sum_k c_k exp(+j 2 pi k / N); for a sine that is eq. 5 to 7's mean return.
 struct Return {
   std::vector<float> amplitude;  // |z|, W/(m^2 sr), 0 where nothing returns
   std::vector<float> phase_rad;  // arg z in [0, 2 pi), NaN where |z| = 0
@@ -19,7 +19,7 @@ struct Return {
   // c_k, k = 0 ... N-1: the mean of the correlation function at path phase - 2 pi k / N, W/(m^2 sr), 0 where
   // nothing returns; empty unless the taps are asked for.
   std::vector<std::vector<float>> taps;
-  // What distance_m is off by at most, m, as theory has it: infinite where nothing can be said, NaN where
+  // An upper bound of the error of distance_m, m, from theory: infinite where nothing can be said, NaN where
   // nothing returns. Empty unless some pixel may be off by more than was asked for.
   std::vector<float> error_bound_m{};
 };
@@ -45,13 +45,13 @@ struct Measurement {
   // The fraction of the diodes that reach the pixel, mean over its samples that hit something, 0 where none
   // does; empty with Shadows::off.
   std::vector<float> lit;
-  // Of the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
+  // The ids at the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;
 
-  // Of every sample, (S*rows) x (S*columns), row-major; only filled on request.
+  // The id at every sample, (S*rows) x (S*columns), row-major; only filled on request.
   std::vector<std::uint32_t> sample_triangle_id;
-  // Its pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
+  // The sample's pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.
   std::vector<std::uint32_t> sample_pixel_id;
   // Which diodes reach it, Shadows::automatic only: ceil(diodes / 32) words a sample, diode m (counted
   // through all illuminators) in bit m % 32 of word m / 32.

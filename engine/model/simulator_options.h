@@ -7,7 +7,7 @@
 
 namespace pmdsim {
 
-// The arithmetic of what is done once a sample: fp64 where the device has it, or pairs of floats anywhere.
+// The arithmetic of the work done once a sample: fp64 where the device has it, or pairs of floats anywhere.
 enum class SamplePrecision { automatic, double_float };
 // The shape of the accumulate pass: a straight line for CPUs, a loop for GPUs.
 enum class DiodeLoop { automatic, straight_line, looped };

@@ -19,9 +19,9 @@ inline double tap_sequence_s(const Sensor &sensor) {
   return static_cast<double>(sensor.modulation_hz.size() * sensor.taps) * sensor.tap_interval_s;
 }
 
-// What the camera makes of a frequency's N taps, in double: z = (2/N) sum_k c_k exp(+j 2 pi k / N), and of z
-// the channels. The taps, one of each k and of one length, stay beside them. A |z| below what rounding the
-// taps to float can make counts as 0.
+// The camera's demodulation of a frequency's N taps, in double: z = (2/N) sum_k c_k exp(+j 2 pi k / N), and
+// the channels from z. The taps, one of each k and of one length, stay beside them. A |z| below what rounding
+// the taps to float can make counts as 0.
 Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz);
 
 } // namespace pmdsim

@@ -33,7 +33,7 @@ glm::dmat3 axes_of(const Eigen::Matrix3d &covariance) {
   return {across, glm::cross(normal, across), normal};
 }
 
-// Of what a moment is made of.
+// The powers that moments are made of.
 std::array<std::vector<double>, std::tuple_size_v<Powers>>
 power_tables(const DiodeCluster &cluster, const glm::dvec3 &offset_m, int largest) {
   const auto over = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };

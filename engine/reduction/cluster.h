@@ -13,14 +13,13 @@
 
 namespace pmdsim {
 
-// How an error of the sum over the diodes becomes one of distance and of amplitude. Errors over sum|terms| /
-// |sum|: of distance, and of amplitude, relative.
+// Errors over sum|terms| / |sum|: of distance, and of amplitude, relative.
 struct SumError {
   double distance_m = 0.0, amplitude = 0.0;
 };
 
-// `re` is an error along the phase of a path from where the diodes are, `im` one across it, both over
-// sum|terms|.
+// How an error of the sum over the diodes becomes one of distance and of amplitude. `re` is an error along
+// the phase of a path from where the diodes are, `im` one across it, both over sum|terms|.
 struct ErrorScale {
   std::vector<double> wavenumbers_rad_m;   // ascending, of all modulation frequencies
   double distance_per_re_m;                // because the sum's phase is not that path's
@@ -31,7 +30,7 @@ struct ErrorScale {
   double largest_wavenumber_rad_m() const { return wavenumbers_rad_m.back(); }
 
   double distance_m(double re, double im) const { return distance_per_re_m * re + distance_per_im_m * im; }
-  // Over what is bearable; at most 1 is good.
+  // The error over the bearable one; at most 1 is good.
   double excess(double re, double im) const {
     return std::max(distance_m(re, im) / max_error_m, (re + im) / max_amplitude_error);
   }
@@ -53,7 +52,7 @@ struct DiodeCluster {
   double slant(int axis) const { return clearance_m[axis] > 0.0 ? extents_m[axis] / clearance_m[axis] : 0.0; }
 };
 
-// From 0 to `degree`.
+// The powers of `base` from 0 to `degree`.
 std::vector<double> powers_of(double base, int degree);
 
 DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::size_t> members);
@@ -62,11 +61,11 @@ DiodeCluster cluster_of(const std::vector<Diode> &diodes, std::span<const std::s
 // extent; I the offset, a the beam.
 using Powers = std::array<std::uint8_t, 5>;
 
-// What a diode of the cluster at each of some offsets (columns) adds to the moments (rows), for a share of 1.
+// The parts of diodes at some offsets (columns) in the cluster's moments (rows), for a share of 1 each.
 Eigen::MatrixXd moment_values(const std::vector<Powers> &moments, const DiodeCluster &cluster,
                               std::span<const glm::dvec3> offsets_m);
 
-// Of all its diodes.
+// The moments of all the cluster's diodes.
 Eigen::VectorXd moments_of(const DiodeCluster &cluster, const std::vector<Powers> &moments);
 
 } // namespace pmdsim

@@ -1,5 +1,5 @@
 #pragma once
-// What is visible, as seen from a place: how near, and how far to its sides.
+// Bounds of what is visible from a place: how near it is, and how far to the sides.
 
 #include "engine/view/camera_scene.h"
 

@@ -200,7 +200,7 @@ private:
     }
   }
 
-  // Of the bearable error: thousands of such moments are nothing.
+  // Over the bearable error: thousands of such moments are nothing.
   static constexpr double negligible = 1e-7;
 
   const DiodeCluster &cluster_;
@@ -233,7 +233,8 @@ void leave_out_the_least(Coefficients &coefficients, const ErrorScale &scale) {
                 [&](const auto &moment) { return largest_excess(moment.second, scale) <= least; });
 }
 
-// Of the sum of all coefficients, what the moments do not have; twice, for the weights before and after.
+// Sets the rest: the part of all coefficients' sum that the moments do not have; twice, for the weights
+// before and after.
 void set_rest(MomentBounds &bounds, const DiodeCluster &cluster, const std::vector<SightSeries> &series,
               const ErrorScale &scale) {
   bounds.rest_re = -2.0 * bounds.re.rowwise().sum();

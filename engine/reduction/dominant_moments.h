@@ -1,5 +1,5 @@
 #pragma once
-// What a change of diodes' weights does to the sum of their returns, by the moments of the weights.
+// The effect of a change of diodes' weights on the sum of their returns, by the moments of the weights.
 //
 // Diodes of one class (pattern and axis) at offsets I from a place G, a point at P from G, rho = |P|: r^2 =
 // rho^2 (1 + x) with x = (|I|^2 - 2 P.I) / rho^2. A diode's term, relative to one at G,
@@ -23,7 +23,7 @@ struct MomentBounds {
   Eigen::MatrixXd re, im;           // error per change of a moment (columns) in each direction (rows)
   Eigen::VectorXd rest_re, rest_im; // error by all that is not among the moments
 
-  // Of a cluster worth the time: in place of the bounds of what they hold, one for each direction.
+  // For a cluster worth the time, one for each direction: in place of the bounds of moments that they hold.
   std::vector<SeriesSamples> samples;
 
   Eigen::VectorXd importance(const ErrorScale &scale) const; // of the moments: largest excess per change
@@ -31,7 +31,7 @@ struct MomentBounds {
   SumError error(const Eigen::VectorXd &changes, const ErrorScale &scale) const;
 
 private:
-  // By the moments' bounds alone, for changes of at most these sizes; of each direction.
+  // The errors for each direction by the moments' bounds alone, for changes of at most these sizes.
   std::vector<SumError> errors(const Eigen::VectorXd &sizes, const ErrorScale &scale) const;
 };
 

@@ -17,8 +17,8 @@ constexpr double smallest_gain = 1e-13;      // of a point's function values, re
 constexpr double smallest_importance = 1e-3; // of a combination: sums are off by so much of what is bearable
 constexpr Index most_combinations = 200;
 
-// Columns that span, all but for rounding, what the columns of `a` do most in: a random mixture of them
-// (Halko, Martinsson, Tropp 2011), orthonormal.
+// Orthonormal columns that span, but for rounding, most of what the columns of `a` span: a random mixture of
+// them (Halko, Martinsson, Tropp 2011).
 MatrixXd span_of(const MatrixXd &a) {
   std::mt19937 random(1);
   MatrixXd mixture(a.cols(), std::min({a.rows(), a.cols(), most_combinations}));

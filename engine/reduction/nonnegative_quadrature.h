@@ -9,7 +9,7 @@ namespace pmdsim {
 // nonzeros as `a` has rows.
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd &a, const Eigen::VectorXd &b);
 
-// Functions by what they matter: their most important combinations, orthonormal over the points' weights.
+// Functions by their importance: their most important combinations, orthonormal over the points' weights.
 class Quadrature {
 public:
   // functions: a row each, at the points (columns), times how much their sums matter. sums: those to be kept.

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double largest_amplitude_error = 1e-3;
 constexpr std::size_t most_candidates = 512;
-// Of all clusters together, lest it take long where diodes stand all over the scene: looks at whether the
-// series converges, and attempts.
+// Limits for all clusters together, lest it take long where diodes stand all over the scene: looks at whether
+// the series converges, and attempts.
 constexpr std::size_t most_looks = 4096, most_attempts = 64;
 constexpr std::size_t fewest_diodes = 6; // of a cluster: fewer are not worth a look
 
@@ -140,7 +140,7 @@ public:
   }
 
 private:
-  // Halves what the series does not converge for, the largest first.
+  // Halves clusters for which the series does not converge, the largest first.
   void reduce(std::vector<Diode> &diodes, std::span<const std::size_t> all) {
     std::deque<std::span<const std::size_t>> left{all};
     for (; !left.empty() && looks_left_ > 0 && attempts_left_ > 0; left.pop_front(), --looks_left_) {

@@ -3,8 +3,8 @@
 // many points and at each frequency: where they cancel, the bound is smaller.
 //
 // With tau = R / rho, R the cluster's radius, and P's direction u a coefficient is a polynomial in tau and
-// u's components. A polynomial of degree n is nowhere on an interval more than 1 / cos(pi n / 2 N) times what
-// it is at N > n of Chebyshev's points at most (Ehlich and Zeller 1964); so in each variable.
+// u's components. A polynomial of degree n is nowhere on an interval more than 1 / cos(pi n / 2 N) times its
+// largest size at N > n of Chebyshev's points (Ehlich and Zeller 1964); so in each variable.
 
 #include "engine/reduction/cluster.h"
 #include "engine/reduction/directional_bounds.h"
@@ -17,7 +17,7 @@ namespace pmdsim {
 
 class SeriesSamples {
 public:
-  // least_terms: what sum|terms| is at least, relative to one diode at the centre.
+  // least_terms: a lower bound of sum|terms|, relative to one diode at the centre.
   SeriesSamples(const DiodeCluster &cluster, const DirectionalBounds &seen, const ErrorScale &scale,
                 const std::vector<Powers> &moments, double least_terms);
 

@@ -39,7 +39,7 @@ DiodeSet all_of(std::size_t diodes) {
   return all;
 }
 
-// The shape of what is asked for.
+// The sensor with the shape of the frame that is asked for.
 Sensor with_pixels(Sensor sensor, const std::vector<std::uint32_t> &pixels) {
   if (!pixels.empty())
     sensor.resolution = {1, static_cast<std::uint32_t>(pixels.size())};

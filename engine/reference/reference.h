@@ -21,8 +21,8 @@ struct FrameReturn {
   std::vector<std::complex<double>> z;
   std::vector<double> amplitude, phase_rad, distance_m;
   std::vector<std::vector<double>> taps; // c_k, k = 0 ... N-1
-  // The paths' weights, added up, over |z|: how many times more than its terms' the error of z may be. Of a
-  // sine 1 at least; infinity where all cancels, NaN where no light returns.
+  // The sum of the paths' weights over |z|: how many times larger than its terms' the error of z may be. At
+  // least 1 for a sine; infinity where all cancels, NaN where no light returns.
   std::vector<double> condition;
 };
 
@@ -40,7 +40,7 @@ struct Frame {
 struct Options {
   Shadows shadows = Shadows::off;
   bool keep_visibility = false; // fill Frame::sample_visibility
-  // Only these, row * columns + column, in this order, as a frame of one column; all where there are none.
+  // Only these pixels, row * columns + column, in this order, as a frame of one column; empty: all.
   std::vector<std::uint32_t> pixels{};
 };
 
@@ -50,8 +50,8 @@ Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illum
                Backscatter backscatter, const Options &options = {},
                const std::function<void(double)> &progress = {});
 
-// The integral of J over all directions: 4 pi of an isotropic diode, 2 pi / (n + 1) of a cosine's order n,
-// and of a diagram what its interpolation makes of it, exactly.
+// The integral of J over all directions: 4 pi for an isotropic diode, 2 pi / (n + 1) for a cosine of order n,
+// and for a diagram that of its interpolation, exactly.
 double solid_angle_sr(const Pattern &pattern);
 
 // Rounded to the float channels that the simulator gives.

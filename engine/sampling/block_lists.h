@@ -25,7 +25,7 @@ public:
   BlockLists(const vulkan::Device &device, const StripBuffers &buffers, std::span<const PlannedStrip> strips,
              std::uint32_t shining, bool lists_empty);
 
-  // Once it is known how many diodes reach each sample.
+  // Lists the blocks, once it is known how many diodes reach each sample.
   void record(const Recording &at) const;
 
   // The same by the host, whose memory the lists are in: `kinds` is one of shader::blocks_* for each block,

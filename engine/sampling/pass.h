@@ -12,7 +12,7 @@
 
 namespace pmdsim {
 
-// What passes leave for those that come later; each is one or more of StripBuffers.
+// The resources that passes leave for those that come later; each is one or more of StripBuffers.
 enum Resource : std::uint32_t {
   no_resource = 0,
   ids = 1u << 0,             // of each sample's pixel and triangle; its depth where the record is that
@@ -48,8 +48,8 @@ struct Pass {
   std::string name; // the key of its time in Measurement::passes
   Resources reads, writes;
   std::function<void(const Recording &)> record;
-  // Of a pass that may be cut into several submissions: its parts in a window, how many it has in all
-  // windows, and the interactions (samples times sources) of one.
+  // For a pass that may be cut into several submissions: its parts in a window, their number in all windows,
+  // and the interactions (samples times sources) of one.
   std::function<Parts(std::size_t window)> parts = {};
   std::uint32_t all_parts = 1;
   std::function<std::uint64_t(const shader::Strip &)> interactions = {};

@@ -16,7 +16,7 @@ namespace pmdsim {
 
 // Room for the list of `pixels` pixels.
 vulkan::Buffer make_pixel_list(const vulkan::Device &device, std::uint32_t pixels);
-// Some thousand pixels, whatever was done with the list before; `samples` of each.
+// Fills the list with some thousand pixels at most, whatever was done with it before; `samples` of each.
 void record_fill(const vk::raii::CommandBuffer &commands, const vulkan::Buffer &list,
                  std::span<const std::uint32_t> pixels, std::uint32_t samples);
 
@@ -28,9 +28,9 @@ public:
   // For as many pixels as the largest of the strips has.
   PixelLists(const vulkan::Device &device, const std::vector<PlannedStrip> &strips);
 
-  // No pixels, whatever was done with the lists before.
+  // Empties the lists, whatever was done with them before.
   void record_clear(const vk::raii::CommandBuffer &commands) const;
-  // How much there is to do for the passes that follow.
+  // Counts the work of the passes that follow.
   void record_count(const vk::raii::CommandBuffer &commands, std::uint32_t samples) const;
 
   const vulkan::Buffer &of(std::uint32_t list) const { return lists_[list]; }

@@ -1,6 +1,6 @@
 #pragma once
 // The frame cut into blocks that are rasterised on a plane each: the chip's own plane, whose fragments are
-// the samples, or with distortion planes across the view, in whose fragments the samples search. And these
+// the samples, or with distortion planes across the view, in whose fragments the samples search. Blocks are
 // cut into strips that fit the device's buffers.
 
 #include "engine/model/sensor.h"
@@ -54,8 +54,8 @@ std::vector<PlannedStrip> plan_strips(const Sensor &sensor, const std::vector<Ra
 // Columns and rows of fragments that are rasterised for a strip of `block`, all tiles together.
 glm::uvec2 strip_fragments(const shader::Strip &strip, const RasterBlock &block);
 
-// Invocations for `pixels` pixels: whole workgroups, of which the last is spare: what fills up the last
-// workgroup of a list of pixels works on its places.
+// Invocations for `pixels` pixels: whole workgroups, of which the last is spare. Invocations that fill up the
+// last workgroup of a list of pixels work on its places.
 std::uint32_t padded(std::uint32_t pixels);
 
 } // namespace pmdsim

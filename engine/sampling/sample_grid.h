@@ -16,14 +16,14 @@ bool is_nominal(const Sensor &sensor);
 
 shader::ChipPlace chip_place(const Sensor &sensor);
 
-// Of a nominal chip, as PointsConstants carries it: half a sample's width over the image distance.
+// Half a sample's width over the image distance, for a nominal chip, as PointsConstants carries it.
 shader::vec4 half_sample_slope(const Sensor &sensor);
 
 vulkan::Buffer upload_chip(const vulkan::Device &device, const Sensor &sensor);
 
 class ChipGrid {
 public:
-  // Of a sensor without distortion whose pixels are filled or have one sample.
+  // For a sensor without distortion whose pixels are filled or have one sample.
   ChipGrid(const vulkan::Device &device, const Sensor &sensor);
 
   bool is_nominal() const { return nominal_; }

@@ -17,7 +17,7 @@ vulkan::Buffer make_or_take(const vulkan::Device &device, vulkan::Buffer &previo
   return {device, bytes, usage, memory};
 }
 
-// What an image of that size that lies in a buffer (engine/vulkan/image.h) takes on lavapipe, which draws
+// The fragments that an image of that size takes in a buffer (engine/vulkan/image.h) on lavapipe, which draws
 // four rows at once.
 vk::DeviceSize drawn_fragments(glm::uvec2 fragments) {
   return (vk::DeviceSize{fragments.y} + 3) / 4 * 4 * fragments.x;

@@ -23,11 +23,11 @@ struct StripBuffers {
   vulkan::Buffer
       visibility;     // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit; // diodes that reach it, a word a sample; likewise
-  // Sum of |terms|, a float a sample, then of their weights' own errors; or what pixels may be off by
-  // (ClaimsConstants), a vec2 of each frequency. Empty unless an error was asked for.
+  // Sum of |terms|, a float a sample, then of their weights' own errors; or the errors that pixels may have
+  // (ClaimsConstants), a vec2 for each frequency. Empty unless an error was asked for.
   vulkan::Buffer terms;
   vulkan::Buffer violations;  // shader::BudgetViolations; likewise
-  vulkan::Buffer run_moments; // of each run and moment a plane, a float a sample; where the host sums
+  vulkan::Buffer run_moments; // a plane for each run and moment, a float a sample; where the host sums
   vulkan::Buffer sum;         // plane by plane (shaders/shared/interface.h), a vec4 or vec2 a sample
   vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
@@ -37,12 +37,12 @@ struct StripBuffers {
   std::size_t id_bytes = 0;       // a sample, of `ids`
 };
 
-// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, of
-// each pixel a word of either.
+// A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, a word
+// of either for each pixel.
 std::span<const shader::uvec2> pair_for_host(const StripBuffers &buffers, const shader::Strip &strip,
                                              std::uint32_t first);
 
-// What the raster leaves its IDs in.
+// The buffer that the raster leaves its IDs in.
 inline const vulkan::Buffer &drawn_ids(const StripBuffers &buffers) {
   return buffers.fragments.bytes() > 0 ? buffers.fragments : buffers.ids;
 }
@@ -51,7 +51,7 @@ inline const vulkan::Buffer &drawn_ids(const StripBuffers &buffers) {
 std::span<const std::byte> ids_for_host(const StripBuffers &buffers);
 std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers);
 
-// What a strip keeps of its samples.
+// The layout of what a strip keeps of its samples.
 struct SampleLayout {
   bool host_reads_ids;
   std::size_t id_bytes;       // a sample
@@ -63,7 +63,7 @@ struct SampleLayout {
   std::uint32_t sum_planes;
   std::uint32_t channels;
   std::uint32_t visibility_words; // 0: every diode reaches every sample
-  // Frequencies of which it is known what a pixel may be off by, beside the terms; 0: of none, and no terms.
+  // The number of frequencies for which pixels' errors are held, where the terms are; 0: none, and no terms.
   std::uint32_t held_errors;
 };
 

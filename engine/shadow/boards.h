@@ -18,12 +18,12 @@ struct Board {
   double lens_z_m = 0.0;                  // the lens is at (0, 0, lens_z_m)
   double radius_m = 1e-3;                 // of the diodes about the origin, in x and y; a millimetre at least
   double lowest_m = 0.0, highest_m = 0.0; // z of the diodes
-  // Of diodes, lens and origin along (1, 0), (-1, 0), (0, 1), (0, -1), and along the diagonals (1, 1), (-1,
-  // -1), (1, -1), (-1, 1) of unit length, m.
+  // The supports of diodes, lens and origin along (1, 0), (-1, 0), (0, 1), (0, -1), and along the diagonals
+  // (1, 1), (-1, -1), (1, -1), (-1, 1) of unit length, m.
   std::array<double, 8> supports_m{};
   std::vector<std::size_t> windows;
 
-  // z below which samples are in front of all of it, so that ways from there have slopes.
+  // z below which samples are in front of all of the board, so that ways from there have slopes.
   double nearest_in_front_m() const { return std::min(lowest_m, lens_z_m) - 0.01 * radius_m - 1e-4; }
   glm::dvec3 in_frame(const glm::dvec3 &camera_m) const { return rotation * camera_m + translation_m; }
 };

@@ -93,7 +93,7 @@ struct HolesPass::State {
   };
 
   const StripBuffers &buffers;
-  std::optional<ChipGrid> records; // where samples are these
+  std::optional<ChipGrid> records; // given where samples are depth records
   std::uint32_t lanes;
   vulkan::Specialization specialization;
   shader::HolesWindow record{}; // of no window yet

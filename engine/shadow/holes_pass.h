@@ -1,6 +1,6 @@
 #pragma once
-// The shadow pass behind the sweep: what triangles with holes and discs keep off. They have no silhouettes
-// that the mesh knows, so the light's way is tested with each of them that it may meet.
+// The shadow pass behind the sweep, for the light that triangles with holes and discs keep off. They have no
+// silhouettes that the mesh knows, so the light's way is tested with each of them that it may meet.
 
 #include "engine/light/accumulate_pass.h"
 #include "engine/light/source_windows.h"
@@ -16,7 +16,7 @@ namespace pmdsim {
 
 class HolesPass {
 public:
-  // `records`: where samples are these. Throws Error (out_of_memory).
+  // `records`: given where samples are depth records. Throws Error (out_of_memory).
   HolesPass(const PassSetup &on, const std::vector<shader::Occluder> &shapes, const SourceGroups &groups,
             const std::vector<SourceWindow> &windows, std::span<const PlannedStrip> strips,
             const std::optional<ChipGrid> &records);

@@ -12,7 +12,7 @@
 namespace pmdsim {
 namespace {
 
-// What rotations and dot products in double leave, relative to the coordinates.
+// The rounding of rotations and dot products in double, relative to the coordinates.
 constexpr double relative_rounding = 1e-14;
 
 // The corners of all that the lens sees, each of the scene's vertices once.

@@ -1,5 +1,5 @@
 #pragma once
-// What may stand between diodes and what the lens sees.
+// The shapes that may stand between diodes and what the lens sees.
 
 #include "engine/light/camera_light.h"
 #include "shaders/shadow/occluder.h"
@@ -12,7 +12,7 @@ namespace pmdsim {
 // walls of a room, a single wall. In the order of camera.triangles, then camera.hidden.
 struct Occluders {
   std::vector<shader::Occluder> shapes;     // triangles without holes: light that meets them is blocked
-  std::vector<shader::Occluder> with_holes; // that a mask cuts out, and those around discs
+  std::vector<shader::Occluder> with_holes; // triangles that a mask cuts out, and those around discs
 
   bool empty() const { return shapes.empty() && with_holes.empty(); }
 };

@@ -22,7 +22,7 @@ struct Coded {
 
 constexpr std::uint32_t digit_bits = 10;
 
-// What has the same digit stays in its order.
+// Codes of the same digit stay in their order.
 void sort_by_digit(const std::vector<Coded> &codes, std::uint32_t shift, std::vector<Coded> &sorted) {
   constexpr std::uint32_t digits = 1u << digit_bits;
   const auto digit_of = [&](const Coded &coded) { return coded.code >> shift & (digits - 1); };

@@ -19,11 +19,11 @@ public:
     return any_above({-plane.normal, -plane.offset_m}, margin_m);
   }
 
-  // The sum of the absolute coordinates, at most, m: what rounding is relative to.
+  // The largest sum of a place's absolute coordinates, m, to which rounding is relative.
   double size_m() const { return size_m_; }
 
 private:
-  // A box around some of the places; of a leaf they are few.
+  // A box around some of the places; in a leaf they are few.
   struct Node {
     glm::dvec3 low_m, high_m;
     std::size_t first, count; // of the places

@@ -12,11 +12,10 @@
 namespace pmdsim {
 namespace {
 
-// A diode that is no farther from a triangle touches it, m: what rounding may leave of one that a file puts
-// there.
+// A diode that is no farther from a triangle touches it, m: a file may put one there, but for rounding.
 constexpr double touching_m = 1e-8;
 
-// Of normal . p - offset over the board's disc and the lens.
+// The sign of normal . p - offset all over the board's disc and the lens, else 0.
 int side_of_board(const Board &board, const glm::dvec3 &normal, double offset_m) {
   const double reach_m = board.radius_m * std::hypot(normal.x, normal.y);
   const double at_lens_m = normal.z * board.lens_z_m - offset_m;
@@ -50,8 +49,8 @@ struct Edge {
   bool same_way;               // the second runs from a to b as well
 };
 
-// Whether its triangles' sides show to all of the board as to each other, so that it is no silhouette from
-// anywhere on it.
+// Whether all of the board is on the same side of both of the edge's triangles, so that the edge is no
+// silhouette from anywhere on it.
 bool is_never_silhouette(const Edge &edge, const std::vector<BoardTriangle> &triangles) {
   if (edge.second == no_id)
     return false;
@@ -101,7 +100,7 @@ struct ItemMaker {
   }
 };
 
-// Those that may be silhouettes. Where a neighbour is no occluder, or has holes, an edge is that of one
+// The edges that may be silhouettes. Where a neighbour is no occluder, or has holes, an edge is that of one
 // triangle alone.
 std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Occluders &occluders,
                            const Scene &scene) {
@@ -134,7 +133,7 @@ std::vector<Edge> edges_of(const std::vector<BoardTriangle> &triangles, const Oc
   return edges;
 }
 
-// Those that the lens does not see.
+// The shapes that the lens does not see.
 std::vector<std::uint32_t> hidden_shapes(const Occluders &occluders, const CameraScene &camera,
                                          const Scene &scene) {
   std::vector<bool> is_hidden(scene.shape_count());

@@ -38,14 +38,14 @@ struct SweepItems {
   // Likewise, triangles that the lens does not see and that may hide something from it all the same.
   std::vector<SweepItem> hidden;
   float rest_step = 0.0f; // of the packed rests, m
-  // Those that come so near the way of the light's place from the lens to a diode that they may meet it.
+  // Triangles that come so near the way of the light's place from the lens to a diode that they may meet it.
   std::vector<BoardTriangle> in_the_way;
 };
 
 SweepItems sweep_items(const Board &board, const Occluders &occluders, const CameraScene &camera,
                        const Scene &scene);
 
-// Of the triangles those that the straight way from the lens to a diode goes through, each with these diodes.
+// Those of the triangles that the straight way from the lens to a diode goes through, each with these diodes.
 // `places_m` as places_of() gives them.
 std::vector<shader::Piercer> find_piercers(const Board &board, const std::vector<BoardTriangle> &triangles,
                                            const std::vector<glm::dvec3> &places_m);

@@ -25,7 +25,7 @@ using vulkan::Buffer;
 
 constexpr std::uint32_t texel_buffers = 7; // of sweep.glsl
 
-// Of so many items, 256 diodes and subgroups of 8 no loop is too long, and all lists have room.
+// With so many items, 256 diodes and subgroups of 8, no loop is too long, and all lists have room.
 constexpr std::uint32_t fewest_to_lose = 400;
 
 Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::BufferUsageFlags more = {}) {
@@ -100,7 +100,7 @@ struct SweepPass::State {
 
   const StripBuffers &buffers;
   const SceneBuffers &scene;
-  std::optional<ChipGrid> records; // where samples are these
+  std::optional<ChipGrid> records; // given where samples are depth records
   std::vector<SourceWindow> windows;
   std::uint32_t lanes;
   vulkan::Specialization specialization;
@@ -116,7 +116,7 @@ struct SweepPass::State {
 
   vulkan::ComputePipeline pipeline(const PassSetup &on, std::string_view name) const;
   void add_board(const PassSetup &on, const Board &board, const SweepItems &items);
-  // One of the board that was added last.
+  // Adds a window of the board that was added last.
   void add_window(const PassSetup &on, const Board &board, const SweepItems &items,
                   const SourceGroups &groups, std::size_t window);
   void upload_records(const PassSetup &on, const Board &board, const SweepItems &items,
@@ -126,7 +126,7 @@ struct SweepPass::State {
 
   shader::SweepConstants constants(const shader::Strip &strip, std::size_t window,
                                    std::uint32_t round = 0) const;
-  // Nothing is decided yet; of a board's first window nothing is listed, either.
+  // Resets what is decided, and for a board's first window what is listed, too.
   void record_reset(const vk::raii::CommandBuffer &commands, const shader::Strip &strip,
                     std::size_t window) const;
   // Finds how long the tiles' lists are.

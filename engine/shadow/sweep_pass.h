@@ -17,7 +17,7 @@ namespace pmdsim {
 
 class SweepPass {
 public:
-  // `records`: where samples are these. Throws Error (out_of_memory).
+  // `records`: given where samples are depth records. Throws Error (out_of_memory).
   SweepPass(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
             const SourceGroups &groups, const std::vector<SourceWindow> &windows,
             std::span<const PlannedStrip> strips, const std::optional<ChipGrid> &records);
@@ -29,8 +29,8 @@ public:
 
   // Whether has_lost() may ever be true.
   bool may_lose() const;
-  // Once the device is done with a strip: whether a scene with so many edges in a tile's way is beyond what
-  // the shaders' loops can do, and the bits are not all right.
+  // Once the device is done with a strip: whether there were more edges in a tile's way than the shaders'
+  // loops can take, so that the bits are not all right.
   bool has_lost() const;
 
 private:

@@ -85,7 +85,7 @@ std::vector<uvec4> prefix_table(const std::vector<std::pair<float, std::uint32_t
   return table;
 }
 
-// A direction of lines: of each diode between which offsets lie those of whose lines it may be beyond or not.
+// A bin of directions of lines. Each diode has two offsets between which it may be beyond a line or not.
 struct DirectionBin {
   glm::dvec2 middle;
   double half_angle_rad;

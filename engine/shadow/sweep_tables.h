@@ -1,6 +1,5 @@
 #pragma once
-// What the sweep looks up about a window's diodes on a flat board: which of them lie within an angle, and
-// beyond a line.
+// The sweep's tables of a window's diodes on a flat board: which lie within an angle, and beyond a line.
 
 #include "engine/shadow/boards.h"
 #include "shaders/shadow/sweep_interface.h"
@@ -17,12 +16,12 @@ struct SweepTables {
   std::vector<shader::vec4> diodes; // two of each: x, y, their rests; z, its rest. Board frame, m
 };
 
-// Grows with the angle of (x, y) about the board's centre, from 0 to 4, as in the shaders.
+// A measure that grows with the angle of (x, y) about the board's centre, from 0 to 4, as in the shaders.
 float turn_of(glm::vec2 q);
 // Diodes whose turns differ by no more count as of one angle.
 constexpr float same_turn = 1e-6f;
 
-// By which a line on the board may be off for `lines` to be right, m.
+// The distance by which a line on the board may be off for `lines` to be right, m.
 double line_margin_m(const Board &board);
 
 // `places_m` as places_of() gives them.

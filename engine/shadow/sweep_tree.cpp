@@ -21,7 +21,7 @@ void fill_up(std::vector<ItemBox> &boxes, std::size_t first) {
 SweepTree sweep_tree(std::vector<SweepItem> items) {
   SweepTree to;
   to.items = std::move(items);
-  // What fills up the last cluster is met by nothing.
+  // Items that fill up the last cluster are met by nothing.
   while (to.items.size() % width != 0 || to.items.empty())
     to.items.push_back({glm::vec3(1e30f), no_id, glm::vec3(1e30f), shader::item_boundary, glm::vec3(0.0f), 0,
                         glm::vec3(0.0f), 0});

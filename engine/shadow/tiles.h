@@ -13,7 +13,7 @@ namespace pmdsim {
 
 std::uint32_t tiles_across(std::uint32_t pixels);
 std::uint32_t tile_count(const shader::Strip &strip);
-// Of any of the strips.
+// The most of any of the strips.
 std::uint32_t largest_tile_count(std::span<const PlannedStrip> strips);
 
 } // namespace pmdsim

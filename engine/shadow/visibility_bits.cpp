@@ -15,7 +15,7 @@ vk::DeviceSize bytes_of(const SourceWindow &window, const shader::Strip &strip) 
   return vk::DeviceSize{window.bundles} * sample_count(strip) * sizeof(std::uint32_t);
 }
 
-// Of the sample stored at (sy * S + sx) * padded_pixels + p.
+// The place of the sample stored at (sy * S + sx) * padded_pixels + p.
 std::size_t place_in_frame(const shader::Strip &strip, std::uint32_t subsample, std::uint32_t pixel) {
   const std::size_t column =
       std::size_t{strip.column + pixel % strip.columns} * strip.samples + subsample % strip.samples;

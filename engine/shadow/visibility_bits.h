@@ -22,11 +22,11 @@ void record_visibility(const vk::raii::CommandBuffer &commands, const shader::St
                        const StripBuffers &buffers, const SourceWindow &window);
 
 // Once that is done: sets the bits of the window's diodes in `to`, those of samples that see nothing as well.
-// `row_by_row`: so the samples lie, as depth records do.
+// `row_by_row`: the samples lie so, as depth records do.
 void store_visibility(const shader::Strip &strip, const StripBuffers &buffers, const SourceWindow &window,
                       const SourceGroups &groups, bool row_by_row, std::vector<std::uint32_t> &to);
 
-// Where the sample sees nothing (sample_pixel_id is 0) nothing is reached.
+// Clears the bits of samples that see nothing (sample_pixel_id is 0).
 void clear_unseen(Measurement &measurement);
 
 } // namespace pmdsim

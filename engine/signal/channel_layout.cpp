@@ -13,7 +13,7 @@ using Area = DeviceSlot::Area;
 
 constexpr std::uint32_t whole_pairs(std::uint32_t channels) { return (channels + 1) / 2 * 2; }
 
-// Of those of a fixed number.
+// An area's channels, without taps, whose number varies.
 constexpr std::uint32_t channels_in(Area area) {
   std::uint32_t end = 0;
   for (const ChannelRow &row : channel_rows)

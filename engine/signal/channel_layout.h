@@ -17,15 +17,15 @@ struct ChannelLayout {
   std::uint32_t frequencies;
   std::uint32_t taps; // that are kept, of each frequency
   bool lit;           // the area of shadows is there
-  bool bounds;        // those of bounds are
+  bool bounds;        // the areas of bounds are there
 
-  // All of them, and where areas begin; even numbers.
+  // The number of all channels, and those at which areas begin; even numbers.
   std::uint32_t channels() const;
   std::uint32_t first_channel(std::uint32_t frequency) const;
   std::uint32_t lit_channel() const;
 
   bool holds(const ChannelRow &row) const;
-  // Of a channel that it holds.
+  // The number of a channel that it holds.
   std::uint32_t number(const ChannelIndex &of) const;
 };
 

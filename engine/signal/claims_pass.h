@@ -1,12 +1,12 @@
 #pragma once
-// What becomes of what the pixels of a frame of depth records may be off by: the frame's claim, and the
-// pixels that a later class sums again.
+// The use of the errors that pixels of a frame of depth records may have: the frame's claim, and the pixels
+// that a later class sums again.
 
 #include "engine/light/accumulate_pass.h"
 
 namespace pmdsim {
 
-// Where that has been left: as ClaimsConstants::errors, planes of samples or of pixels apart.
+// Where those errors have been left: as ClaimsConstants::errors, in planes of samples or of pixels.
 struct HeldErrors {
   const vulkan::Buffer &in;
   Resources resource;
@@ -19,8 +19,8 @@ struct HeldErrors {
 HeldErrors errors_of_direct_pixels(const StripBuffers &buffers);
 HeldErrors errors_of_demodulation(const StripBuffers &buffers);
 
-// Behind those. Pixels that may be beyond what was asked for are listed in `later`, or counted where there is
-// none.
+// Goes behind the passes that leave them. Pixels that may be beyond what was asked for are listed in `later`,
+// or counted where there is none.
 Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later);
 
 } // namespace pmdsim

@@ -30,8 +30,8 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
 
 namespace {
 
-// Of depth records, as one straight line, which should not take long to compile: a divisor of their number,
-// so that one pipeline does for all parts.
+// For depth records, as many as make a straight line that does not take long to compile: a divisor of their
+// number, so that one pipeline does for all parts.
 std::uint32_t frequencies_at_once(const Modulation &modulation, const SumScope &scope) {
   if (!scope.depth_records)
     return 1;

@@ -5,12 +5,12 @@
 
 namespace pmdsim {
 
-// Of the pixels that `groups` were summed for within `scope`. `leaves_truth`: to the host, which finds it in
-// records of depths (TruthOfRecords).
+// Demodulates the pixels that `groups` were summed for within `scope`. `leaves_truth`: the host finds the
+// ground truth in records of depths (TruthOfRecords).
 Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                        bool leaves_truth = false);
 
-// The specialization constants of the demodulation, for what resolves likewise; `first` of the frequencies.
+// The demodulation's specialization constants, for all shaders that do it; `first`: of the first frequency.
 vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScope &scope, bool first);
 
 } // namespace pmdsim

@@ -49,7 +49,7 @@ void store_pair(std::span<const shader::uvec2> pair, const Row &row, const Desti
   std::visit(store, even, odd);
 }
 
-// Of each channel on the device.
+// The destination of each channel on the device.
 std::vector<Destination> destinations(const ChannelLayout &layout, Measurement &to) {
   std::vector<Destination> result(layout.channels());
   for_each_channel(to, [&](const ChannelIndex &of, auto &values) {
@@ -78,8 +78,8 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
   }
 }
 
-// Light has no upper bound. What a float is too small for is counted, not searched, as the compiler makes
-// vectors of that.
+// Light has no upper bound. Values that a float is too small for are counted, not searched for, as the
+// compiler vectorizes a count.
 void check_radiance(const Row &row, const Measurement &measurement) {
   for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
     if (of.row.unit != radiance_unit || values.empty())
@@ -167,7 +167,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
       of_frequency.error_bound_m.clear();
   }
   for_each_channel(measurement, [&](const ChannelIndex &of, auto &values) {
-    if (layout.holds(of.row)) // what else there is, the host fills or clears
+    if (layout.holds(of.row)) // the host fills or clears all others
       values.resize(pixels);
   });
   const bool keeps_ids = options.keep_sample_ids || options.keep_visibility;

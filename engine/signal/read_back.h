@@ -30,7 +30,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
 Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,
                     const std::optional<TruthOfRecords> &truth);
 
-// Of all strips since it was cleared, as read back last; only where Modulation::keeps_terms.
+// The violations of all strips since they were cleared, as last read; only where Modulation::keeps_terms.
 shader::BudgetViolations budget_violations(const StripBuffers &buffers);
 
 } // namespace pmdsim

@@ -33,8 +33,8 @@ double distance_to_edge_m(const glm::dvec3 &from, const glm::dvec3 &to) {
   return glm::length(from + along * edge);
 }
 
-// Of the triangle's points from the lens: the nearest lies on an edge, or below the lens if that is over the
-// triangle.
+// The ranges of the triangle's points from the lens: the nearest lies on an edge, or below the lens if that
+// is over the triangle.
 Bounds ranges_m(const std::array<glm::dvec3, 3> &corners_m, const Plane &plane) {
   const auto &[a, b, c] = corners_m;
   const glm::dvec3 below = plane.offset_m * plane.normal;

@@ -19,8 +19,8 @@ struct CameraTriangle {
   std::uint32_t id;                    // of the triangle or the disc in the scene
 };
 
-// The plane normal . P = offset_m, camera frame, the normal of unit length; of what the lens sees it is
-// turned to the lens, so that offset_m < 0.
+// The plane normal . P = offset_m, camera frame, the normal of unit length; for shapes that the lens sees it
+// is turned to the lens, so that offset_m < 0.
 struct Plane {
   glm::dvec3 normal;
   double offset_m;
@@ -34,12 +34,12 @@ struct CameraScene {
   // The shapes that the lens can see: without those of no area, those seen edge-on and culled back faces.
   std::vector<CameraTriangle> triangles;
   std::vector<Plane> planes; // beside `triangles`
-  // Those that it cannot see and that stand in the light all the same; not those of no area.
+  // The shapes that it cannot see and that stand in the light all the same; not those of no area.
   std::vector<CameraTriangle> hidden;
-  double world_rounding_m = 0.0; // what places in the world, in double, may be off by
+  double world_rounding_m = 0.0; // the error that places in the world, in double, may have
 };
 
-// Holds what is visible of some consecutive triangles, before one hides another, or lights; at first nothing.
+// Holds the visible parts of some consecutive triangles, before one hides another, or lights; empty at first.
 struct VisibleBox {
   glm::dvec3 low_m{std::numeric_limits<double>::infinity()}; // camera frame
   glm::dvec3 high_m{-std::numeric_limits<double>::infinity()};
@@ -56,10 +56,10 @@ struct VisibleBox {
 
 CameraScene to_camera(const Scene &scene, const Sensor &sensor);
 
-// What TrianglePlane::along_* bound: the ray's depth, or its range.
+// The measure that TrianglePlane::along_* bound: the ray's depth, or its range.
 enum class AlongRay { depth, range };
 
-// B of a fully lit surface over its reflectivity: 1 / pi of Lambert's.
+// B of a fully lit surface over its reflectivity: 1 / pi for Lambert's.
 double backscatter_per_reflectivity(Backscatter backscatter);
 
 // The records that the points passes look up by id, one for each of the scene's shapes.

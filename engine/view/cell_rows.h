@@ -27,15 +27,15 @@ struct CellSpan {
 
 constexpr double cell_margin = 1.0 / 64.0; // fragments
 
-// The rows, and of a row the columns, of a raster of `size` cells that an outline touches, and those columns
-// whose cells lie inside it altogether. Cells are taken larger by the margin, which is more than a float errs
-// by in telling in which of them a place of the raster lies.
+// The rows of a raster of `size` cells that an outline touches, the columns of a row that it touches, and
+// those whose cells lie inside it altogether. Cells are taken larger by the margin, which is more than a
+// float errs by in telling in which of them a place of the raster lies.
 class OutlineCells {
 public:
   OutlineCells(const Outline &outline, const glm::uvec2 &size);
 
   const CellSpan &rows() const { return rows_; }
-  // Those of all its rows together.
+  // The columns of all its rows together.
   const CellSpan &columns() const { return columns_; }
   CellSpan touched(std::int64_t row) const;
   CellSpan inside(std::int64_t row) const;

@@ -21,7 +21,7 @@ constexpr double snapping = 1.0 / 256.0;
 constexpr double rounding = 1e-13;
 constexpr double depth_slack = 1e-9; // relative
 
-// In the order of their ids: of neighbours whose common edge a ray meets the first stays.
+// Takes shapes in the order of their ids: of neighbours whose common edge a ray meets, the first stays.
 struct Nearest {
   std::uint32_t id = shader::no_triangle;
   double along = std::numeric_limits<double>::infinity();
@@ -32,10 +32,10 @@ struct Nearest {
   }
 };
 
-// Of a block, or of one of its tiles.
+// The edges in a block, or in one of its tiles.
 class BlockEdges {
 public:
-  // `shift`: of the samples from their fragments' centres.
+  // `shift`: that of the samples from their fragments' centres.
   BlockEdges(const CameraScene &camera, const Scene &scene, const RasterBlock &block, const glm::dvec2 &shift)
       : camera_(camera), scene_(scene), block_(block), shift_(shift),
         camera_from_raster_(glm::inverse(block.raster_from_camera)), near_(block.fragments) {}
@@ -145,7 +145,7 @@ private:
   std::vector<Nearest> solid_, holed_; // of each: the nearest shape that is there, and that may be
 };
 
-// Of all tiles, in the order of their rows of pixels.
+// Finds the samples of all tiles, in the order of their rows of pixels.
 void find_in_block(const CameraScene &camera, const Scene &scene, const Sensor &sensor,
                    const RasterBlock &block, std::vector<shader::EdgeSample> &to) {
   const bool tiled = is_tiled(sensor);

@@ -16,7 +16,7 @@ struct EdgeSamples {
   std::vector<std::uint32_t> end_of_block; // in `samples`
 };
 
-// Those that would see a surface with holes are left to the raster, which knows the holes.
+// Samples that would see a surface with holes are left to the raster, which knows the holes.
 EdgeSamples find_edge_samples(const CameraScene &camera, const Scene &scene, const Sensor &sensor,
                               const std::vector<RasterBlock> &blocks);
 

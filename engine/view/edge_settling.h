@@ -14,12 +14,12 @@ namespace pmdsim {
 
 class EdgeSettling {
 public:
-  // `grid`: where the samples have records.
+  // `grid`: given where the samples have records.
   EdgeSettling(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
                const CameraScene &camera, const Scene &scene, const std::vector<RasterBlock> &blocks,
                const std::optional<ChipGrid> &grid);
 
-  // Of a strip, once the raster has left IDs or records in the buffer; `planes`: TrianglePlane[].
+  // Settles a strip, once the raster has left IDs or records in the buffer; `planes`: TrianglePlane[].
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned,
               const vulkan::Buffer &planes, const vulkan::Buffer &ids) const;
 

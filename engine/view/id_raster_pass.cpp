@@ -34,7 +34,7 @@ std::vector<vk::Extent2D> extents_of(const std::vector<PlannedStrip> &strips,
   return extents;
 }
 
-// Rays of the blocks' fragments, for what has to know them.
+// Rays of the blocks' fragments, for shaders that have to know them.
 vulkan::Buffer upload_planes(const vulkan::Device &device, const std::vector<RasterBlock> &blocks) {
   std::vector<shader::BlockPlane> records;
   for (const RasterBlock &block : blocks) {
@@ -73,7 +73,7 @@ vulkan::Pipeline make_pipeline(const vulkan::Device &device, const Raster &raste
     vk::PipelineRasterizationStateCreateInfo filled;
     filled.setCullMode(vk::CullModeFlagBits::eNone).setLineWidth(1.0f);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, vk::SampleCountFlagBits::e1);
-    // Of triangles at the same depth the one that comes first in the scene stays.
+    // At the same depth, the triangle that comes first in the scene stays.
     const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eGreater);
     vk::PipelineColorBlendAttachmentState write;
     using Component = vk::ColorComponentFlagBits;

@@ -23,16 +23,16 @@ std::uint32_t raster_block_fragments(const vulkan::Device &device);
 
 class IdRasterPass {
 public:
-  // `strips` tell how large an image is needed; `grid`: where the samples' records are asked for; `previous`:
-  // taken where they are the same. `scene` and `id_buffer` stay where they are.
+  // `strips` tell how large an image is needed; `grid`: given where the samples' records are asked for;
+  // `previous`: taken where they are the same. `scene` and `id_buffer` stay where they are.
   IdRasterPass(const vulkan::Device &device, const Projection &projection, const Sensor &sensor,
                const std::vector<PlannedStrip> &strips, const SceneBuffers &scene, SamplePrecision precision,
                const std::optional<ChipGrid> &grid, const vulkan::Buffer &id_buffer,
                std::optional<RasterImages> &&previous);
 
   // Leaves the IDs of the strip's samples, or their records (shaders/shared/interface.h), or with distortion
-  // the IDs of its block's fragments, in the buffer, visible to compute shaders and transfers. Of a strip
-  // that is not one of those planned, only the first row may be right.
+  // the IDs of its block's fragments, in the buffer, visible to compute shaders and transfers. If the strip
+  // is not one of those planned, only its first row may be right.
   void record(const vk::raii::CommandBuffer &commands, const PlannedStrip &planned) const;
 
   std::optional<RasterImages> release_images();

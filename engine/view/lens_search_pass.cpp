@@ -33,8 +33,8 @@ double distorted_radius_of_image(const Sensor &sensor, const Lens &lens) {
   return radius;
 }
 
-// How many times the distorted radius the undistorted one is, or the fisheye's angle. Newton's method gets
-// the node below, from where it runs up to the root without passing the fold.
+// The undistorted radius, or the fisheye's angle, over the distorted radius. Newton's method gets the node
+// below, from where it runs up to the root without passing the fold.
 std::array<float, shader::lens_guesses> guesses_of(const Lens &lens, double nodes_per_radius) {
   std::array<float, shader::lens_guesses> guesses;
   float guess = 1.0f;
@@ -99,7 +99,7 @@ LensSearch make_search(const vulkan::Device &device, SamplePrecision precision, 
                                   sizeof(shader::LensSearchConstants), constants)};
 }
 
-// A block's, also where it has none: lavapipe compiles at the first dispatch.
+// Marks a block's rim cells, also where it has none: lavapipe compiles at the first dispatch.
 void mark_rims(const LensSearch &made, const Recording &at, const vulkan::Buffer &fragments) {
   if (made.rim_cells.bytes() == 0)
     return;

@@ -28,8 +28,8 @@ struct WeldedEdge {
   auto operator<=>(const WeldedEdge &) const = default;
 };
 
-// Of the triangles `ids`, those that share an edge side by side, in the order of their ids; `first` as
-// first_at_same_place() gives it.
+// The edges of the triangles `ids`. Those that several triangles share lie side by side, in the order of
+// their ids; `first` as first_at_same_place() gives it.
 std::vector<WeldedEdge> welded_edges(const Scene &scene, std::span<const std::uint32_t> ids,
                                      const std::vector<std::uint32_t> &first);
 

@@ -11,8 +11,9 @@
 
 namespace pmdsim {
 
-// From the sample's triangle's plane and its exact ray, for sensors without distortion; of the pixels of
-// `list`, or of all. `surface_vectors`: of normals and heights, that the sum asks for a sample (SumModel).
+// Finds points from the plane of a sample's triangle and its exact ray, for sensors without distortion; for
+// the pixels of `list`, or for all. `surface_vectors`: those of normals and heights that the sum asks for a
+// sample (SumModel).
 Pass points_pass(const vulkan::Device &device, SamplePrecision precision, const Sensor &sensor,
                  std::uint32_t surface_vectors, const StripBuffers &buffers, const SceneBuffers &scene,
                  const vulkan::Buffer *list = nullptr);

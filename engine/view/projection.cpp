@@ -122,13 +122,13 @@ Seen seen_in(const RasterBlock &block, std::span<const glm::dvec3> corners_m) {
 Projection project(const CameraScene &camera, std::vector<RasterBlock> blocks) {
   Projection projection;
   projection.blocks = std::move(blocks);
-  // Consecutive ones share a box.
+  // Consecutive triangles share a box.
   const std::size_t triangles_per_box = camera.triangles.size() / boxes_at_most + 1;
   projection.visible.resize(camera.triangles.size() / triangles_per_box + 1);
   for (RasterBlock &block : projection.blocks)
     project_block(camera, triangles_per_box, block, projection);
   scale_depths(projection);
-  // Those in which nothing is visible.
+  // Boxes in which nothing is visible.
   std::erase_if(projection.visible, [](const VisibleBox &box) { return box.low_m.x > box.high_m.x; });
   return projection;
 }

@@ -15,7 +15,7 @@
 
 namespace pmdsim {
 
-// What is nearer to a block's plane through the lens is not seen in it.
+// Points nearer to a block's plane through the lens are not seen in the block.
 constexpr double nearest_depth_m = 1e-7;
 
 struct Projection {
@@ -24,14 +24,14 @@ struct Projection {
   std::vector<VisibleBox> visible; // some 1,000 at most, whatever the number of triangles
 };
 
-// What the lens sees of a shape in a block, in double and without the raster's grid: the outline on the
-// block's raster, less what lies behind the lens, and the depths; nothing where all does.
+// The part of a shape that the lens sees in a block, in double and without the raster's grid: the outline on
+// the block's raster, less the part behind the lens, and the depths; nothing where all lies there.
 struct Seen {
   Outline outline;
   double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0;
 };
 
-// Of a triangle, or of a line, whose corners are in the camera frame.
+// `corners_m`: those of a triangle, or of a line, in the camera frame.
 Seen seen_in(const RasterBlock &block, std::span<const glm::dvec3> corners_m);
 
 // `blocks` without their vertices.

@@ -1,6 +1,6 @@
 #pragma once
-// What the ID raster draws on: an image of depths, and one of IDs, which lies in the very buffer
-// that the IDs are wanted in where it can.
+// The images that the ID raster draws on: one of depths, and one of IDs, which lies in the very buffer that
+// the IDs are wanted in where it can.
 
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/device.h"
@@ -24,11 +24,11 @@ public:
 
   // Begins to draw on `extent`, where no ID is left from before and all depths are 0.
   void begin(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const;
-  // Ends that: the IDs are in the buffer row by row, visible to compute shaders and transfers. Of an extent
-  // that is not one of those asked for, and not as wide, only the first row may be.
+  // Ends that: the IDs are in the buffer row by row, visible to compute shaders and transfers. If the extent
+  // is not one of those asked for, and not as wide, only the first row may be there.
   void end(const vk::raii::CommandBuffer &commands, vk::Extent2D extent) const;
 
-  // Before the buffer goes: only what may be taken by others stays.
+  // To be called before the buffer goes: only what others may take stays.
   void leave_buffer();
 
 private:

@@ -55,7 +55,7 @@ bool is_rim(const std::vector<shader::TriangleCorners> &all, std::uint32_t id, s
   return !((own > 0.0 && other < 0.0) || (own < 0.0 && other > 0.0));
 }
 
-// The depths of a shape in a cell. On the raster one over the depth is affine.
+// The depths of a shape in a cell. One over the depth is affine on the raster.
 class DepthsInCells {
 public:
   DepthsInCells(const Seen &shape, const Plane &plane, const glm::dmat3 &camera_from_raster)
@@ -93,7 +93,7 @@ std::vector<Side> rims_of(const CameraScene &camera, const Scene &scene,
   return rims;
 }
 
-// Of a block.
+// The rims of a block.
 class BlockRims {
 public:
   BlockRims(const CameraScene &camera, const Scene &scene, const RasterBlock &block)
@@ -132,7 +132,7 @@ private:
       cells_.add(row, line.touched(row));
   }
 
-  // All that the shape touches, but for what lies within a disc.
+  // Adds all cells that the shape touches, but for those within a disc.
   void add_shape(std::size_t index) {
     const bool whole = has_holes(index);
     const OutlineCells shape(seen(index).outline, block_.fragments);

@@ -16,8 +16,8 @@ namespace pmdsim {
 struct RimCells {
   std::vector<shader::RimCell> cells;      // block after block, each row by row
   std::vector<std::uint32_t> end_of_block; // in `cells`
-  // Of each cell the nearest first, after them one of no shape. A cell that more than 16,384 shapes cross has
-  // the nearest ones.
+  // Each cell's candidates, the nearest first, and after them one of no shape. A cell that more than 16,384
+  // shapes cross has the nearest ones.
   std::vector<shader::RimCandidate> candidates;
 };
 

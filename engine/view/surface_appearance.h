@@ -18,7 +18,7 @@ public:
   explicit TextureCache(const vulkan::Device &device) : device_(device) {}
 
   std::shared_ptr<const vulkan::Buffer> buffer_of(const std::shared_ptr<const Texture> &texture);
-  // Those that no PaintBuffers hold.
+  // Drops the textures that no PaintBuffers hold.
   void drop_unused();
 
 private:
@@ -34,7 +34,7 @@ struct PaintBuffers {
   bool cutouts = false; // whether any may have holes, or is a disc
 };
 
-// What of paint a frame has to model.
+// The uses of paint that a frame has to model.
 struct PaintUse {
   bool painted = false;            // whether any shape that the lens can see is
   bool cutouts = false;            // whether any of these may have holes, or is a disc

@@ -32,17 +32,17 @@ public:
   vk::DeviceSize bytes() const { return bytes_; }
   vk::DeviceMemory memory() const { return *memory_; } // the buffer's alone, from its beginning
   std::uint32_t memory_type() const { return memory_type_; }
-  // The address of what lies `offset` bytes from its beginning, as shaders take it: low word, high word. Of
-  // Memory::device only.
+  // The address of what lies `offset` bytes from its beginning, as shaders take it: low word, high word. Only
+  // Memory::device has one.
   glm::uvec2 words(vk::DeviceSize offset = 0) const {
     const vk::DeviceAddress at = address_ + offset;
     return {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at >> 32)};
   }
-  // Of upload and read; of device, too, where the host reads the device's memory as its own.
+  // True with upload and read; with device, too, where the host reads the device's memory as its own.
   bool is_mapped() const { return mapped_ != nullptr; }
   std::span<std::byte> mapped() const { return {mapped_, static_cast<std::size_t>(bytes_)}; }
 
-  // The same, from its beginning, as what it holds.
+  // The mapped memory, from its beginning, as values of T.
   template <class T>
   T *mapped_as() const {
     return reinterpret_cast<T *>(mapped_);

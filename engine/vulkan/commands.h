@@ -1,5 +1,5 @@
 #pragma once
-// Recording work, sending it to the queue, waiting for it, and what passes took.
+// Recording work, sending it to the queue, waiting for it, and the times that passes took.
 
 #include "engine/model/device_info.h"
 #include "engine/vulkan/device.h"
@@ -30,7 +30,7 @@ private:
   vk::raii::Fence fence_;
 };
 
-// What was written by `after` may be read and written by `before`.
+// Lets the stages `before` read and write what the stages `after` wrote.
 void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags2 after,
                     vk::AccessFlags2 written, vk::PipelineStageFlags2 before, vk::AccessFlags2 used);
 
@@ -43,7 +43,7 @@ void compute_barrier(const vk::raii::CommandBuffer &commands);
 void barrier_before_update(const vk::raii::CommandBuffer &commands);
 void barrier_after_update(const vk::raii::CommandBuffer &commands);
 
-// What shaders and rasters wrote may be read by the host, once it knows that they are done.
+// Lets the host read what shaders and rasters wrote, once it knows that they are done.
 void host_barrier(const vk::raii::CommandBuffer &commands);
 
 double milliseconds_since(std::chrono::steady_clock::time_point start);
@@ -61,9 +61,9 @@ public:
   // Opens the command buffer that the passes are recorded to.
   void begin();
   const vk::raii::CommandBuffer &commands() const { return commands_.get(); }
-  // What was recorded since begin() or the last end_pass() is the pass `name`.
+  // Ends the pass `name`: all that was recorded since begin() or the last end_pass().
   void end_pass(const std::string &name);
-  // What the host did of the pass `name`.
+  // Adds the time of the host's share in the pass `name`.
   void add(const std::string &name, double ms);
   // Returns when the device is done with all passes recorded. Throws as Commands::submit_and_wait().
   void finish();

@@ -34,7 +34,7 @@ private:
   vk::PipelineShaderStageCreateInfo info_;
 };
 
-// Of a shader whose workgroups are subgroups.
+// The needs of a shader whose workgroups are subgroups.
 struct SubgroupUse {
   std::uint32_t texel_buffers = 0;
   std::uint32_t size = 0; // 0: any

@@ -66,7 +66,7 @@ public:
   const Limits &limits() const { return limits_; }
   bool is_cpu() const { return is_cpu_; }
   bool has_fp64() const { return has_fp64_; }
-  // Of this device: what is compiled does not change it.
+  // This device's pipelines; compiling them does not change the device.
   PipelineCache &pipelines() const { return pipelines_; }
   // Throws std::logic_error with the first of the validation layer's messages, if there is any.
   void require_no_validation_message() const;

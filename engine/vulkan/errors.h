@@ -11,7 +11,7 @@
 namespace pmdsim::vulkan {
 
 // Runs `work` and turns what Vulkan throws into an Error: out of memory, device lost, or no usable device.
-// What is none of these is a mistake of ours and stays a std::exception.
+// Any other exception is a mistake of ours and stays a std::exception.
 template <typename Work>
 auto checked(Work &&work) -> decltype(work()) {
   try {

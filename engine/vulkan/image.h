@@ -14,9 +14,9 @@ public:
   Image() = default;
   Image(const Device &device, vk::Extent2D extent, vk::Format format, vk::ImageUsageFlags usage,
         vk::ImageAspectFlags aspect);
-  // A colour image that lies in the buffer's memory row by row, so that the buffer has in layout eGeneral
+  // A colour image that lies in the buffer's memory row by row, so that in layout eGeneral the buffer has
   // what is drawn; nothing where the device has no such images, leaves gaps between rows or needs more memory
-  // than there is. No longer to be used than the buffer is.
+  // than there is. The image must not be used longer than the buffer.
   static std::optional<Image> on_buffer(const Device &device, vk::Extent2D extent, vk::Format format,
                                         vk::ImageUsageFlags usage, const Buffer &buffer);
 

@@ -8,7 +8,7 @@
 
 namespace pmdsim::vulkan {
 
-// What the validation layer says, collected until somebody asks.
+// The validation layer's messages, collected until somebody asks.
 using ValidationMessages = std::vector<std::string>;
 
 class Instance {
@@ -16,8 +16,8 @@ public:
   // With `validate` under VK_LAYER_KHRONOS_validation, synchronization validation included. Throws Error:
   // no_device where there is no loader, no driver or (with `validate`) no layer.
   explicit Instance(bool validate);
-  // Ends the process where the validation layer has spoken: what it says while objects are destroyed, nobody
-  // could throw any more.
+  // Ends the process where the validation layer has spoken: nobody could throw what it says while objects are
+  // destroyed.
   ~Instance();
   Instance(const Instance &) = delete;
   Instance &operator=(const Instance &) = delete;

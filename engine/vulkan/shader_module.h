@@ -1,6 +1,6 @@
 #pragma once
-// All compiled shaders, each with what it is called, which arithmetic it is compiled for and which
-// specialization constants it declares, and the values of these. The table is made by shaders/CMakeLists.txt.
+// All compiled shaders, each with its name, the arithmetic that it is compiled for and the specialization
+// constants that it declares, and the values of these. The table is made by shaders/CMakeLists.txt.
 
 #include "engine/model/simulator_options.h"
 
@@ -17,7 +17,7 @@ namespace pmdsim::vulkan {
 
 class Device;
 
-// What a shader does in extended precision: nothing, or with fp64, or with pairs of floats.
+// The arithmetic of a shader's extended precision: none is needed, fp64, or pairs of floats.
 enum class SampleReal { any, fp64, float_pairs };
 
 struct ShaderModule {
@@ -39,7 +39,7 @@ public:
   Specialization(std::initializer_list<std::pair<const std::uint32_t, std::uint32_t>> values)
       : values_(values) {}
 
-  // Of a float the bits.
+  // A float is given by its bits.
   Specialization &set(std::uint32_t constant, std::uint32_t value) {
     values_[constant] = value;
     return *this;
@@ -62,8 +62,8 @@ private:
 // The names of the specialization constants that SPIR-V declares, by their numbers.
 std::map<std::uint32_t, std::string> declared_constants(std::span<const std::uint32_t> spirv);
 
-// Of `constants` those that the module declares. Throws std::logic_error, which names both, where one of them
-// was not given a value.
+// Those of `constants` that the module declares. Throws std::logic_error, which names module and constant,
+// where one was not given a value.
 Specialization declared_part(const ShaderModule &module, const Specialization &constants);
 
 } // namespace pmdsim::vulkan

@@ -1,7 +1,7 @@
 #pragma once
-// The moments of runs (shaders/light/moments.glsl) on the host, for devices that are its processor: of
-// measured diagrams, which lavapipe looks up lane by lane and the processor's own vectors at once, and of
-// samples that not all sources reach, where it leaves out those that reach none of a vector's.
+// The moments of runs (shaders/light/moments.glsl) on the host, for devices that are its processor: for
+// measured diagrams, which lavapipe looks up lane by lane and the processor's own vectors at once, and for
+// samples that not all sources reach, where it leaves out sources that reach none of a vector's samples.
 
 #include "engine/light/accumulate_pass.h"
 
@@ -10,7 +10,7 @@ namespace pmdsim {
 // Whether the host knows the laws of all sources, and keeps few sums a sample.
 bool can_sum_on_host(const SourceGroups &groups);
 
-// Of depth records, by the bits of the only window where `scope` is shadowed. Leaves
+// Sums depth records, by the bits of the only window where `scope` is shadowed. Leaves
 // StripBuffers::run_moments.
 Pass host_sum_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
 

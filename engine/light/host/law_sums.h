@@ -1,5 +1,5 @@
 #pragma once
-// What the host's sums over the sources work on, as plain arrays: its loops are compiled once for each
+// The data of the host's sums over the sources, as plain arrays: its loops are compiled once for each
 // instruction set, so they share no code with the rest of the program.
 
 #include "engine/sampling/host/sample_source.h"
@@ -10,11 +10,11 @@ namespace pmdsim {
 
 // A measured diagram on even grids, linear between; 0 outside of the angles that it has.
 struct LawTable {
-  // Of one that is the same for all phi: J at each step of theta, and what it rises by to the next one.
+  // For a diagram that is the same for all phi: J at each step of theta, and its rise to the next one.
   // table_margin zeros stand before the first and behind the last.
   const float *values = nullptr, *rises = nullptr;
-  // Of any other: of each cell, row by row of phi, its corner of least angles, what J rises by along theta
-  // and phi, and that of the latter along theta.
+  // For any other: for each cell, row by row of phi, J at its corner of least angles, the rises of J along
+  // theta and along phi, and the rise of the latter along theta.
   const float *cells = nullptr;
   float first_step = 0.0f; // theta's, from 0 rad
   float steps_per_rad = 1.0f;
@@ -46,7 +46,7 @@ struct SourceBatch {
   std::uint32_t count;
 };
 
-// Of places where |u| is at most `largest_u`: NearPolynomials.
+// NearPolynomials, for places where |u| is at most `largest_u`.
 struct PowerTable {
   float largest_u;
   std::uint32_t powers;
@@ -76,12 +76,12 @@ struct LawSums {
   std::uint32_t visibility_words;  // of a sample
   std::uint32_t shining;           // all of them
   std::uint32_t plane;             // words of one
-  // Out: of each run a plane of each moment, and one of the sum of W rho^-p, which the terms of polynomials
-  // are relative to, or of w where roots are drawn.
+  // Out: for each run a plane for each moment, and one for the sum of W rho^-p, which the terms of
+  // polynomials are relative to, or of w where roots are drawn.
   float *run_moments;
 };
 
-// Of some of the rows of all samples, or of the listed blocks, the last one excluded. One of each instruction
+// Sums for some rows of all samples, or for listed blocks, the last one excluded. One for each instruction
 // set.
 struct SumLaws {
   void (*sum_rows)(const LawSums &of, std::uint32_t first, std::uint32_t last);

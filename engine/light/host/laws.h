@@ -14,7 +14,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float tiny = 1e-30f; // which has a root, and an inverse one
 
-// The arctangent of s over s, by s^2, up to so many degrees: to 6e-8 of it.
+// The arctangent of s over s, by s^2, up to so many degrees, to a relative error of 6e-8.
 struct Within16 {
   static constexpr float largest = 0.3f;
   static Floats arctangent_over(const Floats &v) {
@@ -98,7 +98,7 @@ public:
   Floats operator()(const Floats &x, const Floats &y) const {
     const Floats across = root(larger(x * x + y * y, all(tiny)));
     const Floats steps = angle_to_axis(along_, across) * table_.steps_per_rad - table_.first_step;
-    // Negative ones, which would be rounded up, are all alike.
+    // Negative steps, which would be rounded up, are all alike.
     const Floats place = smaller(larger(steps, all(-1.0f)), all(static_cast<float>(table_.steps + 1))) + 1.0f;
     const Cell cell = cell_of(place);
     return gathered(table_.values - 1, cell.at) + cell.beyond * gathered(table_.rises - 1, cell.at);

@@ -12,7 +12,7 @@ namespace {
 constexpr float most_cells = 0x1p20f; // of a table
 constexpr float most_power = 8.0f;    // of a cosine
 // How much the distances of a batch's sources along its axis may differ, over their distance from the
-// reference point: what rounding to float makes of such a distance.
+// reference point: the rounding of such a distance to float.
 constexpr double same_distance = 0x1p-24;
 
 bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
@@ -82,7 +82,7 @@ void fill(const shader::GroupSource &source, const std::vector<glm::vec2> &diagr
     fill_cells(source, diagrams, to);
 }
 
-// The last one is the axis.
+// Columns; the last one is the axis.
 glm::dmat3 frame_of(const shader::GroupSource &source) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(source.axis));
   glm::dvec3 across(source.across);
@@ -92,14 +92,15 @@ glm::dmat3 frame_of(const shader::GroupSource &source) {
   return {across, glm::cross(axis, across), axis};
 }
 
-// Of two sources at such distances along their axes, and so far from the reference point at most.
+// Whether two sources may share a batch that are `apart_m` apart along their axes, and `distance_m` from the
+// reference point at most.
 bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, double apart_m,
                double distance_m) {
   return a.order == b.order && a.diagram == b.diagram && glm::vec3(a.axis) == glm::vec3(b.axis) &&
          (!differs_about_axis(a) || a.across == b.across) && std::abs(apart_m) <= same_distance * distance_m;
 }
 
-// Each for more places than the one before it.
+// Tables, each for more places than the one before it.
 std::vector<PowerTable> tables_of(const SourceGroups &groups, const PathDifference &reach,
                                   std::uint32_t inverse_powers, double wavenumber_rad_m) {
   const std::uint32_t moments = groups.moments;

@@ -18,7 +18,7 @@ bool is_known_to_host(const shader::GroupSource &source);
 
 class SourceBatches {
 public:
-  // Of groups whose moments belong to a wavenumber; `with_tables`: powers of u may stand for roots.
+  // For groups whose moments belong to a wavenumber; `with_tables`: powers of u may stand for roots.
   SourceBatches(const SourceGroups &groups, const SumModel &model, double wavenumber_rad_m, bool with_tables);
   SourceBatches(const SourceBatches &) = delete;
   SourceBatches &operator=(const SourceBatches &) = delete;

@@ -27,7 +27,7 @@ inline void find_surface(const shader::TrianglePlane &plane, int lane, VectorSam
   samples.offset_m[lane] = exact(3);
 }
 
-// By their numbers.
+// Finds samples by their numbers.
 inline void find_samples(const SampleSource &of, VectorSamples &samples) {
   Place place{0, 0, 0, 0, 0};
   for (int lane = 0; lane < lanes; ++lane) {
@@ -47,7 +47,7 @@ inline void find_samples(const SampleSource &of, VectorSamples &samples) {
   }
 }
 
-// What sees nothing takes the place of `seen`, so that all are near each other.
+// Samples that see nothing take the place of `seen`, so that all are near each other.
 inline void fill_gaps(VectorSamples &samples, int seen) {
   for (int lane = 0; lane < lanes; ++lane)
     if (samples.sees[lane] == 0)

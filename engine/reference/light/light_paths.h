@@ -18,7 +18,7 @@ inline constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 // Some of the diodes, counted through all illuminators.
 class DiodeSet {
 public:
-  // Empty, of `diodes` that there are.
+  // An empty set, with room for `diodes` diodes.
   explicit DiodeSet(std::size_t diodes) : words_((diodes + 31) / 32) {}
 
   void add(std::size_t diode) { words_[diode / 32] |= 1U << diode % 32; }
@@ -41,7 +41,7 @@ struct SurfacePoint {
   glm::dvec3 position_m;
   glm::dvec3 normal; // unit length, turned to the lens
   double reflectivity;
-  double lens_gain; // what vignetting leaves of its light
+  double lens_gain; // the part of its light that vignetting leaves
 };
 
 struct LightPath {
@@ -56,7 +56,7 @@ struct Light {
   double phase_turns; // -1/2 to 1/2
 };
 
-// Of every diode of `reached` whose light returns through `point`.
+// The paths from every diode of `reached` whose light returns through `point`.
 std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
                                    const DiodeSet &reached, Backscatter backscatter);
 

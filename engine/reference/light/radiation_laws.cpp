@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Pattern::Kind;
 
-// What rounding may make of an angle: a table ends with its last angle, not a bit before.
+// The rounding of an angle: a table ends with its last angle, not a bit before.
 constexpr double angle_rounding_rad = 1e-12;
 
 // Between two nodes of an axis: (1 - fraction) of the first and `fraction` of the second.

@@ -1,5 +1,5 @@
 #pragma once
-// Radiation laws, J of the paper's eq. 5, as they are defined; of diagrams, linear between the directions of
+// Radiation laws, J of the paper's eq. 5, as they are defined; diagrams are linear between the directions of
 // the table.
 
 #include "engine/model/illuminator.h"

@@ -19,8 +19,8 @@ double harmonic_sum(const std::vector<double> &amplitudes, double turns) {
   return sum;
 }
 
-// Of a harmonic h, N taps show their difference from the multiples of N next to it: the fundamental, where
-// that is 1. Where nothing does, rounding must not leave a phase.
+// N taps show a harmonic h as its difference from the multiples of N next to it: as the fundamental, where
+// that is 1. Where none shows as one, rounding must not leave a phase.
 bool shows_a_fundamental(const Waveform &waveform, std::uint32_t taps) {
   if (waveform.kind != Waveform::Kind::harmonics)
     return true;

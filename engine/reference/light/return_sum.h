@@ -1,6 +1,6 @@
 #pragma once
-// What a pixel's light becomes at one modulation frequency: the paper's eq. 5 to 7, or the correlation
-// samples of another waveform.
+// A pixel's return at one modulation frequency: the paper's eq. 5 to 7, or the correlation samples of another
+// waveform.
 
 #include "engine/model/sensor.h"
 #include "engine/reference/light/light_paths.h"

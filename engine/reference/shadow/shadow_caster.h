@@ -1,6 +1,6 @@
 #pragma once
-// Which diodes nothing hides from a point that the lens sees. Of the shapes near the way, whether one blocks
-// it is decided in double from the exact places of shape, point and diode.
+// Which diodes nothing hides from a point that the lens sees. Whether a shape near the way blocks it is
+// decided in double from the exact places of shape, point and diode.
 
 #include "engine/reference/light/light_paths.h"
 #include "engine/reference/view/shape_tree.h"
@@ -43,9 +43,9 @@ public:
   ShadowCaster(const std::vector<CameraTriangle> &triangles, const std::vector<CameraDisc> &discs,
                const std::vector<Light> &lights, double origin_range_m, IsThere is_there = {});
 
-  // Of the diodes in front of the surface at `point`, those with no shape but its own, `id`, in their way,
-  // whichever side that shows. No way leads through the edge that two triangles share, and what touches the
-  // point or the diode does not block. Any number of threads may call this at once.
+  // The diodes in front of the surface at `point` with no shape but its own, `id`, in their way, whichever
+  // side the shape shows. No way leads through the edge that two triangles share, and what touches the point
+  // or the diode does not block. Any number of threads may call this at once.
   DiodeSet reached(const SurfacePoint &point, std::uint32_t id) const;
 
 private:

@@ -137,7 +137,7 @@ private:
     return j[0][0] > 0 && glm::determinant(j) > 0;
   }
 
-  // Nor on the way here, behind which another branch could rise again.
+  // Nor has it folded on the way here, behind which another branch could rise again.
   bool rises_from_axis(const glm::dvec2 &slopes) const {
     constexpr int places = 16;
     for (int i = 1; i <= places; ++i)

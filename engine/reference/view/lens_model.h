@@ -18,7 +18,7 @@ public:
   // where the sample sees nothing because its place lies behind the lens or beyond the distortion's fold.
   std::optional<glm::dvec3> sample_ray(const glm::uvec2 &sample) const;
 
-  // What a ray (unit length) counts.
+  // The factor by which a ray (unit length) counts.
   double vignetting_gain(const glm::dvec3 &ray) const;
 
 private:

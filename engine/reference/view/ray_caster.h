@@ -1,6 +1,6 @@
 #pragma once
-// What a ray from the lens sees first. Of the triangles and discs near the ray, which one it hits and which
-// is nearest is decided in double from the shape's exact place and the ray's exact direction.
+// The shape that a ray from the lens sees first. Which of the triangles and discs near the ray it hits, and
+// which is nearest, is decided in double from the shape's exact place and the ray's exact direction.
 
 #include "engine/reference/view/camera_frame.h"
 #include "engine/reference/view/shape_tree.h"

@@ -16,7 +16,8 @@ namespace pmdsim::reference {
 // Float rounding of rays, boxes and distances is below 1e-6 of the distance from the lens.
 inline constexpr double tree_margin = 1e-5;
 
-// What Embree asks about a shape whose box a ray meets; nothing where rays of that kind are not cast.
+// The functions by which Embree asks about a shape whose box a ray meets; null where rays of that kind are
+// not cast.
 struct ShapeFunctions {
   RTCIntersectFunctionN intersect = nullptr;
   RTCOccludedFunctionN occluded = nullptr;
@@ -59,8 +60,8 @@ public:
     ab_ = cross(a, b), bc_ = cross(b, c), ca_ = cross(c, a);
   }
 
-  // Of the line through the ray, which reaches both ways. As zero counts as inside, none slips through an
-  // edge or a vertex.
+  // Whether the triangle holds the line through the ray, which reaches both ways. As zero counts as inside,
+  // no ray slips through an edge or a vertex.
   bool holds_ray() const { return (ab_ >= 0 && bc_ >= 0 && ca_ >= 0) || (ab_ <= 0 && bc_ <= 0 && ca_ <= 0); }
 
   // How much each corner counts where the ray meets the triangle. The view along the ray keeps ratios of

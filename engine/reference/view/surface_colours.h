@@ -1,7 +1,7 @@
 #pragma once
-// What a painted surface reflects, and whether it is there at all, at one point of a triangle or disc: where
-// its corners count `weights`, which add up to 1. Of a disc the first corner is its vertex, the others do not
-// matter.
+// The reflectivity of a painted surface, and whether it is there at all, at one point of a triangle or disc:
+// where its corners count `weights`, which add up to 1. A disc's first corner is its vertex; the others do
+// not matter.
 
 #include "engine/model/scene.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What floats cannot decide, in double.
+// Decisions that floats cannot make, in double.
 
 #include "engine/shadow/host/ways.h"
 
@@ -46,8 +46,8 @@ inline int exact_side(const double (&plane)[4], const Sample &sample, const Silh
   return std::abs(height) <= rounding ? 0 : height > 0.0 ? 1 : -1;
 }
 
-// What a triangle adds to its edges: its side as seen from the sample, but nothing where board and sample are
-// on one side, so that it can never be between.
+// A triangle's part in its edges' weights: its side as seen from the sample, but nothing where board and
+// sample are on one side, so that it can never be between.
 inline int weight_of(int side, std::uint32_t board_side) {
   return (side > 0 && board_side == 1) || (side < 0 && board_side == 2) ? 0 : side;
 }

@@ -165,7 +165,7 @@ void HostSweep::State::add_board(const PassSetup &on, const Board &board, const 
   boards.push_back(std::move(on_board));
 }
 
-// Other windows' words are in the same place, and what has holes takes bits away.
+// Other windows' words are in the same place, and shapes with holes take bits away.
 void HostSweep::State::begin_tiles(const shader::Strip &strip) {
   const glm::uvec2 extent(strip.columns, strip.rows);
   if (windows.size() > 1 || clears_bits || filled_extent != extent)
@@ -192,7 +192,7 @@ void HostSweep::State::store(const shader::Strip &strip, std::size_t window, std
   }
 }
 
-// Of depth records, whose blocks are a tile's rows.
+// For depth records, whose blocks are a tile's rows.
 void HostSweep::State::store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits) {
   static_assert(shader::block_samples == shader::tile_side);
   for (std::uint32_t row = 0; row < shader::tile_side; ++row) {

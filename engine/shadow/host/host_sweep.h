@@ -17,8 +17,8 @@ namespace pmdsim {
 
 class HostSweep {
 public:
-  // As SweepPass, of a device whose memory the host reads and writes as its own. `fills_all`: bits are read
-  // of tiles, too, all of whose samples every diode reaches.
+  // As SweepPass, for a device whose memory the host reads and writes as its own. `fills_all`: the bits of
+  // tiles all of whose samples every diode reaches are read, too.
   HostSweep(const PassSetup &on, const Occluders &occluders, const CameraScene &camera, const Scene &scene,
             const SourceGroups &groups, const std::vector<SourceWindow> &windows,
             const std::optional<ChipGrid> &records, bool fills_all);
@@ -27,7 +27,8 @@ public:
   // As SweepPass::record(), at once; the device is done with the samples.
   void decide(const shader::Strip &strip, std::size_t window) const;
 
-  // Of the strip and window last decided, where samples are records: of each block (BlockLists), row by row.
+  // The kind of each block (BlockLists) of the strip and window last decided, row by row; only where samples
+  // are records.
   std::span<const std::uint8_t> block_kinds() const;
 
 private:

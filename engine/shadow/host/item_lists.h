@@ -11,7 +11,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
 constexpr int segment = 512; // items at a time
 
-// What tells whether items matter lies in other parts of memory for each block.
+// The rows that tell whether items matter lie in other parts of memory for each block.
 inline void fetch_soon(const ItemTree &tree, std::uint32_t first, std::uint32_t blocks) {
   for (; blocks != 0; blocks &= blocks - 1) {
     const ItemBlock &block = tree.items[first + static_cast<std::uint32_t>(std::countr_zero(blocks))];
@@ -54,7 +54,7 @@ std::uint32_t list_items(const ItemTree &tree, const Ways &ways, Matters matters
   return found;
 }
 
-// Those of them that matter to fewer samples, likewise.
+// Those of the listed items that matter to fewer samples, likewise.
 template <class Matters>
 std::uint32_t narrow(const ItemTree &tree, const ListedBlock *from, std::uint32_t count, const Ways &ways,
                      Matters matters, ListedBlock *to) {
@@ -88,7 +88,7 @@ struct ItemList {
   }
 };
 
-// From the listed blocks, as many as fit; returns the first one that did not.
+// Gathers the items of as many of the listed blocks as fit; returns the first block that did not.
 inline std::uint32_t gather(const ItemTree &tree, const ListedBlock *listed, std::uint32_t first,
                             std::uint32_t end, ItemList &to) {
   to.count = 0;

@@ -11,8 +11,8 @@
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
-// Edges' parts of the diodes' angles about the board's centre, for one sample: of those in the angle, the
-// ones with line . L + offset < 0 are beyond the edge.
+// Edges' parts of the diodes' angles about the board's centre, for one sample. Diodes in the angle are beyond
+// the edge where line . L + offset < 0.
 struct Pairs {
   alignas(64) float line_x[segment + lanes], line_y[segment + lanes], offset[segment + lanes],
       near_line[segment + lanes];
@@ -51,7 +51,7 @@ inline void begin_sweep(const Sample &sample, const SilhouetteBoard &board, Swee
   sweep.base = 0;
 }
 
-// The first to count something.
+// Clears the counts before the first edge counts something.
 inline void touch(Sweep &sweep) {
   if (!sweep.is_touched)
     std::memset(sweep.counts, 0, sizeof(sweep.counts));
@@ -64,7 +64,7 @@ inline Floats turn_of(const Floats &x, const Floats &y) {
   return x < 0.0f ? 2.0f - t : y < 0.0f ? 4.0f + t : t;
 }
 
-// Diodes of a smaller angle.
+// The number of diodes of smaller angles.
 inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
   const Ints last = all(static_cast<std::int32_t>(angle_bins - 1));
   const Ints bin = __builtin_convertvector(turn * (angle_bins / 4.0f), Ints);
@@ -80,7 +80,7 @@ inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
   return rank;
 }
 
-// What edges mean to a sample, a lane an edge.
+// Edges as one sample sees them, a lane an edge.
 struct Crossings {
   Ints counted; // it has to be looked at
   Ints weight, is_unsure, turned, wraps, from, to;
@@ -102,7 +102,7 @@ inline void find_weights(const Rows &items, int i, const Floats3 &a, const Float
   found.weight = is_boundary ? -w1 : w2 - w1;
 }
 
-// The way of the light from the lens to the board's centre.
+// Counts the edges that the light's way from the lens to the board's centre crosses.
 inline void count_base(const Rows &items, int i, const Crossings &found, const Floats3 &clipped_a,
                        const Floats3 &clipped_b, const Floats3 &line, const Sample &sample,
                        const SilhouetteBoard &board, Sweep &sweep) {
@@ -264,7 +264,7 @@ inline void count_pair(const Pairs &pairs, int pair, int amount, const Rows &ite
       beyond = decide_close(pairs, pair, at, close, beyond, items, sample, board);
     store(counts + at, add_where(beyond, load<Ints>(counts + at), amounts));
   };
-  // Of ranks from `first` on up to `end`. Most pairs end within two vectors; which of both, none can
+  // Counts diodes of ranks from `first` up to `end`. Most pairs end within two vectors; in which, none can
   // foretell.
   const auto count = [&](std::int32_t first, std::int32_t end) {
     std::int32_t d = first & ~(lanes - 1);
@@ -300,7 +300,7 @@ inline void sweep_over(const ItemList &list, const Sample &sample, const Silhoue
   }
 }
 
-// A sample whose surface some diodes may stand behind: the others, a bit each.
+// Finds the diodes in front of a sample's surface, behind which others may stand; a word each.
 inline void find_facing(const Sample &sample, const SilhouetteBoard &board, std::int32_t *faces) {
   const float *n = sample.normal,
               offset = n[0] * sample.point[0] + n[1] * sample.point[1] + n[2] * sample.point[2];

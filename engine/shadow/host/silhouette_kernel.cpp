@@ -13,7 +13,7 @@ namespace {
 // Neighbouring samples of a tile.
 constexpr int block_wide = 4, block_high = 2, block_samples = block_wide * block_high;
 
-// What a tile's samples have in common.
+// The data that a tile's samples have in common.
 struct Tile {
   const SilhouetteBoard &board;
   ListedBlock *edges, *hidden, *hidden_nearby; // the latter of neighbouring samples

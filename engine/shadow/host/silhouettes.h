@@ -1,5 +1,5 @@
 #pragma once
-// What the host's sweep works on, as plain arrays: its loops are compiled once for each instruction set, so
+// The data of the host's sweep, as plain arrays: its loops are compiled once for each instruction set, so
 // they share no code with the rest of the program.
 
 #include "engine/sampling/host/sample_source.h"
@@ -10,7 +10,7 @@
 
 namespace pmdsim {
 
-// Of an item of the sweep (sweep_items.h). Places are in the board's frame, m.
+// The rows of an item of the sweep (sweep_items.h). Places are in the board's frame, m.
 enum ItemRow : std::uint32_t {
   row_ax,
   row_ay,
@@ -23,7 +23,7 @@ enum ItemRow : std::uint32_t {
   row_cz, // the first triangle's unit normal; the third corner
   row_dx,
   row_dy,
-  row_dz, // the second triangle's unit normal
+  row_dz, // the second triangle's unit normal; the third corner's rest
   row_rest_ax,
   row_rest_ay,
   row_rest_az, // what rounding to float took
@@ -63,14 +63,14 @@ struct EdgePlanes {
   double first[4], second[4];
 };
 
-// Diodes of one angle about the board's centre.
+// The most diodes that a window has.
 constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
 // With a vector to spare, of the widest.
 constexpr std::uint32_t diode_room = most_diodes + 16;
 constexpr std::uint32_t angle_bins = 2048;
 
-// Of a bin of angles: how many diodes have smaller angles than its first class, how many with that class's,
-// and whether more classes begin within the bin.
+// The ranks of a bin of angles: how many diodes have smaller angles than its first class, how many with that
+// class's, and whether more classes begin within the bin.
 constexpr std::int32_t rank_bits = 10, rank_mask = (1 << rank_bits) - 1, more_classes = 1 << 2 * rank_bits;
 
 // A window of diodes on its board.
@@ -79,13 +79,13 @@ struct SilhouetteBoard {
   alignas(64) float x_m[diode_room], y_m[diode_room];
   alignas(64) double exact_m[3][most_diodes];
   alignas(64) std::int32_t rank_of_bit[most_diodes];
-  // Classes of one angle: by how many diodes have smaller ones, a class's angle, a last one above all, and
-  // how many have smaller ones than the next class. Likewise of the first class of each bin of angles.
+  // Classes of one angle, by the number of diodes of smaller angles: a class's angle, with a last one above
+  // all, and that number for the next class. Likewise for the first class of each bin of angles.
   alignas(64) float rank_turn[most_diodes + 1];
   std::int32_t next_rank[most_diodes + 1];
   alignas(64) float bin_turn[angle_bins];
   alignas(64) std::int32_t bin_ranks[angle_bins];
-  // Of SweepBoard, and more.
+  // The members of SweepBoard, and more.
   double rotation[3][3], translation_m[3]; // board_from_camera
   float supports[8];                       // +x, -x, +y, -y, (1, 1), (-1, -1), (1, -1), (-1, 1)
   double world_rounding_m;
@@ -103,7 +103,7 @@ struct SilhouetteBoard {
   bool all_facing;  // nothing turns away from a diode
 };
 
-// What becomes known of a tile. Bits as StripBuffers::visibility has them, word by word of a sample.
+// The results for a tile. Bits are as StripBuffers::visibility has them, word by word of a sample.
 struct TileBits {
   std::uint32_t words[shader::tile_samples][shader::bundles_per_window];
   std::uint32_t index[shader::tile_samples]; // of the sample, where it is there
@@ -120,7 +120,7 @@ struct TileMemory {
   ListedBlock *edges, *hidden, *hidden_nearby;
 };
 
-// One of each instruction set.
+// One for each instruction set.
 using DecideTile = void (*)(const SilhouetteBoard &board, const SampleSource &samples, std::uint32_t tile,
                             const TileMemory &memory, TileBits &bits);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What may lie between some samples and the board, by half-spaces that hold all ways from there.
+// Tests of what may lie between some samples and the board, by half-spaces that hold all ways from there.
 
 #include "engine/model/lanes.h"
 #include "engine/shadow/host/tile_samples.h"
@@ -27,7 +27,7 @@ struct Ways {
   float farthest, highest;
 };
 
-// What a set of samples keeps within.
+// The bounds that a set of samples keeps within.
 struct Shaft {
   float slopes[8], sights[8]; // of the ways to the board, and to the lens
   float low[3], high[3];

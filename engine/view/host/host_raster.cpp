@@ -109,7 +109,7 @@ HostRaster::HostRaster(const Projection &projection, const Sensor &sensor, const
   std::ranges::fill(id_buffer.mapped(), std::byte{}); // what a warm-up reads
 }
 
-// What the raster's grid may have decided the wrong way.
+// Puts right what the raster's grid may have decided the wrong way.
 void HostRaster::settle(const PlannedStrip &planned, const BandRows &band) const {
   const std::uint32_t first_row = planned.strip.row * samples_ + band.first, end_row = first_row + band.rows,
                       first_column = planned.strip.column * samples_;

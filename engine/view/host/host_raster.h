@@ -19,9 +19,9 @@ namespace pmdsim {
 
 class HostRaster {
 public:
-  // Of a sensor whose fragments are samples, and a scene without holes, on a device that has doubles. `grid`:
-  // where the samples' records are asked for. `scene` and `id_buffer`, whose memory the host shares, stay
-  // where they are. `most_bits`: of vectors.
+  // For a sensor whose fragments are samples, and a scene without holes, on a device that has doubles.
+  // `grid`: given where the samples' records are asked for. `scene` and `id_buffer`, whose memory the host
+  // shares, stay where they are. `most_bits`: of vectors.
   HostRaster(const Projection &projection, const Sensor &sensor, const CameraScene &camera,
              const Scene &scene, const SceneBuffers &on_device, const std::optional<ChipGrid> &grid,
              const vulkan::Buffer &id_buffer, std::uint32_t most_bits);

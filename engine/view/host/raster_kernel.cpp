@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int32_t steps = 256; // of the raster's grid a fragment
 
-// Of an edge the half-plane a x + b y + c >= 0, of whole fragments x, y from the strip's first one.
+// An edge's half-plane a x + b y + c >= 0, with x and y in whole fragments from the strip's first one.
 struct HalfPlane {
   std::int32_t a, b;
   std::int64_t c;
@@ -58,7 +58,7 @@ Depth depth_of(const Corner &v0, const Corner &v1, const Corner &v2) {
   return {v0.z - (along_x * (v0.x - 0.5f) + along_y * (v0.y - 0.5f)), along_x, along_y};
 }
 
-// False where it covers no fragment's middle.
+// False where the triangle covers no fragment's middle.
 bool prepare(const BlockTriangle &triangle, const BandRows &band, DrawnTriangle &to) {
   Corner corners[3];
   for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the host's raster works on, as plain arrays: its loops are compiled once for each instruction set, so
+// The data of the host's raster, as plain arrays: its loops are compiled once for each instruction set, so
 // they share no code with the rest of the program.
 
 #include "shaders/shared/interface.h"
@@ -35,9 +35,9 @@ struct BandSamples {
   std::byte *samples;            // of the strip
 };
 
-// One of each instruction set.
+// One for each instruction set.
 struct RasterKernel {
-  // Draws the listed triangles, nearest wins, of equally near ones the first.
+  // Draws the listed triangles; the nearest wins, and the first of equally near ones.
   void (*draw)(const BandRows &band, const BlockTriangle *triangles, const std::uint32_t *listed,
                std::size_t count);
   // Leaves the samples' IDs or records.
