@@ -117,7 +117,7 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   DiagramTables tables;
   for (const CameraIlluminator &illuminator : lights)
     for (const Diode &diode : illuminator.diodes)
-      if (!std::isfinite(law_error(diode.pattern, tables)))
+      if (!std::isfinite(law_error(diode.pattern, tables, 0.0)))
         return law_of(diode.pattern).unbounded;
   return "";
 }
@@ -157,7 +157,9 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
                    rounding.amplitude_per_condition + light.amplitude_error_per_condition,
                    0.0,
                    0.0};
+  bound.weight_error = rounding.weight_error;
   bound.per_weight_m = rounding.per_weight_m;
+  bound.any_weight_m = rounding.any_weight_m;
   bound.amplitude_per_weight = rounding.amplitude_per_weight;
   if (at_one_range && std::isfinite(rounding.per_apart))
     bound.at_one_range = {at_one_range->fixed_m, at_one_range->per_condition_m + light.error_per_condition_m,
@@ -201,7 +203,8 @@ std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bo
   const double relative = bound.amplitude_per_condition * *condition;
   if (!(relative < 1.0))
     return std::nullopt;
-  return SureBound{bound.fixed_m + bound.per_condition_m * *condition / (1.0 - relative),
+  const double per_condition_m = bound.per_condition_m + bound.weight_error * bound.per_weight_m;
+  return SureBound{bound.fixed_m + per_condition_m * *condition / (1.0 - relative),
                    bound.amplitude_fixed + relative};
 }
 
@@ -238,7 +241,7 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
 }
 
 bool is_kept_by_some(const ErrorBound &bound) {
-  return bound.nearest().fixed_m + bound.nearest().per_condition_m <= bound.limit_m &&
+  return bound.nearest_m(1.0) <= bound.limit_m &&
          bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 
@@ -270,8 +273,7 @@ double largest_m(const FramePlan &plan, double condition) {
   double largest = 0.0;
   for (const auto *bound : {&plan.bound, &plan.bound_of_all, &plan.bound_beforehand})
     if (*bound)
-      largest =
-          std::max(largest, (*bound)->nearest().fixed_m + (*bound)->nearest().per_condition_m * condition);
+      largest = std::max(largest, (*bound)->nearest_m(condition));
   return largest;
 }
 
@@ -348,7 +350,8 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   for (const auto part :
        {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
         &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
-        &ErrorBound::terms_of_beam_edges, &ErrorBound::per_weight_m, &ErrorBound::amplitude_per_weight})
+        &ErrorBound::terms_of_beam_edges, &ErrorBound::weight_error, &ErrorBound::per_weight_m,
+        &ErrorBound::any_weight_m, &ErrorBound::amplitude_per_weight})
     a.*part = std::max(a.*part, b.*part);
   using Near = ErrorBound::AtOneRange;
   if (!b.at_one_range)

@@ -25,6 +25,7 @@ constexpr double phasor = 10.0;               // u: a phase as a float, its cosi
 constexpr double angle = 6.0;                 // u: z as floats, its angle
 constexpr double amplitude_of_a_pixel = 24.0; // u: |z|, its scale, the output
 constexpr double block = shader::diodes_per_block;
+constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // How far apart things are, m.
 struct Lengths {
@@ -262,14 +263,15 @@ private:
       angle_rad = std::max(angle_rad, any_rad);
       amplitude = std::max(amplitude, any_rad);
     }
+    const bool is_sine = modulation_.waveform == shader::waveform_sine;
     RoundingBound bound = fixed(wavenumber_rad_m);
     // Ranges count there and back, where a term is turned and where the sum's angle is taken.
-    bound.per_apart = modulation_.waveform == shader::waveform_harmonics
-                          ? std::numeric_limits<double>::infinity()
-                          : fundamental.weight + (phasor + angle) * u_;
-    bound.per_condition_m = 0.5 * angle_rad / wavenumber_rad_m;
+    bound.per_apart = is_sine ? (phasor + angle) * u_ : unknown;
+    bound.weight_error = fundamental.weight;
+    bound.per_condition_m = 0.5 * (angle_rad - fundamental.weight * turning) / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.any_weight_m = is_sine ? 0.5 / wavenumber_rad_m : unknown;
     bound.amplitude_per_weight = 1.0;
     return bound;
   }
@@ -288,10 +290,12 @@ private:
     const double z = 2.0 * (tap + (6.0 + modulation_.taps) * u_);
     // The wave's corners turn z at most twice as fast as the path's phase.
     const double turning = std::min(2.0 * wavenumber_rad_m * spread_m(), 2.0);
-    bound.per_apart = 2.0 * weight_ + angle * u_;
-    bound.per_condition_m = 0.5 * (z + weight_ * turning) / wavenumber_rad_m;
+    bound.per_apart = angle * u_;
+    bound.weight_error = weight_;
+    bound.per_condition_m = 0.5 * z / wavenumber_rad_m;
     bound.amplitude_per_condition = z + summation() + 2.0 * weight_;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.any_weight_m = unknown;
     bound.amplitude_per_weight = 2.0;
     return bound;
   }
@@ -341,7 +345,8 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
     using Bound = RoundingBound;
     for (const auto part :
          {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
-          &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::beam_edge_error, &Bound::per_apart})
+          &Bound::weight_error, &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::any_weight_m,
+          &Bound::beam_edge_error, &Bound::per_apart})
       largest.*part = std::max(largest.*part, of_frequency.*part);
   }
   return largest;

@@ -19,16 +19,21 @@ namespace pmdsim {
 struct RoundingBound {
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
-  // Included above: the effect of a relative error of every weight, over that error.
-  double per_weight_m, amplitude_per_weight;
+  // The relative error of every weight, which per_condition_m leaves out, and the effect of such an error,
+  // over it and the condition. It turns the sum only as far as the terms' angles differ, so that it has no
+  // more effect than `any_weight_m` times sqrt(condition^2 - 1); infinite where that does not hold.
+  double weight_error, per_weight_m, any_weight_m, amplitude_per_weight;
   // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
   double beam_edge_error;
   // The most that fixed_m and per_condition_m together grow by for each metre between the ranges of a pixel's
-  // samples, at any condition; infinite where that is not known.
+  // samples, at any condition, while per_weight_m grows by amplitude_per_weight at most; infinite where that
+  // is not known.
   double per_apart;
 
-  double distance_m(double condition) const { return fixed_m + per_condition_m * condition; }
+  double distance_m(double condition) const {
+    return fixed_m + (per_condition_m + weight_error * per_weight_m) * condition;
+  }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
 };
 

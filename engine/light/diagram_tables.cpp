@@ -1,5 +1,7 @@
 #include "engine/light/diagram_tables.h"
 
+#include "engine/light/rounding_units.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +16,6 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Where no grid within these steps does it, the finest stands in: beside an angle where the slope of J
 // changes by s, it is off by s / 4 of a step at most. For 180 degrees that is 1.9e-7 rad * s.
 constexpr std::uint32_t most_steps = 1u << 22;
-// The rounding of a direction, as a part of its angles.
-constexpr double direction_rounding = 16 * 0x1p-24;
 
 // The fewest even steps of `span_rad` from the first angle, up to most_steps, that meet all the others to
 // 1e-4 of a step: a bend of J is then off by 1e-4 of itself at most, and angles that a file has rounded are
@@ -95,15 +95,18 @@ std::vector<double> around(const Diagram &diagram) {
   return phis;
 }
 
-double slope_in_theta(const Diagram &diagram) {
+// The largest change of J where theta is off by error_of(theta), which never falls.
+template <class ErrorOf>
+double largest_change(const Diagram &diagram, const ErrorOf &error_of) {
   const std::size_t columns = diagram.phi_rad.size();
-  double slope = 0.0;
+  double largest = 0.0;
   for (std::size_t t = 1; t < diagram.theta_rad.size(); ++t)
     for (std::size_t p = 0; p < columns; ++p) {
       const double change = diagram.relative[t * columns + p] - diagram.relative[(t - 1) * columns + p];
-      slope = std::max(slope, std::abs(change) / (diagram.theta_rad[t] - diagram.theta_rad[t - 1]));
+      const double slope = std::abs(change) / (diagram.theta_rad[t] - diagram.theta_rad[t - 1]);
+      largest = std::max(largest, slope * error_of(diagram.theta_rad[t]));
     }
-  return slope;
+  return largest;
 }
 
 // Over sin theta.
@@ -123,14 +126,14 @@ double slope_in_phi(const Diagram &diagram) {
   return std::isfinite(slope) ? slope : std::numeric_limits<double>::infinity();
 }
 
+// The even grid's.
 double error_of(const Diagram &diagram, const DiagramGrid &grid) {
-  const double rounding = direction_rounding * diagram_slope(diagram);
   if (grid.row_length == 0)
-    return rounding + grid_error(diagram.theta_rad, grid.theta_steps_per_rad,
-                                 [&](double place) { return value_at(diagram.relative, place); });
+    return grid_error(diagram.theta_rad, grid.theta_steps_per_rad,
+                      [&](double place) { return value_at(diagram.relative, place); });
   const auto same = [](double place) { return place; };
   const glm::dvec2 steps = largest_steps(diagram);
-  return rounding + grid_error(diagram.theta_rad, grid.theta_steps_per_rad, same) * steps.x +
+  return grid_error(diagram.theta_rad, grid.theta_steps_per_rad, same) * steps.x +
          grid_error(around(diagram), grid.phi_steps / turn_rad, same) * steps.y;
 }
 
@@ -165,8 +168,16 @@ void append_both(const Diagram &diagram, const ThetaPlace &theta_place, DiagramG
 } // namespace
 
 double diagram_slope(const Diagram &diagram) {
-  return std::numbers::pi * slope_in_theta(diagram) +
+  return largest_change(diagram, [](double) { return std::numbers::pi; }) +
          (diagram.phi_rad.size() > 1 ? slope_in_phi(diagram) : 0.0);
+}
+
+double diagram_error(const Diagram &diagram, const DiagramGrid &grid, double radius_over_range) {
+  const double of_theta =
+      largest_change(diagram, [&](double theta_rad) { return theta_error_u(radius_over_range, theta_rad); });
+  const double of_phi =
+      diagram.phi_rad.size() > 1 ? phi_error_u(radius_over_range) * slope_in_phi(diagram) : 0.0;
+  return grid.error + 0x1p-24 * (of_theta + of_phi);
 }
 
 DiagramGrid DiagramTables::grid_of(const std::shared_ptr<const Diagram> &diagram) {

@@ -23,13 +23,17 @@ struct DiagramGrid {
   double first_phi_rad = 0.0;
   std::uint32_t phi_steps = 0;  // that a turn has
   std::uint32_t row_length = 0; // angles to the axis; 0: the same for all phi
-  double error = 0.0; // of J, at most, as the even grid and rounding make it; infinite where J is a step
+  double error = 0.0; // of J, at most, as the even grid makes it
 };
 
 // The largest change of J where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +
 // |dJ/dphi| / sin theta, the latter as directions near the axis are uncertain in phi. Infinite where J varies
 // about the axis itself. Where a table ends it may jump to 0; that is an edge like a shadow's.
 double diagram_slope(const Diagram &diagram);
+
+// The largest error of J as it is found on the grid in float, with what rounding takes from the direction;
+// `radius_over_range` as in SourceGroups. Infinite where J is a step.
+double diagram_error(const Diagram &diagram, const DiagramGrid &grid, double radius_over_range);
 
 class DiagramTables {
 public:

@@ -19,6 +19,7 @@ struct PathDifference {
   double least_stretch = 0.0, most_stretch = 0.0;
   double farthest_m = 0.0; // at most, from the reference point to what is visible
 
+  double radius_over_range() const { return radius_m > 0.0 ? radius_m / range_m : 0.0; }
   bool operator==(const PathDifference &) const = default;
 };
 

@@ -137,8 +137,8 @@ LawForm diagram_form(const Pattern &pattern) {
 // The rounding of the interpolation; that of the direction is in the table's error.
 double diagram_rounding_u(float, const LawRounding &) { return 6.0; }
 
-double diagram_error(const Pattern &pattern, DiagramTables &tables) {
-  return tables.grid_of(pattern.diagram).error;
+double error_of_diagram(const Pattern &pattern, DiagramTables &tables, double radius_over_range) {
+  return diagram_error(*pattern.diagram, tables.grid_of(pattern.diagram), radius_over_range);
 }
 
 double precise_error_of_diagram(const Pattern &pattern) { return precise_diagram_error(*pattern.diagram); }
@@ -167,7 +167,7 @@ constexpr std::array laws{
                  .describe_precisely = describe_diagram_precisely,
                  .form = diagram_form,
                  .rounding_u = diagram_rounding_u,
-                 .error = diagram_error,
+                 .error = error_of_diagram,
                  .precise_error = precise_error_of_diagram,
                  .unbounded = "a measured diagram that varies about its own axis has no bound"},
 };
@@ -203,11 +203,11 @@ const RadiationLaw &law_of(const shader::GroupSource &diode) {
   return *std::ranges::find(laws, std::min(diode.order, 0.0f), &RadiationLaw::number);
 }
 
-double law_error(const Pattern &pattern, DiagramTables &tables) {
+double law_error(const Pattern &pattern, DiagramTables &tables, double radius_over_range) {
   const RadiationLaw &law = law_of(pattern);
   if (law.rounding_u == nullptr)
     return unbounded;
-  return law.error != nullptr ? law.error(pattern, tables) : 0.0;
+  return law.error != nullptr ? law.error(pattern, tables, radius_over_range) : 0.0;
 }
 
 double precise_law_error(const Pattern &pattern) {

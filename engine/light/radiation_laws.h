@@ -64,8 +64,9 @@ struct RadiationLaw {
   double (*slope)(const Diode &, const std::vector<VisibleBox> &) = nullptr;
   // The error of J, relative to itself, u; `order` is the largest GroupSource::order.
   double (*rounding_u)(float order, const LawRounding &) = nullptr;
-  // The absolute error of J beside that; left out: 0. Infinite where it has no bound.
-  double (*error)(const Pattern &, DiagramTables &) = nullptr;
+  // The absolute error of J beside that, of a group's radius over its range; left out: 0. Infinite where it
+  // has no bound.
+  double (*error)(const Pattern &, DiagramTables &, double radius_over_range) = nullptr;
   double (*precise_error)(const Pattern &) = nullptr; // in fp64
   // Why an error cannot be promised where there is no bound.
   const char *unbounded = "a diode has a radiation law whose rounding has no bound";
@@ -80,7 +81,7 @@ const RadiationLaw &law_of(const Pattern &pattern);
 const RadiationLaw &law_of(const shader::GroupSource &diode);
 
 // The error of a diode's J beside its rounding; infinite where its law claims nothing.
-double law_error(const Pattern &pattern, DiagramTables &tables);
+double law_error(const Pattern &pattern, DiagramTables &tables, double radius_over_range);
 double precise_law_error(const Pattern &pattern); // in fp64
 
 // A diode's beam edge, and the series by which the reduction expands its J; nothing where its law has none.

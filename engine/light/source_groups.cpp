@@ -209,8 +209,9 @@ void add_runs(const Group &group, Precision precision, SourceGroups &result, Dia
       if (precise)
         result.precise_diodes.push_back(precise_diode(result.diodes.back(), diode, group.reference_m,
                                                       result.largest_intensity_w_sr, diagrams.precise));
-      const double error =
-          precise ? precise_law_error(diode.pattern) : law_error(diode.pattern, diagrams.in_float);
+      const double error = precise
+                               ? precise_law_error(diode.pattern)
+                               : law_error(diode.pattern, diagrams.in_float, group.reach.radius_over_range());
       result.positions.push_back({diode.position_m, dark ? no_id : diode.number, error});
     }
   }
@@ -250,9 +251,7 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
   for (const Group &group : grouping.groups()) {
     result.path_difference_m = std::max(result.path_difference_m, group.reach.path_difference_m);
     result.radius_m = std::max(result.radius_m, group.reach.radius_m);
-    if (group.reach.radius_m > 0.0)
-      result.radius_over_range =
-          std::max(result.radius_over_range, group.reach.radius_m / group.reach.range_m);
+    result.radius_over_range = std::max(result.radius_over_range, group.reach.radius_over_range());
   }
   result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision));
   result.blocks_per_run = run_blocks ? *run_blocks : cheapest_run_blocks(grouping.groups(), most_blocks);

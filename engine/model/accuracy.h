@@ -49,7 +49,8 @@ struct AccuracyReport {
 inline constexpr double weight_error_unit = 0x1p-24;
 
 // Every pixel's error, and the limit that was asked for. A pixel is off by fixed + per_condition * condition
-// at most, the condition being sum of |terms| / |sum| over its samples and diodes.
+// at most, the condition being sum of |terms| / |sum| over its samples and diodes, and by the effect of
+// errors of weights.
 struct ErrorBound {
   double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
@@ -57,10 +58,14 @@ struct ErrorBound {
   double terms_per_weight_error = 0.0;
   // Where beams may end in view: that factor times the rounding of a cosine to a diode's axis, for order 1.
   double terms_of_beam_edges = 0.0;
-  // The errors of distance and of amplitude from weights' own errors, for each unit of those over |sum|.
-  double per_weight_m = 0.0, amplitude_per_weight = 0.0;
-  // The same for distance where a pixel's samples are at one range, and the most that fixed_m and
-  // per_condition_m together grow by for each metre between the ranges; nothing where that is not known.
+  // The relative error of every weight, which amplitude_per_condition includes and per_condition_m does not.
+  double weight_error = 0.0;
+  // The effects of weights' errors, for each unit of those over |sum|: on distance, on distance for the
+  // common error over sqrt(condition^2 - 1), and on amplitude (RoundingBound).
+  double per_weight_m = 0.0, any_weight_m = 0.0, amplitude_per_weight = 0.0;
+  // The same for distance where a pixel's samples are at one range. For each metre between the ranges fixed_m
+  // and per_condition_m together grow by per_apart at most, and per_weight_m by amplitude_per_weight; nothing
+  // where that is not known.
   struct AtOneRange {
     double fixed_m, per_condition_m, per_weight_m, per_apart;
   };
@@ -68,6 +73,11 @@ struct ErrorBound {
 
   AtOneRange nearest() const {
     return at_one_range.value_or(AtOneRange{fixed_m, per_condition_m, per_weight_m, 0.0});
+  }
+  // Of samples at one range, where no weight is off by itself.
+  double nearest_m(double condition) const {
+    const AtOneRange near = nearest();
+    return near.fixed_m + (near.per_condition_m + weight_error * near.per_weight_m) * condition;
   }
 };
 

@@ -100,13 +100,17 @@ ReferencePath see_point(Real3 position, vec4 surface, LightRun run, out Point po
   return path;
 }
 
+// The largest cosine between a run's light and the surface's normal, where backscatter has it.
+float largest_facing(float height, float inverse, LightRun run) {
+  return backscatter_model == backscatter_lambert ? clamp((height + run.radius_m) * inverse, 1e-6, 1.0) : 1.0;
+}
+
 // The errors that rounding makes in cosines to the diodes' axes beyond 45 degrees, as terms. In cos^n they are n / cos times as
 // much as in the cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n.
 // Where less than 1e-4 is left of the cosine a beam ends: an edge as any other.
 float beam_edge_terms(float weights, float height, float inverse, LightRun run) {
   float all = run.intensity * inverse * inverse; // without cosines
-  if (backscatter_model == backscatter_lambert)
-    all *= clamp((height + run.radius_m) * inverse, 1e-6, 1.0);
+  all *= largest_facing(height, inverse, run);
   return run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
 }
 
@@ -122,7 +126,7 @@ vec2 terms_of(float weights, float rho, float height, LightRun run) {
     terms += lowest > 0.0 ? min(any, run.heights * weights / lowest) : any;
   }
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
-    terms += run.diagrams * inverse * inverse;
+    terms += run.diagrams * inverse * inverse * largest_facing(height, inverse, run);
   if (beam_edges != 0)
     terms += beam_edge_terms(weights, height, inverse, run);
   return weights > 0.0 ? vec2(weights, terms) : vec2(0.0); // where there is no light nothing can be off

@@ -371,6 +371,8 @@ struct Frequency {
   // The errors of weights that are off, in units of engine/model/accuracy.h: as distance, as distance of
   // samples at one range, and as amplitude, which is also what the second grows by a metre.
   float per_weight_m, near_per_weight_m, per_weight;
+  // What all weights are off by, in the same units, and what that does as distance over sqrt(condition^2 - 1).
+  float weight_error, any_weight_m;
 };
 
 struct DemodulationConstants {

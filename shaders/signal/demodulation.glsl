@@ -250,6 +250,14 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
+// Errors of weights as distance. One that all weights have turns the sum by sum w |sin| / |sum| times it, and as (sum w |sin|)^2 <=
+// sum w * sum w sin^2 <= (sum w)^2 - |sum|^2 that is at most sqrt(condition^2 - 1). `largest`: of the condition, which is off itself.
+float weights_error_m(Frequency frequency, float per_weight_m, float condition, float largest, float weights) {
+  float root = sqrt(max(largest * largest - 1.0, 0.0));
+  float common_m = min(per_weight_m * condition, frequency.any_weight_m * root);
+  return frequency.weight_error * common_m + per_weight_m * weights;
+}
+
 // The bound (Frequency), given what is known to add to the sum's own error, and how much the samples' ranges differ by.
 // `terms`: of the light, and of its weights' own errors.
 Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, float apart_m) {
@@ -258,9 +266,12 @@ Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, floa
   // A sum that is off by this part of itself is turned by more than a small part would turn it: by the arcsine.
   float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * weights;
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
+  float largest = condition * (1.0 + relative + 1e-6) * grown;
+  float near_per_weight_m = min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m);
   float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
-                 min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m) * weights;
-  float any_m = (frequency.per_condition_m + added.distance_m) * condition + frequency.per_weight_m * weights;
+                 weights_error_m(frequency, near_per_weight_m, condition, largest, weights);
+  float any_m = (frequency.per_condition_m + added.distance_m) * condition +
+                weights_error_m(frequency, frequency.per_weight_m, condition, largest, weights);
   return Errors(min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
                 frequency.amplitude_fixed + relative);
 }

@@ -11,6 +11,7 @@ using namespace pmdsim;
 namespace {
 
 constexpr double float_rounding = 0x1p-24;
+constexpr double signal_wavenumber_rad_m = 2.0 * std::numbers::pi * 20e6 / 299792458.0;
 const std::vector<VisibleBox> point_at_2m{{{0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}}};
 
 struct Light {
@@ -61,8 +62,9 @@ TEST_CASE("a pair of diodes by hand") {
   // R = 0.1, t = 0.05, |e| <= 0.01 / 3.9; weights off by 28 u over paths 3 e apart, e by 0.725 u.
   // K = 3: the moments left out are 0.008 u of it.
   const RoundingBound bound = bound_of({diodes_at(pair)}).value();
-  CHECK(bound.per_condition_m ==
-        Approx(0.5 * float_rounding * (28.01 * 3 * 0.01 / 3.9 + 0.725)).epsilon(1e-3));
+  CHECK(bound.weight_error == Approx(28.01 * float_rounding).epsilon(1e-3));
+  CHECK(bound.per_condition_m == Approx(0.5 * float_rounding * 0.725).epsilon(1e-3));
+  CHECK(bound.any_weight_m == Approx(0.5 / signal_wavenumber_rad_m));
   CHECK(bound.per_weight_m == Approx(0.5 * 3 * 0.01 / 3.9).epsilon(1e-3));
   CHECK(bound.amplitude_per_weight == 1.0);
   const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;
@@ -87,30 +89,30 @@ TEST_CASE("distances from a low frequency are off by half a unit in the last pla
 }
 
 TEST_CASE("what makes weights worse makes the bound larger") {
-  const double isotropic_m = bound_of({diodes_at(pair)})->per_condition_m;
-  double before_m = isotropic_m;
+  const double isotropic = bound_of({diodes_at(pair)})->weight_error;
+  double before = isotropic;
   for (const double order : {2.0, 7.5, 100.0}) {
     const Light beams{diodes_at(pair, {Pattern::Kind::cosine, order})};
-    const double now_m = bound_of(beams, {.emission_cosine = 0.9})->per_condition_m;
-    CHECK(now_m > before_m);
-    before_m = now_m;
+    const double now = bound_of(beams, {.emission_cosine = 0.9})->weight_error;
+    CHECK(now > before);
+    before = now;
   }
   Light lambert{diodes_at(pair)};
   lambert.backscatter = shader::backscatter_lambert;
-  before_m = isotropic_m;
+  before = isotropic;
   for (const double cosine : {1.0, 0.1, 0.01}) {
-    const double now_m = bound_of(lambert, {.incidence_cosine = cosine})->per_condition_m;
-    CHECK(now_m > before_m);
-    before_m = now_m;
+    const double now = bound_of(lambert, {.incidence_cosine = cosine})->weight_error;
+    CHECK(now > before);
+    before = now;
   }
 }
 
 TEST_CASE("samples of one pixel at different ranges") {
   const Light room{diodes_at(pair), {{{-1.0, -1.0, 1.0}, {1.0, 1.0, 4.0}}}};
-  const double any_m = bound_of(room, {.samples = 4})->per_condition_m;
-  const double smooth_m = bound_of(room, {.samples = 4, .sample_spread_m = 0.001})->per_condition_m;
+  const double any_m = bound_of(room, {.samples = 4})->distance_m(1.0);
+  const double smooth_m = bound_of(room, {.samples = 4, .sample_spread_m = 0.001})->distance_m(1.0);
   CHECK(any_m > smooth_m);
-  CHECK(smooth_m > bound_of(room)->per_condition_m);
+  CHECK(smooth_m > bound_of(room)->distance_m(1.0));
 }
 
 TEST_CASE("what is known of samples at one range grows evenly as they part, at most") {
@@ -124,7 +126,7 @@ TEST_CASE("what is known of samples at one range grows evenly as they part, at m
     const RoundingBound near = apart(0.0);
     for (const double spread_m : {0.001, 0.1, 1.0, 3.0}) {
       const RoundingBound far = apart(spread_m);
-      const double per_apart_m = near.per_apart * spread_m;
+      const double per_apart_m = (near.per_apart + near.weight_error * near.amplitude_per_weight) * spread_m;
       CHECK(far.distance_m(1.0) <= (near.distance_m(1.0) + per_apart_m) * (1 + 1e-12)); // or the same
       CHECK(far.distance_m(1.0) >= near.distance_m(1.0) + 0.5 * std::min(per_apart_m, 1e-8));
       CHECK(far.per_weight_m <= near.per_weight_m + near.amplitude_per_weight * spread_m * (1 + 1e-12));
@@ -151,17 +153,19 @@ TEST_CASE("the worst of several frequencies, and lights that differ in phase") {
   CHECK(both.per_condition_m >= std::max(slow.per_condition_m, fast.per_condition_m) * (1 - 1e-6));
 
   std::vector<CameraIlluminator> lights{diodes_at({pair[0]})[0], diodes_at({pair[1]})[0]};
-  const double alike_m = bound_of({lights})->per_condition_m;
+  const double alike_m = bound_of({lights})->per_weight_m;
   lights[1].modulation_phase_rad = std::numbers::pi;
-  CHECK(bound_of({lights})->per_condition_m > 10.0 * alike_m);
+  CHECK(bound_of({lights})->per_weight_m > 10.0 * alike_m);
+  CHECK(bound_of({lights})->per_weight_m == Approx(bound_of({lights})->any_weight_m));
 }
 
 TEST_CASE("waveforms have a bound, and diagrams that are not infinitely steep") {
   for (const Waveform &waveform :
        {Waveform{Waveform::Kind::square, {}}, Waveform{Waveform::Kind::harmonics, {1.0, 0.0, -0.1}}}) {
     const RoundingBound bound = bound_of({diodes_at(pair), point_at_2m, {20e6}, waveform}).value();
-    CHECK(bound.per_condition_m > bound_of({diodes_at(pair)})->per_condition_m);
-    CHECK(bound.per_condition_m < 100e-6);
+    CHECK(bound.distance_m(1.0) > bound_of({diodes_at(pair)})->distance_m(1.0));
+    CHECK(bound.distance_m(1.0) < 100e-6);
+    CHECK_FALSE(std::isfinite(bound.any_weight_m));
   }
   const auto table = std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0}, {1.0, 0.5}});
   CHECK(bound_of({diodes_at(pair, {Pattern::Kind::diagram, 0.0, table})}));

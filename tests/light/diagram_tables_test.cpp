@@ -1,6 +1,7 @@
 // A measured diagram on its even grid is the diagram itself wherever a grid can meet its angles.
 
 #include "engine/light/diagram_tables.h"
+#include "engine/light/rounding_units.h"
 #include "tests/support/units.h"
 
 #include <algorithm>
@@ -105,13 +106,23 @@ double largest_difference(const Diagram &diagram, const DiagramTables &tables, c
 
 TEST_CASE("what a diagram may be off by is a direction's rounding and what the even grid misses") {
   DiagramTables tables;
-  // 1 per degree; 16 u of half a turn.
+  // 1 per degree.
   const auto even = diagram_of({0, 1, 2}, {0}, {0, 1, 2});
-  CHECK(tables.grid_of(even).error == Approx(16 * 0x1p-24 * 180).epsilon(1e-6));
+  const DiagramGrid grid = tables.grid_of(even);
+  CHECK(grid.error == Approx(0.0).margin(1e-12));
+  CHECK(diagram_error(*even, grid, 0.1) ==
+        Approx(grid.error + 0x1p-24 * theta_error_u(0.1, 2 * degree) / degree).epsilon(1e-6));
   // The grid bends at 2, the diagram 5e-5 of a step later.
   const auto off = diagram_of({0, 1, 2.00005, 3}, {0}, {0, 0, 0, 1});
   CHECK(tables.grid_of(off).theta_steps == 3);
-  CHECK(tables.grid_of(off).error == Approx(16 * 0x1p-24 * 180 / 0.99995 + 5e-5).epsilon(1e-3));
+  CHECK(tables.grid_of(off).error == Approx(5e-5).epsilon(1e-3));
+  // Twice the slope in phi over the sine.
+  const auto around = diagram_of({0, 90}, {0, 90}, {0, 0, 0, 1});
+  const DiagramGrid of_both = tables.grid_of(around);
+  const double of_theta = theta_error_u(0.0, 90 * degree) / (90 * degree);
+  const double of_phi = 2 * phi_error_u(0.0) / (90 * degree);
+  CHECK(diagram_error(*around, of_both, 0.0) ==
+        Approx(of_both.error + 0x1p-24 * (of_theta + of_phi)).epsilon(1e-6));
 }
 
 TEST_CASE("a grid's step divides all angles of a diagram, so that it is the diagram") {

@@ -91,9 +91,9 @@ TEST_CASE("measured diagrams have no series, and no bound where they vary about 
                     std::make_shared<const Diagram>(Diagram{{0.0, 1.0}, {0.0, 3.0}, {1.0, 0.9, 0.5, 0.4}})};
   DiagramTables tables;
   CHECK_FALSE(law_series(axial));
-  CHECK(std::isfinite(law_error(axial, tables)));
-  CHECK_FALSE(std::isfinite(law_error(any, tables)));
-  CHECK(law_error(cosine(3.0), tables) == 0.0);
+  CHECK(std::isfinite(law_error(axial, tables, 0.1)));
+  CHECK_FALSE(std::isfinite(law_error(any, tables, 0.1)));
+  CHECK(law_error(cosine(3.0), tables, 0.1) == 0.0);
   CHECK_FALSE(law_series(Pattern{}).value().order);
   CHECK(law_series(cosine(3.0)).value().order == 3.0);
 }

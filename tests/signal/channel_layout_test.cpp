@@ -116,9 +116,12 @@ TEST_CASE("every frequency carries what was promised, or nothing") {
     CHECK((record.limit_m == 0.0f && record.per_condition_m == 0.0f && record.amplitude_limit == 0.0f));
   ErrorBound bound{1e-5, 2e-6, 3e-7, 1e-3, 2e-4, 3e-5};
   bound.per_weight_m = 0x1p24;
+  bound.any_weight_m = 0x1p25;
+  bound.weight_error = 0x1p-20;
   const auto alike = frequency_records(signal_with_taps(), 1.0, bound, 240);
   CHECK((alike[0].near_per_condition_m == 3e-7f && alike[0].near_per_weight_m == 1.0f &&
          alike[0].per_apart == 0.0f));
+  CHECK((alike[0].weight_error == 16.0f && alike[0].any_weight_m == 2.0f));
   bound.at_one_range = {1e-6, 1e-7, 0x1p23, 4e-8};
   for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound, 240)) {
     CHECK(record.limit_m == 1e-5f);
