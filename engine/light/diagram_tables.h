@@ -23,7 +23,7 @@ struct DiagramGrid {
   double first_phi_rad = 0.0;
   std::uint32_t phi_steps = 0;  // that a turn has
   std::uint32_t row_length = 0; // angles to the axis; 0: the same for all phi
-  double error = 0.0; // of J, at most, as the even grid makes it
+  double error = 0.0;           // of J, at most, as the even grid makes it
 };
 
 // The largest change of J where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +

@@ -23,9 +23,8 @@ namespace {
 constexpr std::uint32_t setups = 200;
 // At most these shares of the setups may be refused: those with measured diagrams, of whose error theory has
 // no bound, and those whose rounding may exceed the budget. The latter have returns of two lights that
-// cancel, a long distance whose last bit in float is more than a micrometre, a waveform that is no sine and
-// has no sum in double precision, or a point in the dark beside a measured beam, which is looked up in float.
-// A quarter of the setups are refused, most of them with budgets below 10 micrometres.
+// cancel, or a long distance whose last bit in float is more than a micrometre, and most have budgets below
+// 10 micrometres.
 constexpr double most_without_bound = 0.0, most_beyond_rounding = 0.25;
 
 Accuracy within_budget(const RandomSetup &setup) {
