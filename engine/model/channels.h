@@ -85,7 +85,7 @@ inline constexpr std::array channel_rows = [] {
       {"tap", radiance_unit, "the correlation samples", &Return::taps, {Area::frequency, 4}},
       {"error_bound_m",
        "m",
-       "what distance_m is off by at most; only with an error asked for that some pixels may exceed",
+       "how far distance_m is off at most; only where an error was asked for that some pixels may exceed",
        &Return::error_bound_m,
        {Area::bound, 0}},
       {"range_m",

@@ -48,7 +48,7 @@ TEST_CASE(
   const Workspace work;
   std::vector<std::string> arguments{"render",      PMDSIM_SCENES "/light.json",
                                      "-o",          work / "out",
-                                     "--max-error", "50um",
+                                     "--max-error", "10um",
                                      "--precision", "fp32",
                                      "--format",    "npy",
                                      "--json"};
@@ -60,7 +60,7 @@ TEST_CASE(
   CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
   CHECK(std::ifstream(work / "out/pmd_0000.error_bound_m.npy").good());
   arguments.emplace_back("--strict");
-  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.05 mm"});
+  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.01 mm"});
 }
 
 TEST_CASE("what cannot be asked for is refused before anything is read") {
