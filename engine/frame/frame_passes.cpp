@@ -8,6 +8,7 @@
 #include "engine/signal/claims_pass.h"
 #include "engine/signal/demodulation_pass.h"
 #include "engine/signal/direct_pixels.h"
+#include "engine/signal/host/host_pixels.h"
 #include "engine/signal/read_back.h"
 #include "engine/view/edge_settling.h"
 #include "engine/view/host/host_raster.h"
@@ -61,7 +62,9 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .position_bytes = depth_only ? 0 : 3 * sizeof(double),
           .backscatter_bytes = depth_only ? 0 : sizeof(float),
           .surface_vectors = depth_only ? 0 : surface_vectors,
-          .run_moments = path.host_sum != HostSum::none ? (path.moments + 1) * plan.all.runs.size() : 0,
+          .run_moments = path.host_sum != HostSum::none && !path.host_pixels
+                             ? (path.moments + 1) * plan.all.runs.size()
+                             : 0,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
           .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
           .channels = ChannelLayout(modulation).channels(),
@@ -155,15 +158,19 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
       on.path.point_dimensions > 0 && !scope.shadowed && !scope.by_host && scope.list == nullptr;
   if (scope.beforehand)
     scope.bound = on.plan.bound_beforehand;
+  if (scope.depth_records && on.path.host_pixels)
+    return graph.add_to_window(host_pixels_pass(on, groups, scope));
   if (scope.depth_records && on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
   Pass sum = accumulate_pass(on, groups, windows, scope);
   scope.list != nullptr ? graph.add_after(std::move(sum)) : graph.add_to_window(std::move(sum));
 }
 
-// The device goes on from the host's sums, which contain the shadows already.
+// The device goes on from the host's sums, which contain the shadows already, unless the host does.
 void add_host_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                   SumScope scope, FrameGraph &graph) {
+  if (on.path.host_pixels)
+    return graph.add_to_window(host_pixels_pass(on, groups, scope));
   graph.add_to_window(host_sum_pass(on, groups, scope));
   scope.by_host = true;
   scope.shadowed = false;

@@ -147,6 +147,14 @@ bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePl
          modulation.frequencies() <= most_direct_frequencies;
 }
 
+// The host knows no paint, and needs some way to every sample's sum.
+bool can_make_pixels_on_host(const FramePath &path, const FrameFacts &facts, const PathForms &allowed) {
+  const bool sums_all = path.host_sum == HostSum::all ||
+                        (path.point_dimensions > 0 && (path.windows == 0 || path.host_sum == HostSum::shaded));
+  return path.direct && sums_all && allowed.host_pixels && facts.host_is_device && facts.has_doubles &&
+         !facts.paint.painted;
+}
+
 // 0 unless samples that some source does not light or face are summed apart or are not there.
 std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
   const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
@@ -231,7 +239,9 @@ std::string record_text(const FramePath &path) {
   return path.record == SampleRecord::point
              ? "point"
              : fmt::format("depth{}{}", path.one_backscatter ? ", one backscatter" : "",
-                           path.direct ? ", to channels at once" : "");
+                           path.host_pixels ? ", to channels on the host"
+                           : path.direct    ? ", to channels at once"
+                                            : "");
 }
 
 std::string visibility_text(const FramePath &path) {
@@ -282,6 +292,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.record = path.sums_records || begins_with_depths(path, sensor, allowed) ? SampleRecord::depth
                                                                                : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);
+  path.host_pixels = can_make_pixels_on_host(path, facts, allowed);
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;

@@ -67,6 +67,7 @@ struct FramePath {
   bool one_backscatter;  // need not be looked up
   bool sums_records;     // the class of all pixels is summed from depth records
   bool direct;           // and goes to channels at once
+  bool host_pixels;      // which the host does
   bool host_reads_truth; // coverage, depth and IDs come off the records
   // The classes in the order in which they are summed: one of all pixels, or several that pixels are sorted
   // into. Pixels that the first ones leave are listed for those that follow.

@@ -36,11 +36,6 @@ bool is_straight(const vulkan::Device &device, const SimulatorOptions &options, 
          (options.loop == DiodeLoop::automatic ? device.is_cpu() : options.loop == DiodeLoop::straight_line);
 }
 
-bool has_beam_edges(const SumModel &model, const std::optional<ErrorBound> &bound) {
-  return bound && bound->terms_of_beam_edges > 0.0 && model.pattern != shader::pattern_isotropic &&
-         model.pattern != shader::pattern_axial;
-}
-
 bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
   return groups.polynomials.equal_weights && !scope.shadowed && !scope.by_host;
 }
@@ -60,6 +55,11 @@ void set_beam_edges(const SourceGroups &groups, std::size_t first, std::size_t l
 }
 
 } // namespace
+
+bool has_beam_edges(const SumModel &model, const std::optional<ErrorBound> &bound) {
+  return bound && bound->terms_of_beam_edges > 0.0 && model.pattern != shader::pattern_isotropic &&
+         model.pattern != shader::pattern_axial;
+}
 
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups,
                              const SumScope &scope) {

@@ -66,6 +66,9 @@ Pass accumulate_pass(const PassSetup &on, const SourceGroups &groups,
 std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const ErrorBound &bound,
                                          bool beforehand = false);
 
+// Whether what is kept of the terms counts the ends of beams.
+bool has_beam_edges(const SumModel &model, const std::optional<ErrorBound> &bound);
+
 // Specialization constants of the sum's forms, and the diodes that they read.
 vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
 vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &groups, const SumScope &scope);

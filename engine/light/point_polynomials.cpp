@@ -8,6 +8,18 @@
 #include <span>
 
 namespace pmdsim {
+
+std::size_t polynomial_terms(std::uint32_t degree, std::uint32_t dimensions) {
+  const std::size_t n = degree + 1;
+  return dimensions == 2 ? n * (n + 1) / 2 : n * (n + 1) * (n + 2) / 6;
+}
+
+std::size_t polynomial_place(std::uint32_t j, std::uint32_t k, std::uint32_t l, std::uint32_t dimensions) {
+  const std::size_t n = j + k + l, of_y_and_z = k + l;
+  return dimensions == 2 ? n * (n + 1) / 2 + k
+                         : n * (n + 1) * (n + 2) / 6 + of_y_and_z * (of_y_and_z + 1) / 2 + l;
+}
+
 namespace {
 
 // A diode's cost in the loop, in coefficients: its record's loads, and some products for each power.
@@ -59,24 +71,11 @@ std::size_t components_of(const SumModel &model, std::uint32_t dimensions) {
   return model.backscatter == shader::backscatter_lambert ? 1 + dimensions : 1;
 }
 
-// The terms of a polynomial of a degree.
-std::size_t terms_of(std::uint32_t degree, std::uint32_t dimensions) {
-  const std::size_t n = degree + 1;
-  return dimensions == 2 ? n * (n + 1) / 2 : n * (n + 1) * (n + 2) / 6;
-}
-
 std::size_t coefficients_of(const SourceGroups &groups, const SumModel &model, std::uint32_t dimensions) {
   std::size_t terms = 0;
   for (std::uint32_t degree = 0; degree < groups.polynomials.powers; ++degree)
-    terms += terms_of(degree, dimensions);
+    terms += polynomial_terms(degree, dimensions);
   return terms * components_of(model, dimensions);
-}
-
-// As in the shader: the terms of lower degrees first, then by the powers of y and z.
-std::size_t place_of(std::uint32_t j, std::uint32_t k, std::uint32_t l, std::uint32_t dimensions) {
-  const std::size_t n = j + k + l, of_y_and_z = k + l;
-  return dimensions == 2 ? n * (n + 1) / 2 + k
-                         : n * (n + 1) * (n + 2) / 6 + of_y_and_z * (of_y_and_z + 1) / 2 + l;
 }
 
 // A diode's part in the coefficients of S_0, S_1, ... of all components.
@@ -96,7 +95,7 @@ void add_power(const Term &term, std::uint32_t power, std::uint32_t dimensions, 
         const double value = binomial(power, l) * binomial(power - l, k) * binomial(power - l - k, j) *
                              constant[power - j - k - l] * x[j] * y[k] * z[l];
         for (std::size_t component = 0; component < components; ++component)
-          to[place_of(j, k, l, dimensions) * components + component] += value * term.weights[component];
+          to[polynomial_place(j, k, l, dimensions) * components + component] += value * term.weights[component];
       }
 }
 
@@ -120,7 +119,7 @@ std::vector<double> coefficients(const SourceGroups &groups, const SumModel &mod
                     {intensity, intensity * place.x, intensity * place.y, intensity * place.z}};
     std::span<double> left = sums;
     for (std::uint32_t power = 0; power < groups.polynomials.powers; ++power) {
-      const std::size_t of_power = terms_of(power, dimensions) * components;
+      const std::size_t of_power = polynomial_terms(power, dimensions) * components;
       add_power(term, power, dimensions, left.first(of_power), components);
       left = left.subspan(of_power);
     }

@@ -7,6 +7,7 @@
 #include "engine/light/source_groups.h"
 #include "engine/light/sum_model.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,11 @@ std::uint32_t point_dimensions(const SourceGroups &groups, const SumModel &model
 // The rounding of the sums of so many powers, in units of float's, relative to their terms taken as positive:
 // of a coefficient, of Horner's rule, and of the products with heights and their sum.
 constexpr double beforehand_error_u(std::uint32_t powers) { return 3.0 * powers + 11.0; }
+
+// The terms of a polynomial of a degree, and where x^j y^k z^l is among those of any: the terms of lower
+// degrees first, then by the powers of y and z.
+std::size_t polynomial_terms(std::uint32_t degree, std::uint32_t dimensions);
+std::size_t polynomial_place(std::uint32_t j, std::uint32_t k, std::uint32_t l, std::uint32_t dimensions);
 
 // The polynomials of all runs, one after the other, as the shader reads them (PointPolynomials in
 // shaders/shared/interface.h, the coefficients behind it).

@@ -3,6 +3,7 @@
 #include "engine/light/diagram_tables.h"
 #include "engine/light/path_difference.h"
 #include "engine/light/radiation_laws.h"
+#include "engine/light/turn.h"
 #include "engine/model/error.h"
 
 #include <algorithm>
@@ -126,16 +127,12 @@ void part_in_two(std::span<NumberedDiode> diodes, std::size_t first) {
                            [axis](const Diode &diode) { return diode.position_m[axis]; });
 }
 
-// Orders a group's diodes so that those that share a bundle stand together: then they mostly reach the same
-// samples.
-void order_by_bundles(std::span<NumberedDiode> diodes) {
-  if (diodes.size() <= shader::diodes_per_bundle)
-    return;
-  const std::size_t bundles = (diodes.size() - 1) / shader::diodes_per_bundle + 1;
-  const std::size_t first = bundles / 2 * shader::diodes_per_bundle;
-  part_in_two(diodes, first);
-  order_by_bundles(diodes.first(first));
-  order_by_bundles(diodes.subspan(first));
+// Orders a group's diodes by their angles about the lens, seen from the scene. So those that share a bundle
+// stand together, and the sweep's order is that of the bits on boards across the view.
+void order_by_angles(std::span<NumberedDiode> diodes) {
+  std::ranges::stable_sort(diodes, {}, [](const Diode &diode) {
+    return turn_of({static_cast<float>(diode.position_m.x), -static_cast<float>(diode.position_m.y)});
+  });
 }
 
 class Grouping {
@@ -147,7 +144,7 @@ public:
   void split(std::span<NumberedDiode> diodes, double phase_turns) {
     const Group group = group_of(diodes, phase_turns, visible_);
     if (is_small_enough(group)) {
-      order_by_bundles(diodes);
+      order_by_angles(diodes);
       groups_.push_back(group);
       return;
     }

@@ -29,6 +29,7 @@ struct PathForms {
   bool unsorted = true;               // within an error all pixels from depth records, in place of classes
   bool host_sweep = true;             // and claims: on the host, where the device is its processor
   bool host_sum = true;               // of depth records that are not summed beforehand, likewise
+  bool host_pixels = true;            // from depth records to channels at once, likewise
 };
 
 struct SimulatorOptions {

@@ -1,5 +1,6 @@
 #include "engine/shadow/sweep_tables.h"
 
+#include "engine/light/turn.h"
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>
@@ -157,12 +158,6 @@ std::vector<uvec4> line_table(const Board &board, const std::vector<glm::dvec2> 
 }
 
 } // namespace
-
-float turn_of(glm::vec2 q) {
-  const float size = std::abs(q.x) + std::abs(q.y);
-  const float t = size > 0.0f ? q.y / size : 0.0f;
-  return q.x < 0.0f ? 2.0f - t : q.y < 0.0f ? 4.0f + t : t;
-}
 
 double line_margin_m(const Board &board) { return 1e-3 * board.radius_m; }
 

@@ -1,6 +1,7 @@
 #include "engine/light/host/source_batches.h"
 
 #include "engine/light/radiation_laws.h"
+#include "engine/light/source_windows.h"
 
 #include <algorithm>
 #include <cmath>

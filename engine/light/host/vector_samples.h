@@ -14,22 +14,15 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 struct VectorSamples {
   std::int32_t number[lanes];
   double point_m[3][lanes];
-  double normal[3][lanes], offset_m[lanes]; // of the surface's plane, as in TrianglePlane
+  std::int32_t shape[lanes]; // that it sees
   std::int32_t sees[lanes];
+  double normal[3][lanes], offset_m[lanes]; // of the shape's plane, as in TrianglePlane, by find_surfaces
 };
-
-inline void find_surface(const shader::TrianglePlane &plane, int lane, VectorSamples &samples) {
-  const auto exact = [&](int k) {
-    return static_cast<double>(plane.plane_hi[k]) + static_cast<double>(plane.plane_lo[k]);
-  };
-  for (int k = 0; k < 3; ++k)
-    samples.normal[k][lane] = exact(k);
-  samples.offset_m[lane] = exact(3);
-}
 
 // Finds samples by their numbers.
 inline void find_samples(const SampleSource &of, VectorSamples &samples) {
   Place place{0, 0, 0, 0, 0};
+  double ray[2][lanes], depth[lanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const auto number = static_cast<std::uint32_t>(samples.number[lane]);
     if (lane > 0 && number == place.index + 1 && place.column + 1 < of.strip.columns) {
@@ -37,13 +30,37 @@ inline void find_samples(const SampleSource &of, VectorSamples &samples) {
       ++place.column;
     } else if (lane == 0 || number != place.index)
       place = {number % of.strip.columns, number / of.strip.columns, 0, 0, number};
-    double point[3];
     std::uint32_t shape;
-    find_point(of, place, point, shape);
+    find_record(of, number, shape, depth[lane]);
+    samples.sees[lane] = depth[lane] != 0.0;
+    samples.shape[lane] = samples.sees[lane] != 0 ? static_cast<std::int32_t>(shape) : 0;
+    ray[0][lane] = from_middle(place.column + of.strip.column, of.strip.resolution_x);
+    ray[1][lane] = from_middle(place.row + of.strip.row, of.strip.resolution_y);
+  }
+  for (int lane = 0; lane < lanes && of.chip; ++lane) {
+    const double column = ray[0][lane], row = ray[1][lane];
+    double through[2];
+    find_ray(of.chip, of.slope, column, row, through);
+    ray[0][lane] = through[0];
+    ray[1][lane] = through[1];
+  }
+  const double slope_x = of.chip ? 1.0 : of.slope[0], slope_y = of.chip ? 1.0 : of.slope[1];
+  for (int lane = 0; lane < lanes; ++lane) {
+    samples.point_m[0][lane] = ray[0][lane] * slope_x * depth[lane];
+    samples.point_m[1][lane] = ray[1][lane] * slope_y * depth[lane];
+    samples.point_m[2][lane] = depth[lane];
+  }
+}
+
+inline void find_surfaces(const SampleSource &of, VectorSamples &samples) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    const shader::TrianglePlane &plane = of.planes[samples.shape[lane]];
+    const auto exact = [&](int k) {
+      return static_cast<double>(plane.plane_hi[k]) + static_cast<double>(plane.plane_lo[k]);
+    };
     for (int k = 0; k < 3; ++k)
-      samples.point_m[k][lane] = point[k];
-    samples.sees[lane] = point[2] != 0.0;
-    find_surface(of.planes[samples.sees[lane] != 0 ? shape : 0], lane, samples);
+      samples.normal[k][lane] = exact(k);
+    samples.offset_m[lane] = exact(3);
   }
 }
 
@@ -84,5 +101,31 @@ private:
   VectorSamples samples_;
   int count_ = 0;
 };
+
+// Vectors begin with rows: a law may depend on a vector's other samples, and these must be the same however
+// strips and threads part them.
+template <class Each>
+void for_each_vector_of_rows(std::uint32_t columns, std::uint32_t first, std::uint32_t last,
+                             const Each &each) {
+  Gathering gathering(each);
+  for (std::uint32_t row = first; row < last; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column)
+      gathering.add(row * columns + column);
+    gathering.end();
+  }
+}
+
+// Of blocks as BlockLists lists them.
+template <class Each>
+void for_each_vector_of_blocks(const std::uint32_t *blocks, std::uint32_t first, std::uint32_t last,
+                               const Each &each) {
+  Gathering gathering(each);
+  for (std::uint32_t i = first; i < last; ++i) {
+    const std::uint32_t sample = blocks[i] / shader::block_samples;
+    for (std::uint32_t k = 0; k <= blocks[i] % shader::block_samples; ++k)
+      gathering.add(sample + k);
+  }
+  gathering.end();
+}
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

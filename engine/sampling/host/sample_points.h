@@ -49,6 +49,18 @@ inline void find_ray(const shader::ChipPlace *place, const double (&slope)[2], d
   ray[1] = at[1] / at[2];
 }
 
+// From the frame's middle, in half samples; `place` and `extent` are a column or a row and their number.
+inline double from_middle(std::uint32_t place, std::uint32_t extent) {
+  return 2.0 * static_cast<double>(place) + 1.0 - static_cast<double>(extent);
+}
+
+// Of a depth record.
+inline void find_record(const SampleSource &of, std::size_t index, std::uint32_t &shape, double &depth) {
+  const std::byte *record = of.ids + index * sizeof(shader::uvec4);
+  std::memcpy(&shape, record + 4, sizeof(shape));
+  depth = real_at(record + 8, of.has_fp64);
+}
+
 // Camera frame, m; 0 where it sees nothing.
 inline void find_point(const SampleSource &of, const Place &at, double (&point)[3], std::uint32_t &shape) {
   const shader::Strip &strip = of.strip;
@@ -63,12 +75,11 @@ inline void find_point(const SampleSource &of, const Place &at, double (&point)[
     std::memcpy(&shape, of.ids + (y * columns * samples + x) * sizeof(shader::uvec2) + 4, sizeof(shape));
     return;
   }
-  const std::byte *record = of.ids + std::size_t{at.index} * sizeof(shader::uvec4);
-  std::memcpy(&shape, record + 4, sizeof(shape));
-  const double depth = real_at(record + 8, of.has_fp64);
+  double depth;
+  find_record(of, at.index, shape, depth);
   double ray[2];
-  find_ray(of.chip, of.slope, 2.0 * (strip.column + at.column) + 1.0 - strip.resolution_x,
-           2.0 * (strip.row + at.row) + 1.0 - strip.resolution_y, ray);
+  find_ray(of.chip, of.slope, from_middle(strip.column + at.column, strip.resolution_x),
+           from_middle(strip.row + at.row, strip.resolution_y), ray);
   point[0] = ray[0] * depth;
   point[1] = ray[1] * depth;
   point[2] = depth;

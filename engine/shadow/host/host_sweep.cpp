@@ -1,5 +1,6 @@
 #include "engine/shadow/host/host_sweep.h"
 
+#include "engine/light/turn.h"
 #include "engine/model/instruction_sets.h"
 #include "engine/sampling/host/host_samples.h"
 #include "engine/shadow/host/silhouette_tree.h"
@@ -80,6 +81,7 @@ void place_diodes(const Board &board, const std::vector<glm::dvec3> &places_m, S
     if (classes.empty() || turn > classes.back().first + same_turn)
       classes.emplace_back(turn, static_cast<std::int32_t>(rank));
   }
+  to.ranks_are_bits = std::ranges::is_sorted(ordered, {}, &std::pair<float, std::int32_t>::second);
   place_classes(classes, static_cast<std::int32_t>(ordered.size()), to);
 }
 

@@ -70,12 +70,21 @@ bool find_bits(const Sweep &sweep, const std::int32_t *faces, const SilhouetteBo
                std::uint32_t *words) {
   std::uint32_t below_zero = 0;
   std::memset(words, 0, shader::bundles_per_window * sizeof(*words));
-  for (std::uint32_t d = 0; d < board.diodes; d += lanes) {
-    const Ints ranks = load<Ints>(board.rank_of_bit + d);
-    const Ints count = gathered(sweep.counts, ranks), facing = faces ? gathered(faces, ranks) : all(-1);
+  const auto add = [&](std::uint32_t d, const Ints &count, const Ints &facing) {
     words[d / 32] |= bits_of((count == 0) & facing) << d % 32;
     below_zero |= bits_of((count < 0) & facing);
-  }
+  };
+  if (board.ranks_are_bits && !faces)
+    for (std::uint32_t d = 0; d < board.diodes; d += lanes)
+      add(d, load<Ints>(sweep.counts + d), all(-1));
+  else if (board.ranks_are_bits)
+    for (std::uint32_t d = 0; d < board.diodes; d += lanes)
+      add(d, load<Ints>(sweep.counts + d), load<Ints>(faces + d));
+  else
+    for (std::uint32_t d = 0; d < board.diodes; d += lanes) {
+      const Ints ranks = load<Ints>(board.rank_of_bit + d);
+      add(d, gathered(sweep.counts, ranks), faces ? gathered(faces, ranks) : all(-1));
+    }
   return below_zero == 0;
 }
 

@@ -79,6 +79,7 @@ struct SilhouetteBoard {
   alignas(64) float x_m[diode_room], y_m[diode_room];
   alignas(64) double exact_m[3][most_diodes];
   alignas(64) std::int32_t rank_of_bit[most_diodes];
+  bool ranks_are_bits; // each is its own
   // Classes of one angle, by the number of diodes of smaller angles: a class's angle, with a last one above
   // all, and that number for the next class. Likewise for the first class of each bin of angles.
   alignas(64) float rank_turn[most_diodes + 1];

@@ -1,0 +1,25 @@
+#pragma once
+// The form of a sum over one run of sources, as plain data for the host's loops: what the shaders have in
+// specialization constants.
+
+#include "shaders/shared/interface.h"
+
+#include <cstdint>
+
+namespace pmdsim {
+
+struct RunForm {
+  const shader::LightRun *run;
+  std::uint32_t powers, moments;
+  bool lambert;           // a weight has the cosine of the surface
+  bool faces;             // sources behind a surface do not count
+  std::uint32_t cosines;  // of each source's axis, in a weight
+  bool coplanar, phased;
+  bool diagrams, beam_edges; // rounding that counts apart (shaders/light/sum.glsl: terms_of)
+  // Sums beforehand; nullptr: none. The coefficients stand in the order in which Horner's rule takes them.
+  const shader::PointPolynomials *beforehand;
+  const float *coefficients;
+  std::uint32_t dimensions;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,54 @@
+#include "engine/light/host/strip_sums.h"
+
+#include "engine/vulkan/shader_module.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::uint32_t blocks_at_once = 32;
+
+// Whether rounding is bounded as if powers stood for roots.
+bool has_bound_of_powers(const SourceGroups &groups) { return groups.polynomials.powers > 0; }
+
+} // namespace
+
+StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
+    : buffers_(on.buffers), samples_(on.buffers, on.scene.planes, on.sensor, scope.depth_records,
+                                     vulkan::uses_fp64(on.device, on.options.precision)),
+      blocks_(scope.blocks), lambert_(on.model.backscatter == shader::backscatter_lambert),
+      shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
+      shining_(shining_diodes(groups)), batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
+                                                 has_bound_of_powers(groups) || !on.modulation.keeps_terms) {}
+
+LawSums StripSums::of(const shader::Strip &strip) const {
+  return {.samples = samples_.of(strip),
+          .blocks = blocks_ ? reinterpret_cast<const std::uint32_t *>(
+                                  blocks_->list->mapped_as<shader::WorkList>() + 1)
+                            : nullptr,
+          .runs = batches_.runs().data(),
+          .run_count = static_cast<std::uint32_t>(batches_.runs().size()),
+          .moments = moments_,
+          .lambert = lambert_,
+          .visibility = shadowed_ ? buffers_.visibility.mapped_as<std::uint32_t>() : nullptr,
+          .lit = shadowed_ ? buffers_.lit.mapped_as<std::uint32_t>() : nullptr,
+          .visibility_words =
+              shadowed_ ? bundles_per_run_ * static_cast<std::uint32_t>(batches_.runs().size()) : 0,
+          .shining = shining_,
+          .plane = sample_count(strip),
+          .run_moments = nullptr};
+}
+
+void StripSums::for_each_part(const LawSums &sums, const LoopOverPart &of_rows,
+                              const LoopOverPart &of_blocks) const {
+  using Range = tbb::blocked_range<std::uint32_t>;
+  if (!blocks_)
+    return tbb::parallel_for(Range(0, sums.samples.strip.rows),
+                             [&](const Range &rows) { of_rows(rows.begin(), rows.end()); });
+  tbb::parallel_for(Range(0, blocks_->list->mapped_as<shader::WorkList>()->count, blocks_at_once),
+                    [&](const Range &blocks) { of_blocks(blocks.begin(), blocks.end()); });
+}
+
+} // namespace pmdsim

@@ -1,0 +1,36 @@
+#pragma once
+// The sums over the sources in a strip's depth records, as the host's loops take them.
+
+#include "engine/light/accumulate_pass.h"
+#include "engine/light/host/source_batches.h"
+#include "engine/sampling/host/host_samples.h"
+
+#include <functional>
+
+namespace pmdsim {
+
+// Over some rows, or some blocks of a list, the last one excluded.
+using LoopOverPart = std::function<void(std::uint32_t first, std::uint32_t last)>;
+
+class StripSums {
+public:
+  StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
+
+  // Without a place for its moments.
+  LawSums of(const shader::Strip &strip) const;
+
+  // Calls one of both for parts of the strip that threads share out: `of_blocks` where blocks are listed.
+  void for_each_part(const LawSums &sums, const LoopOverPart &of_rows, const LoopOverPart &of_blocks) const;
+
+  bool are_listed() const { return blocks_.has_value(); }
+
+private:
+  const StripBuffers &buffers_;
+  HostSamples samples_;
+  std::optional<SampleBlocks> blocks_;
+  bool lambert_, shadowed_;
+  std::uint32_t moments_, bundles_per_run_, shining_;
+  SourceBatches batches_;
+};
+
+} // namespace pmdsim

@@ -1,0 +1,73 @@
+#pragma once
+// The sum of the sizes of a run's terms, which rounding is relative to: terms_of of shaders/light/sum.glsl
+// and moments.glsl.
+
+#include "engine/light/host/laws.h"
+#include "engine/light/host/point_view.h"
+#include "engine/light/host/run_form.h"
+#include "engine/model/elementary_lanes.h"
+
+#include <cmath>
+
+namespace pmdsim::PMDSIM_INSTRUCTION_SET {
+
+struct Terms {
+  Floats light, weights; // of the light, and of its weights' own errors
+};
+
+// The factor by which the terms of the weights' polynomial in u, all taken as positive, may exceed it.
+inline Floats growth_at(const RunForm &form, const PointView &view) {
+  if (form.powers == 0)
+    return all(1.0f);
+  const Floats inverse = 1.0f / view.rho, t = form.run->radius_m * inverse;
+  const Floats across2 = view.position[0] * view.position[0] + view.position[1] * view.position[1];
+  const Floats u = t * (t + 2.0f * (form.coplanar ? root(larger(across2, all(tiny))) * inverse : all(1.0f)));
+  Floats sum = all(0.0f);
+  for (std::uint32_t i = form.powers; i-- > 0;)
+    sum = sum * u + std::abs(form.run->moments_of_powers[i / 4][static_cast<int>(i % 4)]);
+  return sum;
+}
+
+// x^exponent, a hair more than exactly, at most 1e4; x in [1e-37, 1], exponent <= 0.
+inline Floats power_at_least(const Floats &x, float exponent) {
+  // ln x, by the exponent of 2 and the rest in [0.71, 1.42).
+  const Ints shift = (reinterpret_cast<Ints>(x * 1.4142135f) >> 23) - 127;
+  const Floats rest = reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) - (shift << 23));
+  const Floats y = (rest - 1.0f) / (rest + 1.0f), u = y * y;
+  const Floats log2_x = __builtin_convertvector(shift, Floats) +
+                        y * (2.885390082f + u * (0.9617966939f + u * (0.5770780164f + u * 0.4121985831f)));
+  const Floats power = smaller(exponent * log2_x, all(14.0f)); // 2^14 > 1e4
+  const Floats whole = rounded(power), f = power - whole;
+  const Floats fraction =
+      1.0f +
+      f * (0.6931471806f +
+           f * (0.2402265070f + f * (0.05550410866f + f * (0.009618129108f + f * 0.001333355815f))));
+  const Ints of_two = (__builtin_convertvector(whole, Ints) + 127) << 23;
+  return smaller(1.0001f * fraction * reinterpret_cast<Floats>(of_two), all(1e4f));
+}
+
+inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &weights) {
+  const shader::LightRun &run = *form.run;
+  const Floats none = all(0.0f), inverse = 1.0f / (view.rho - run.radius_m), inverse2 = inverse * inverse;
+  const Floats facing = form.lambert
+                            ? smaller(larger((view.height + run.radius_m) * inverse, all(1e-6f)), all(1.0f))
+                            : all(1.0f);
+  Floats terms = none;
+  if (form.lambert) {
+    const Floats any = run.heights * run.intensity * inverse2 * inverse;
+    const Floats lowest = view.height - run.radius_m; // of the run's sources, at least
+    terms += lowest > 0.0f ? smaller(any, run.heights * weights / lowest) : any;
+  }
+  if (form.diagrams)
+    terms += run.diagrams * inverse2 * facing;
+  if (form.beam_edges) {
+    const Floats all_light = run.intensity * inverse2 * facing; // without cosines of the axes
+    const Floats part = smaller(larger(weights / all_light, all(1e-37f)), all(1.0f));
+    terms += run.beam_edges * weights * power_at_least(part, -run.beam_edge_root);
+  }
+  const Floats growth = growth_at(form, view);
+  const Ints shines = weights > 0.0f; // where there is no light nothing can be off
+  return {shines ? growth * weights : none, shines ? growth * terms : none};
+}
+
+} // namespace pmdsim::PMDSIM_INSTRUCTION_SET

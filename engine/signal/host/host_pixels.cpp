@@ -1,0 +1,161 @@
+#include "engine/signal/host/host_pixels.h"
+
+#include "engine/light/host/strip_sums.h"
+#include "engine/light/point_polynomials.h"
+#include "engine/model/channels.h"
+#include "engine/model/instruction_sets.h"
+#include "engine/signal/channel_layout.h"
+#include "engine/signal/direct_pixels.h"
+#include "engine/signal/host/pixel_loops.h"
+#include "engine/vulkan/commands.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+
+PMDSIM_LOOPS_OF_EACH_SET(pmdsim::PixelLoops, pixel_loops)
+
+namespace pmdsim {
+namespace {
+
+// The loops store these in pairs.
+static_assert(row_of(&Return::amplitude).slot.index == 0 && row_of(&Return::phase_rad).slot.index == 1);
+static_assert(row_of(&Return::distance_m).slot.index == 2 && row_of(&Measurement::range_m).slot.index == 3);
+
+class PixelsOnHost {
+public:
+  PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
+
+  void make(const shader::Strip &strip) const;
+
+private:
+  void add_coefficients(const SourceGroups &groups, const SumModel &model);
+
+  const StripBuffers &buffers_;
+  StripSums sums_;
+  shader::LightRun run_;
+  shader::PointPolynomials head_{};
+  std::vector<float> coefficients_;
+  RunForm form_;
+  std::vector<shader::Tone> tones_;
+  std::vector<shader::Frequency> frequencies_;
+  std::optional<float> backscatter_;
+  bool vignetting_, lit_, holds_, keeps_bounds_;
+  std::uint32_t first_tap_, bound_;
+  std::vector<std::array<float, 2>> tap_phasors_; // of those that are kept
+  PixelLoops loops_;
+};
+
+std::vector<std::array<float, 2>> tap_phasors(std::uint32_t taps) {
+  std::vector<std::array<float, 2>> phasors;
+  for (std::uint32_t k = 0; k < taps; ++k) {
+    const double angle_rad = 2.0 * std::numbers::pi * k / taps;
+    phasors.push_back({static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))});
+  }
+  return phasors;
+}
+
+RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  const std::uint32_t pattern = on.model.pattern;
+  RunForm form{};
+  form.powers = groups.polynomials.powers;
+  form.moments = groups.moments;
+  form.lambert = on.model.backscatter == shader::backscatter_lambert;
+  form.cosines = pattern == shader::pattern_power ? on.model.order : 0;
+  form.coplanar = groups.polynomials.coplanar;
+  form.phased = groups.phased;
+  form.diagrams = pattern == shader::pattern_axial || pattern == shader::pattern_any;
+  form.beam_edges = has_beam_edges(on.model, scope.bound);
+  return form;
+}
+
+PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
+    : buffers_(on.buffers), sums_(on, groups, scope),
+      run_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand).front()),
+      form_(form_of(on, groups, scope)), tones_(on.modulation.all_tones()),
+      frequencies_(frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound,
+                                     groups.diode_count)),
+      backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
+      lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)),
+      keeps_bounds_(on.modulation.keeps_bounds), first_tap_(row_of(&Return::taps).slot.index),
+      bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
+             frequencies_.front().first_channel),
+      tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
+      loops_(widest_pixel_loops(on.options.host_vector_bits)) {
+  if (groups.runs.size() != 1 || on.scene.paint.painted || !buffers_.channels.is_mapped())
+    throw std::logic_error("these pixels are the device's");
+  form_.run = &run_;
+  if (scope.beforehand)
+    add_coefficients(groups, on.model);
+}
+
+// The coefficients of a sum of powers in the order of Horner's rule: those of the highest powers first, of z,
+// of y, of x.
+void append_in_order(std::span<const float> of_degree, std::uint32_t degree, std::uint32_t dimensions,
+                     std::vector<float> &to) {
+  const std::size_t components = of_degree.size() / polynomial_terms(degree, dimensions);
+  for (std::uint32_t l = dimensions == 3 ? degree + 1 : 1; l-- > 0;)
+    for (std::uint32_t k = degree - l + 1; k-- > 0;)
+      for (std::uint32_t j = degree - l - k + 1; j-- > 0;) {
+        const auto term = of_degree.subspan(polynomial_place(j, k, l, dimensions) * components, components);
+        to.insert(to.end(), term.begin(), term.end());
+      }
+}
+
+void PixelsOnHost::add_coefficients(const SourceGroups &groups, const SumModel &model) {
+  const std::uint32_t dimensions = groups.polynomials.point_dimensions;
+  const std::vector<float> words = point_polynomials(groups, model, dimensions);
+  std::memcpy(&head_, words.data(), sizeof(head_));
+  std::span<const float> left = std::span(words).subspan(sizeof(head_) / sizeof(float));
+  const std::size_t components = form_.lambert ? dimensions + 1 : 1;
+  for (std::uint32_t degree = 0; degree < form_.powers; ++degree) {
+    const std::size_t of_degree = polynomial_terms(degree, dimensions) * components;
+    append_in_order(left.first(of_degree), degree, dimensions, coefficients_);
+    left = left.subspan(of_degree);
+  }
+  form_.beforehand = &head_;
+  form_.coefficients = coefficients_.data();
+  form_.dimensions = dimensions;
+}
+
+void PixelsOnHost::make(const shader::Strip &strip) const {
+  const LawSums sums = sums_.of(strip);
+  const PixelWork work{.sums = sums,
+                       .form = form_,
+                       .tones = tones_.data(),
+                       .frequencies = frequencies_.data(),
+                       .frequency_count = static_cast<std::uint32_t>(frequencies_.size()),
+                       .backscatter = backscatter_ ? &*backscatter_ : nullptr,
+                       .vignetting = vignetting_,
+                       .lit = lit_ ? buffers_.lit.mapped_as<std::uint32_t>() : nullptr,
+                       .channels = buffers_.channels.mapped_as<float>(),
+                       .plane = sums.plane,
+                       .errors = holds_ ? buffers_.sum.mapped_as<float>() : nullptr,
+                       .keeps_bounds = keeps_bounds_,
+                       .first_tap = first_tap_,
+                       .bound = bound_,
+                       .kept_taps = static_cast<std::uint32_t>(tap_phasors_.size()),
+                       .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data())};
+  sums_.for_each_part(
+      sums, [&](std::uint32_t first, std::uint32_t last) { loops_.of_rows(work, first, last); },
+      [&](std::uint32_t first, std::uint32_t last) { loops_.of_blocks(work, first, last); });
+}
+
+} // namespace
+
+Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  const auto pixels = std::make_shared<const PixelsOnHost>(on, groups, scope);
+  return {.name = "accumulate",
+          .reads = ids | (scope.shadowed ? visibility_bits : no_resource) |
+                   (on.modulation.lit ? visibility_counts : no_resource) |
+                   (scope.blocks ? block_lists : no_resource),
+          .writes = channels | ::pmdsim::sums,
+          .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
+          .store = [pixels](const Recording &at, Measurement &) { pixels->make(at.of_strip()); }};
+}
+
+} // namespace pmdsim

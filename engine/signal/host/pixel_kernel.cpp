@@ -1,0 +1,216 @@
+// The host's way from depth records to channels, a lane a pixel. Compiled once for each instruction set,
+// PMDSIM_INSTRUCTION_SET its name; see engine/CMakeLists.txt. It does what shaders/frame/direct_pixels.comp
+// does.
+#include "engine/light/host/point_sums.h"
+#include "engine/light/host/vector_sum.h"
+#include "engine/signal/host/pixel_bounds.h"
+#include "engine/signal/host/pixel_loops.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace pmdsim::PMDSIM_INSTRUCTION_SET {
+namespace {
+
+constexpr double two_pi = 6.283185307179586;
+
+double of_pair(const shader::vec2 &pair) {
+  return static_cast<double>(pair.x) + static_cast<double>(pair.y);
+}
+
+// The sums over the sources at a vector's samples.
+struct Light {
+  Floats moment[most_host_sums];
+  Floats weights; // their sum
+};
+
+void sum_light(const PixelWork &of, VectorSamples &samples, const PointView &view, Light &light) {
+  if (of.form.beforehand) {
+    Floats total[most_host_sums];
+    sum_beforehand(of.form, view, total);
+    return find_moments(of.form, view, total, light.moment, light.weights);
+  }
+  find_surfaces(of.sums.samples, samples);
+  VectorSum(of.sums, samples).sum(of.sums.runs[0], light.moment);
+  light.weights = light.moment[of.form.moments];
+}
+
+// sum_k (j kappa)^k / k! * moment[k], by Horner's rule.
+Complex return_of(const Light &light, std::uint32_t moments, float kappa) {
+  Complex z{};
+  for (std::uint32_t k = moments; k-- > 0;) {
+    const float factor = kappa / static_cast<float>(k + 1);
+    z = {light.moment[k] - z.im * factor, z.re * factor};
+  }
+  return z;
+}
+
+// Relative to twice the sample's own range.
+Complex tone_return(const RunForm &form, const Light &light, const PointView &view,
+                    const shader::Tone &tone) {
+  Wide turns = view.detour * of_pair(tone.turns_per_m);
+  if (form.phased)
+    turns = turns + of_pair(form.run->phase_turns) * static_cast<double>(tone.harmonic);
+  return return_of(light, form.moments, tone.wavenumber) * unit_phasor(turn_fraction(turns));
+}
+
+// Of two values a pixel, beside each other: neighbouring pixels at once.
+void store_pairs(float *pairs, const VectorSamples &samples, const Floats &first, const Floats &second) {
+  constexpr int stretch = std::min<int>(lanes, shader::block_samples);
+  alignas(vector_bytes) float both[lanes][2];
+  for (int lane = 0; lane < lanes; ++lane) {
+    both[lane][0] = first[lane];
+    both[lane][1] = second[lane];
+  }
+  for (int lane = 0; lane < lanes; lane += stretch) {
+    const std::int32_t *number = samples.number + lane;
+    if (number[stretch - 1] == number[0] + stretch - 1) {
+      std::memcpy(pairs + std::ptrdiff_t{2} * number[0], both[lane], sizeof(both[0]) * stretch);
+      continue;
+    }
+    for (int i = 0; i < stretch; ++i)
+      std::memcpy(pairs + std::ptrdiff_t{2} * number[i], both[lane + i], sizeof(both[0]));
+  }
+}
+
+// To `channel`, which is even, and the next.
+void store_channels(const PixelWork &of, std::uint32_t channel, const VectorSamples &samples,
+                    const Floats &first, const Floats &second) {
+  store_pairs(of.channels + std::size_t{channel} * of.plane, samples, first, second);
+}
+
+// |z| without overflow or underflow of the squares.
+Floats magnitude(const Complex &z) {
+  const Floats longer = larger(absolute(z.re), absolute(z.im));
+  const Floats inverse_longer = 1.0f / longer, re = z.re * inverse_longer, im = z.im * inverse_longer;
+  return longer > 0.0f ? longer * root(re * re + im * im) : all(0.0f);
+}
+
+// The N correlation samples; `whole`: the return with all of its phase.
+void store_taps(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+                const Complex &whole) {
+  const auto tap = [&](std::uint32_t k) {
+    return k < of.kept_taps ? of.tap_phasors[k][0] * whole.re + of.tap_phasors[k][1] * whole.im : all(0.0f);
+  };
+  for (std::uint32_t k = 0; k < of.kept_taps; k += 2)
+    store_channels(of, frequency.first_channel + of.first_tap + k, samples, tap(k), tap(k + 1));
+}
+
+// As store_phase of shaders/signal/demodulation.glsl; `turns` in [-1, 1].
+void store_phase(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+                 const Floats &amplitude, const Wide &turns, const Floats &range_m) {
+  const Ints is_known = amplitude > 0.0f;
+  const Floats nan = all(std::numeric_limits<float>::quiet_NaN()), none = all(0.0f);
+  const Floats rough = narrow(turns);
+  Wide within = turns + wide(rough < 0.0f ? all(1.0f) : none);
+  within = within - wide(narrow(within) >= 1.0f ? all(1.0f) : none);
+  const auto limited = [&](const Wide &value, float below) {
+    return is_known ? smaller(larger(narrow(value), none), all(below)) : nan;
+  };
+  const double ambiguity_m = of_pair(frequency.ambiguity_m);
+  store_channels(of, frequency.first_channel, samples, amplitude, limited(within * two_pi, frequency.below.x));
+  store_channels(of, frequency.first_channel + 2, samples, limited(within * ambiguity_m, frequency.below.y),
+                 range_m);
+}
+
+// What a pixel's return may be off by.
+void hold(const PixelWork &of, std::uint32_t f, const VectorSamples &samples, const Terms &terms,
+          const Floats &size) {
+  const shader::Frequency &frequency = of.frequencies[f];
+  const Errors errors = errors_of(frequency, terms, size);
+  if (of.keeps_bounds)
+    store_channels(of, frequency.first_channel + of.bound, samples,
+                   size > 0.0f ? errors.distance_m : all(std::numeric_limits<float>::quiet_NaN()), all(0.0f));
+  const Errors left = held(frequency, errors);
+  store_pairs(of.errors + std::size_t{2} * f * of.plane, samples, left.distance_m, left.amplitude);
+}
+
+// B over the surface's cosine, with the lens's vignetting.
+Floats backscatter_of(const PixelWork &of, const VectorSamples &samples) {
+  constexpr int after_plane = 8; // words of TrianglePlane
+  Floats backscatter = of.backscatter ? all(*of.backscatter) : of_planes(of.sums.samples.planes, samples, after_plane);
+  if (of.vignetting) {
+    const Wide x = load_wide(samples.point_m[0]), y = load_wide(samples.point_m[1]),
+               z = load_wide(samples.point_m[2]);
+    const Floats cos2 = narrow(z * z / (x * x + y * y + z * z));
+    backscatter *= cos2 * cos2;
+  }
+  return backscatter;
+}
+
+void store_lit(const PixelWork &of, const VectorSamples &samples) {
+  const shader::Frequency &frequency = of.frequencies[0];
+  const Ints reached = gathered(reinterpret_cast<const std::int32_t *>(of.lit), load<Ints>(samples.number));
+  const Floats part = __builtin_convertvector(reached, Floats) / static_cast<float>(std::max(frequency.diodes, 1u));
+  store_channels(of, frequency.lit_channel, samples, load<Ints>(samples.sees) != 0 ? part : all(0.0f), all(0.0f));
+}
+
+void store_nothing(const PixelWork &of, const VectorSamples &samples) {
+  const Floats none = all(0.0f), nan = all(std::numeric_limits<float>::quiet_NaN());
+  for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
+    store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
+    store_taps(of, of.frequencies[f], samples, Complex());
+    if (of.errors)
+      hold(of, f, samples, {none, none}, none);
+  }
+  if (of.lit)
+    store_lit(of, samples);
+}
+
+void store_pixels(const PixelWork &of, const VectorSamples &samples, const PointView &view, const Light &light) {
+  const Floats none = all(0.0f), backscatter = backscatter_of(of, samples);
+  const Ints sees = load<Ints>(samples.sees) != 0;
+  const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
+  const Floats range_m = sees ? narrow(view.range) : all(std::numeric_limits<float>::quiet_NaN());
+  Terms terms{};
+  if (of.errors) {
+    terms = terms_of(of.form, view, light.weights);
+    terms = {shines ? backscatter * terms.light : none, shines ? backscatter * terms.weights : none};
+  }
+  for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
+    const shader::Frequency &frequency = of.frequencies[f];
+    Complex z = backscatter * tone_return(of.form, light, view, of.tones[f]);
+    z = {shines ? z.re : none, shines ? z.im : none};
+    const Floats size = magnitude(z);
+    // The phase stays relative to the range, which makes it exact to the last bit of the output.
+    const Wide whole = view.range * of_pair(frequency.turns_per_m), of_range = whole - rounded(whole);
+    if (of.kept_taps > 0)
+      store_taps(of, frequency, samples, all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
+    store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)), range_m);
+    if (of.errors)
+      hold(of, f, samples, terms, size);
+  }
+  if (of.lit)
+    store_lit(of, samples);
+}
+
+void make_pixels(const PixelWork &of, VectorSamples &samples) {
+  find_samples(of.sums.samples, samples);
+  const int seen = static_cast<int>(std::find(samples.sees, samples.sees + lanes, 1) - samples.sees);
+  if (seen == lanes)
+    return store_nothing(of, samples);
+  fill_gaps(samples, seen);
+  const PointView view = see_points(samples, of.sums.samples.planes, *of.form.run, of.form.lambert);
+  Light light;
+  sum_light(of, samples, view, light);
+  store_pixels(of, samples, view, light);
+}
+
+void make_rows(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+  for_each_vector_of_rows(of.sums.samples.strip.columns, first, last,
+                          [&](VectorSamples &samples) { make_pixels(of, samples); });
+}
+
+void make_blocks(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+  for_each_vector_of_blocks(of.sums.blocks, first, last,
+                            [&](VectorSamples &samples) { make_pixels(of, samples); });
+}
+
+} // namespace
+
+extern const PixelLoops pixel_loops;
+const PixelLoops pixel_loops{make_rows, make_blocks};
+
+} // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -1,0 +1,38 @@
+#pragma once
+// The data of the host's way from depth records to channels, as plain arrays: its loops are compiled once for
+// each instruction set, so they share no code with the rest of the program.
+
+#include "engine/light/host/law_sums.h"
+#include "engine/light/host/run_form.h"
+
+#include <cstdint>
+
+namespace pmdsim {
+
+// What shaders/frame/direct_pixels.comp does, of one run of sources.
+struct PixelWork {
+  LawSums sums; // the samples, and the sources where they are not summed beforehand
+  RunForm form;
+  const shader::Tone *tones;
+  const shader::Frequency *frequencies; // beside the tones
+  std::uint32_t frequency_count;
+  const float *backscatter; // of all that is seen; nullptr: looked up
+  bool vignetting;
+  const std::uint32_t *lit; // sources that reach a sample; nullptr where they are no channel
+  float *channels;          // pair by pair (shaders/shared/interface.h)
+  std::uint32_t plane;      // pixels of a channel, padding included
+  float *errors;            // as in ClaimsConstants; nullptr: no error was asked for
+  bool keeps_bounds;
+  // Of each frequency's channels, the pairs in which taps and bounds begin.
+  std::uint32_t first_tap, bound;
+  std::uint32_t kept_taps;       // 0: none are
+  const float (*tap_phasors)[2]; // exp(j 2 pi k / N)
+};
+
+// Makes the channels of some rows, or of listed blocks, the last one excluded. One for each instruction set.
+struct PixelLoops {
+  void (*of_rows)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
+  void (*of_blocks)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
+};
+
+} // namespace pmdsim
