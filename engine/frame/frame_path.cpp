@@ -238,10 +238,8 @@ std::string summation_text(const FramePath &path) {
 std::string record_text(const FramePath &path) {
   return path.record == SampleRecord::point
              ? "point"
-             : fmt::format("depth{}{}", path.one_backscatter ? ", one backscatter" : "",
-                           path.host_pixels ? ", to channels on the host"
-                           : path.direct    ? ", to channels at once"
-                                            : "");
+             : fmt::format("depth{}{}{}", path.one_backscatter ? ", one backscatter" : "",
+                           path.direct ? ", to channels at once" : "", path.host_pixels ? " on the host" : "");
 }
 
 std::string visibility_text(const FramePath &path) {

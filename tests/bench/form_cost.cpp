@@ -29,6 +29,7 @@ const std::vector<Form> forms{
     {"coplanar sources", &PathForms::coplanar},
     {"sums over the diodes beforehand", &PathForms::point_polynomials},
     {"direct pixels", &PathForms::direct_pixels},
+    {"direct pixels on the host", &PathForms::host_pixels},
     {"uniform pixels", &PathForms::uniform_pixels},
     {"uniform pixels of one sample", &PathForms::uniform_single_samples},
     {"refined uniform pixels", &PathForms::refined_uniform_pixels},

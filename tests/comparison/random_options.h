@@ -15,6 +15,7 @@ inline SimulatorOptions random_options(Random &random) {
   options.allowed.polynomial_moments = random.flip();
   options.allowed.point_polynomials = random.flip();
   options.allowed.direct_pixels = random.flip();
+  options.allowed.host_pixels = random.flip();
   return options;
 }
 

@@ -42,6 +42,7 @@ const std::vector<Form> forms{
     {"the raster on the host", &PathForms::host_raster, 1, Mode::exact, "raster"},
     {"the sweep on the host", &PathForms::host_sweep, 1, Mode::exact, "visibility"},
     {"the sum on the host", &PathForms::host_sum, 1, Mode::exact, "sum"},
+    {"direct pixels on the host", &PathForms::host_pixels, 1, Mode::exact, "record"},
 };
 
 struct Taken {

@@ -37,19 +37,7 @@ inline void find_samples(const SampleSource &of, VectorSamples &samples) {
     ray[0][lane] = from_middle(place.column + of.strip.column, of.strip.resolution_x);
     ray[1][lane] = from_middle(place.row + of.strip.row, of.strip.resolution_y);
   }
-  for (int lane = 0; lane < lanes && of.chip; ++lane) {
-    const double column = ray[0][lane], row = ray[1][lane];
-    double through[2];
-    find_ray(of.chip, of.slope, column, row, through);
-    ray[0][lane] = through[0];
-    ray[1][lane] = through[1];
-  }
-  const double slope_x = of.chip ? 1.0 : of.slope[0], slope_y = of.chip ? 1.0 : of.slope[1];
-  for (int lane = 0; lane < lanes; ++lane) {
-    samples.point_m[0][lane] = ray[0][lane] * slope_x * depth[lane];
-    samples.point_m[1][lane] = ray[1][lane] * slope_y * depth[lane];
-    samples.point_m[2][lane] = depth[lane];
-  }
+  find_points(of, ray[0], ray[1], depth, samples.point_m);
 }
 
 inline void find_surfaces(const SampleSource &of, VectorSamples &samples) {

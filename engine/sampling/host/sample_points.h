@@ -85,4 +85,23 @@ inline void find_point(const SampleSource &of, const Place &at, double (&point)[
   point[2] = depth;
 }
 
+// The points of several depth records: `column` and `row` as in find_ray, `depth` in m, 0 where nothing is
+// seen.
+template <std::size_t count>
+void find_points(const SampleSource &of, double (&column)[count], double (&row)[count],
+                 const double (&depth)[count], double (&point)[3][count]) {
+  for (std::size_t i = 0; i < count && of.chip; ++i) {
+    double ray[2];
+    find_ray(of.chip, of.slope, column[i], row[i], ray);
+    column[i] = ray[0];
+    row[i] = ray[1];
+  }
+  const double slope_x = of.chip ? 1.0 : of.slope[0], slope_y = of.chip ? 1.0 : of.slope[1];
+  for (std::size_t i = 0; i < count; ++i) {
+    point[0][i] = column[i] * slope_x * depth[i];
+    point[1][i] = row[i] * slope_y * depth[i];
+    point[2][i] = depth[i];
+  }
+}
+
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -10,9 +10,6 @@
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
-// Neighbouring samples of a tile.
-constexpr int block_wide = 4, block_high = 2, block_samples = block_wide * block_high;
-
 // The data that a tile's samples have in common.
 struct Tile {
   const SilhouetteBoard &board;
@@ -110,40 +107,39 @@ void finish(Tile &tile, const Sample &sample, Sweep &sweep, std::uint32_t *words
 }
 
 // Neighbouring samples of a tile.
-void decide_block(Tile &tile, const Sample *samples, const int (&within)[block_samples], TileBits &bits) {
+void decide_block(Tile &tile, const TileSamples &of_tile, int block, const Shaft &shaft, TileBits &bits) {
   const SilhouetteBoard &board = tile.board;
-  Shaft shaft = no_shaft();
-  for (const int i : within)
-    if (samples[i].sees)
-      add_sample(samples[i], board, shaft);
   if (!shaft.any)
     return;
-  const Ways ways = ways_of(shaft, board);
+  Sample samples[block_samples];
   Sweep sweeps[block_samples];
-  for (int k = 0; k < block_samples; ++k)
-    if (samples[within[k]].sees)
-      begin_sweep(samples[within[k]], board, sweeps[k]);
+  for (int k = 0; k < block_samples; ++k) {
+    samples[k] = sample_of(of_tile, k * tile_blocks + block);
+    if (samples[k].sees)
+      begin_sweep(samples[k], board, sweeps[k]);
+  }
+  const Ways ways = ways_of(shaft, board);
   ItemList list;
   Pairs pairs;
   for (std::uint32_t first = 0; first < tile.edge_blocks && !board.exact_only; first = tile.gathered_end) {
     gather_segment(tile, first);
     narrow(tile.items, ways, may_matter, list);
-    for (int k = 0; k < block_samples; ++k)
-      if (samples[within[k]].sees && !sweeps[k].is_unclear)
-        sweep_over(list, samples[within[k]], board, pairs, sweeps[k]);
+    for (int k = 0; k < block_samples && list.count > 0; ++k)
+      if (samples[k].sees && !sweeps[k].is_unclear)
+        sweep_over(list, samples[k], board, pairs, sweeps[k]);
   }
   tile.hidden_blocks_nearby = narrow(board.hidden, tile.hidden, tile.hidden_blocks, sights_of(shaft, board),
                                      may_hide, tile.hidden_nearby);
   for (int k = 0; k < block_samples; ++k)
-    if (samples[within[k]].sees)
-      finish(tile, samples[within[k]], sweeps[k], bits.words[within[k]]);
+    if (samples[k].sees)
+      finish(tile, samples[k], sweeps[k], bits.words[number_of(k * tile_blocks + block)]);
 }
 
-void count_missing(const SilhouetteBoard &board, const Sample *samples, TileBits &bits) {
+void count_missing(const SilhouetteBoard &board, TileBits &bits) {
   std::uint32_t any = 0;
   for (std::uint32_t i = 0; i < shader::tile_samples; ++i) {
     bits.missing[i] = 0;
-    for (std::uint32_t w = 0; samples[i].sees && w < board.bundles; ++w)
+    for (std::uint32_t w = 0; bits.sees[i] && w < board.bundles; ++w)
       bits.missing[i] += static_cast<std::uint32_t>(std::popcount(board.shining[w] & ~bits.words[i][w]));
     any |= bits.missing[i];
   }
@@ -152,17 +148,16 @@ void count_missing(const SilhouetteBoard &board, const Sample *samples, TileBits
 
 void decide_tile(const SilhouetteBoard &board, const SampleSource &source, std::uint32_t number,
                  const TileMemory &memory, TileBits &bits) {
-  Sample samples[shader::tile_samples];
+  TileSamples samples;
   std::memset(bits.words, 0xff, sizeof(bits.words));
   bits.is_shaded = false;
   if (!find_samples(board, source, number, samples, bits))
     return;
-  Shaft shaft = no_shaft();
-  for (const Sample &sample : samples)
-    if (sample.sees) {
-      add_sample(sample, board, shaft);
-      shaft.turns_away = shaft.turns_away || (!board.all_facing && may_turn_away(sample, board));
-    }
+  if (!board.all_facing)
+    find_normals(board, source, samples);
+  const bool turns_away = !board.all_facing && may_turn_away(samples, board);
+  Shaft of_blocks[tile_blocks];
+  const Shaft shaft = find_shafts(samples, board, of_blocks);
   const Ways ways = ways_of(shaft, board);
   Tile tile{board,
             memory.edges,
@@ -174,16 +169,11 @@ void decide_tile(const SilhouetteBoard &board, const SampleSource &source, std::
             {},
             0,
             0};
-  if (tile.edge_blocks + tile.hidden_blocks == 0 && !shaft.turns_away && !board.leaves_none)
+  if (tile.edge_blocks + tile.hidden_blocks == 0 && !turns_away && !board.leaves_none)
     return;
-  for (int y = 0; y < tile_side; y += block_high)
-    for (int x = 0; x < tile_side; x += block_wide) {
-      int within[block_samples];
-      for (int i = 0; i < block_samples; ++i)
-        within[i] = (y + i / block_wide) * tile_side + x + i % block_wide;
-      decide_block(tile, samples, within, bits);
-    }
-  count_missing(board, samples, bits);
+  for (int block = 0; block < tile_blocks; ++block)
+    decide_block(tile, samples, block, of_blocks[block], bits);
+  count_missing(board, bits);
 }
 
 } // namespace

@@ -31,7 +31,7 @@ struct Ways {
 struct Shaft {
   float slopes[8], sights[8]; // of the ways to the board, and to the lens
   float low[3], high[3];
-  bool in_front, turns_away, any;
+  bool in_front, any;
 };
 
 inline bool may_turn_away(const Sample &sample, const SilhouetteBoard &board) {
@@ -40,6 +40,23 @@ inline bool may_turn_away(const Sample &sample, const SilhouetteBoard &board) {
   const float up = n[2] * (n[2] > 0.0f ? board.diodes_low : board.diodes_high);
   const float lowest = up - (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) - 1.00001f * board.radius * across;
   return lowest < 1e-6f * (sum_of_sizes(sample.point) + board.radius);
+}
+
+// The same of any sample of a tile.
+inline bool may_turn_away(const TileSamples &samples, const SilhouetteBoard &board) {
+  Ints turns{};
+  for (std::size_t s = 0; s < shader::tile_samples; s += lanes) {
+    const Floats n[3] = {load<Floats>(samples.normal[0] + s), load<Floats>(samples.normal[1] + s),
+                         load<Floats>(samples.normal[2] + s)},
+                 p[3] = {load<Floats>(samples.point[0] + s), load<Floats>(samples.point[1] + s),
+                         load<Floats>(samples.point[2] + s)};
+    const Floats across = 1.000001f * root(n[0] * n[0] + n[1] * n[1] + 1e-30f);
+    const Floats up = n[2] * (n[2] > 0.0f ? all(board.diodes_low) : all(board.diodes_high));
+    const Floats lowest = up - (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) - 1.00001f * board.radius * across;
+    const Floats size = absolute(p[0]) + absolute(p[1]) + absolute(p[2]);
+    turns |= (lowest < 1e-6f * (size + board.radius)) & (load<Ints>(samples.sees + s) != 0);
+  }
+  return bits_of(turns) != 0;
 }
 
 inline Shaft no_shaft() {
@@ -68,6 +85,69 @@ inline void add_sample(const Sample &sample, const SilhouetteBoard &board, Shaft
   }
   shaft.in_front = shaft.in_front && z < board.nearest;
   shaft.any = true;
+}
+
+inline void add_shaft(const Shaft &of, Shaft &to) {
+  for (int k = 0; k < 8; ++k) {
+    to.slopes[k] = of.slopes[k] > to.slopes[k] ? of.slopes[k] : to.slopes[k];
+    to.sights[k] = of.sights[k] > to.sights[k] ? of.sights[k] : to.sights[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    to.low[k] = of.low[k] < to.low[k] ? of.low[k] : to.low[k];
+    to.high[k] = of.high[k] > to.high[k] ? of.high[k] : to.high[k];
+  }
+  to.in_front = to.in_front && of.in_front;
+  to.any = to.any || of.any;
+}
+
+// The shafts of a tile's blocks, by vectors of all blocks; returns that of the tile.
+inline Shaft find_shafts(const TileSamples &samples, const SilhouetteBoard &board, Shaft (&of_blocks)[tile_blocks]) {
+  constexpr std::size_t count = shader::tile_samples, directions = 8;
+  alignas(64) float slopes[directions][count], sights[directions][count], low[3][count], high[3][count];
+  for (std::size_t s = 0; s < count; s += lanes) {
+    const Floats x = load<Floats>(samples.point[0] + s), y = load<Floats>(samples.point[1] + s),
+                 z = load<Floats>(samples.point[2] + s);
+    const Ints sees = load<Ints>(samples.sees + s) != 0;
+    const Floats u = diagonal * (x + y), v = diagonal * (x - y), along[directions] = {x, -x, y, -y, u, -u, v, -v};
+    const Floats per_depth = 1.0f / larger(-z, all(1e-6f)), per_sight = 1.0f / (board.lens_z - z);
+    for (std::size_t k = 0; k < directions; ++k) {
+      store(slopes[k] + s, sees ? (along[k] - board.supports[k]) * per_depth : all(-1e9f));
+      store(sights[k] + s, sees ? along[k] * per_sight : all(-1e9f));
+    }
+    const Floats at[3] = {x, y, z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      store(low[k] + s, sees ? at[k] : all(1e9f));
+      store(high[k] + s, sees ? at[k] : all(-1e9f));
+    }
+  }
+  // To the first place of each block.
+  const auto reduce = [&](auto &values, auto better) {
+    for (auto &row : values)
+      for (std::size_t s = tile_blocks; s < count; s += tile_blocks)
+        for (std::size_t block = 0; block < tile_blocks; ++block)
+          row[block] = better(row[block], row[s + block]);
+  };
+  const auto more = [](float a, float b) { return a > b ? a : b; };
+  reduce(slopes, more);
+  reduce(sights, more);
+  reduce(high, more);
+  reduce(low, [](float a, float b) { return a < b ? a : b; });
+  Shaft tile = no_shaft();
+  for (std::size_t block = 0; block < tile_blocks; ++block) {
+    Shaft &shaft = of_blocks[block];
+    for (std::size_t k = 0; k < directions; ++k) {
+      shaft.slopes[k] = slopes[k][block];
+      shaft.sights[k] = sights[k][block];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      shaft.low[k] = low[k][block];
+      shaft.high[k] = high[k][block];
+    }
+    shaft.any = shaft.low[2] <= shaft.high[2];
+    shaft.in_front = !shaft.any || shaft.high[2] < board.nearest;
+    add_shaft(shaft, tile);
+  }
+  return tile;
 }
 
 inline Ways ways_of(const Shaft &shaft, const SilhouetteBoard &board) {

@@ -1,0 +1,177 @@
+// Pixels that the host takes from depth records to channels at once, in vectors of every width, beside those
+// that the device makes and against the reference.
+
+#include "tests/comparison/comparison.h"
+#include "tests/comparison/light_formula.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// Two slants, a board before them, and nothing beside them.
+Scene scene_of() {
+  SceneBuilder builder;
+  builder.add_mesh({{-3, -3, 2.5}, {1.1, -3, 1.5}, {1.1, 3, 1.9}, {-3, 3, 2.9}}, {{0, 2, 1}, {0, 3, 2}});
+  builder.add_mesh({{-3, 0.5, 1.2}, {3, 0.5, 1.2}, {3, 0.9, 3.5}, {-3, 0.9, 3.5}}, {{0, 2, 1}, {0, 3, 2}},
+                   {.reflectivity = 0.4});
+  builder.add_wall({1.0, {.reflectivity = 0.7}, {0.05, -0.1}, {0.2, 0.15}});
+  return builder.scene();
+}
+
+struct PixelCase {
+  std::string name;
+  Backscatter backscatter = Backscatter::lambert;
+  Shadows shadows = Shadows::automatic;
+  Pattern pattern = cosine(3.0);
+  std::function<void(Sensor &)> change = [](Sensor &) {};
+  double phase_rad = 0.0;
+  double along_m = 0.0; // of every other diode, off the others' plane
+};
+
+std::vector<PixelCase> pixel_cases() {
+  return {
+      {"shadows"},
+      {"light through all", Backscatter::lambert, Shadows::off},
+      {"the paper's backscatter", Backscatter::constant, Shadows::automatic, {}},
+      {"frequencies", Backscatter::lambert, Shadows::automatic, cosine(1.0),
+       [](Sensor &sensor) { sensor.modulation_hz = {20e6, 31e6, 7e6}; }},
+      {"a phase, taps",
+       Backscatter::lambert,
+       Shadows::automatic,
+       cosine(3.0),
+       [](Sensor &sensor) { sensor.taps = 5; },
+       1.3},
+      {"vignetting", Backscatter::lambert, Shadows::automatic, cosine(3.0),
+       [](Sensor &sensor) { sensor.vignetting = Vignetting::cos4; }},
+      {"a tilted chip", Backscatter::lambert, Shadows::automatic, cosine(3.0),
+       [](Sensor &sensor) { sensor.chip.rotation_rad = {0.05, -0.03, 0.2}; }},
+      {"two planes", Backscatter::lambert, Shadows::automatic, cosine(1.0), [](Sensor &) {}, 0.0, 0.01},
+  };
+}
+
+Illuminator light_of(const PixelCase &of) {
+  Illuminator light = light_at(ring(100, 0.12), of.phase_rad, of.pattern);
+  for (std::size_t i = 0; i < light.diodes.size(); i += 2)
+    light.diodes[i].position_m.z += of.along_m;
+  return light;
+}
+
+// Rows end within vectors and within blocks.
+Sensor sensor_of(const PixelCase &of) {
+  Sensor sensor = wide_sensor();
+  sensor.resolution = {43, 30};
+  of.change(sensor);
+  return sensor;
+}
+
+// `bits` of the host's vectors; 0: on the device.
+Measurement measured(const PixelCase &of, std::uint32_t bits, const Accuracy &accuracy = {}) {
+  SimulatorOptions options;
+  options.keep_sample_ids = options.keep_taps = options.keep_error_bound = true;
+  options.loop = DiodeLoop::looped; // compiles faster
+  options.host_vector_bits = bits;
+  options.max_strip_samples = bits == 256 ? 900 : 0;
+  options.allowed.host_pixels = bits > 0;
+  Simulator simulator = make_simulator(options);
+  const Scene scene = scene_of(); // which outlasts the frame
+  simulator.prepare(scene, sensor_of(of), {light_of(of)}, of.backscatter, of.shadows, accuracy);
+  const auto path = simulator.path();
+  const auto record = std::ranges::find(path, "record", &std::pair<std::string, std::string>::first);
+  REQUIRE(record != path.end());
+  INFO(record->second);
+  CHECK((record->second.find("at once on the host") != std::string::npos) == (bits > 0));
+  CHECK(record->second.find("at once") != std::string::npos);
+  return simulator.measure();
+}
+
+float largest(const std::vector<float> &values) {
+  return values.empty() ? 0.0f : *std::ranges::max_element(values);
+}
+
+// Values that are both not there, or nearly the same.
+void check_near(const std::vector<float> &a, const std::vector<float> &b, float tolerance) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    INFO(i << ": " << a[i] << " and " << b[i]);
+    REQUIRE(std::isnan(a[i]) == std::isnan(b[i]));
+    REQUIRE((std::isnan(a[i]) || a[i] == b[i] || std::abs(a[i] - b[i]) <= tolerance));
+  }
+}
+
+void check_the_same(const Measurement &host, const Measurement &device) {
+  check_near(host.range_m, device.range_m, 0.0f);
+  check_near(host.z_m, device.z_m, 0.0f);
+  check_near(host.coverage, device.coverage, 0.0f);
+  check_near(host.lit, device.lit, 0.0f);
+  CHECK(host.triangle_id == device.triangle_id);
+  for (std::size_t f = 0; f < host.returns.size(); ++f) {
+    const Return &of_host = host.returns[f], &of_device = device.returns[f];
+    const float brightest = largest(of_device.amplitude);
+    check_near(of_host.amplitude, of_device.amplitude, 2e-6f * brightest);
+    check_near(of_host.distance_m, of_device.distance_m, 0.6e-6f);
+    check_near(of_host.phase_rad, of_device.phase_rad, 1e-6f);
+    REQUIRE(of_host.taps.size() == of_device.taps.size());
+    for (std::size_t k = 0; k < of_host.taps.size(); ++k)
+      check_near(of_host.taps[k], of_device.taps[k], 2e-6f * brightest);
+  }
+}
+
+} // namespace
+
+TEST_CASE("the host makes pixels as the device does, and as the reference") {
+  fmt::print("{}", comparison_heading());
+  for (const PixelCase &of : pixel_cases()) {
+    INFO(of.name);
+    const Sensor sensor = sensor_of(of);
+    const auto expected =
+        reference::simulate(scene_of(), sensor, {light_of(of)}, of.backscatter, {.shadows = of.shadows});
+    const Measurement device = measured(of, 0);
+    for (const std::uint32_t bits : {512u, 256u, 128u}) {
+      INFO(bits << " bits");
+      const Measurement host = measured(of, bits);
+      check_the_same(host, device);
+      const Comparison comparison = compare(host, expected, scene_of(), sensor);
+      fmt::print("{}", comparison_row(fmt::format("{}, {} bits", of.name, bits), comparison));
+      CHECK(comparison.pixels >= 900);
+      CHECK(comparison.distance_max_m <= 0.6e-6);
+      CHECK(comparison.amplitude_max_relative <= 5e-6);
+    }
+  }
+}
+
+TEST_CASE("the host bounds a pixel's error as the device does") {
+  Accuracy accuracy;
+  accuracy.mode = Mode::automatic;
+  accuracy.max_error_m = 100e-6;
+  for (const PixelCase &of : pixel_cases()) {
+    if (of.along_m != 0.0)
+      continue; // whose sources are sorted by class
+    const Measurement device = measured(of, 0, accuracy);
+    for (const std::uint32_t bits : {512u, 128u}) {
+      INFO(of.name << ", " << bits << " bits");
+      const Measurement host = measured(of, bits, accuracy);
+      CHECK(host.accuracy.unpromised == device.accuracy.unpromised);
+      CHECK(host.accuracy.claimed_m.value() == Approx(device.accuracy.claimed_m.value()).epsilon(1e-3));
+      CHECK(host.accuracy.claimed_amplitude.value() ==
+            Approx(device.accuracy.claimed_amplitude.value()).epsilon(1e-3));
+      for (std::size_t f = 0; f < host.returns.size(); ++f) {
+        const auto &of_host = host.returns[f].error_bound_m, &of_device = device.returns[f].error_bound_m;
+        REQUIRE(of_host.size() == of_device.size());
+        for (std::size_t i = 0; i < of_host.size(); ++i) {
+          INFO(i << ": " << of_host[i] << " and " << of_device[i]);
+          REQUIRE(std::isnan(of_host[i]) == std::isnan(of_device[i]));
+          REQUIRE((std::isnan(of_host[i]) || of_host[i] == Approx(of_device[i]).epsilon(1e-3)));
+        }
+      }
+    }
+  }
+}
