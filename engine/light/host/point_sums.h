@@ -64,11 +64,11 @@ inline void sum_beforehand(const RunForm &form, const PointView &view, Floats *t
 // As find_moments of shaders/light/moments.glsl; `weights`: their sum.
 inline void find_moments(const RunForm &form, const PointView &view, const Floats *total, Floats *moment,
                          Floats &weights) {
-  const Floats inverse = 1.0f / view.rho;
-  Floats scale = inverse * inverse;
+  const Floats per_rho = 1.0f / view.rho;
+  Floats scale = per_rho * per_rho;
   const Floats inverse_rho2 = form.beforehand->unit_m2 * scale;
   for (std::uint32_t i = 0; i < form.cosines + (form.lambert ? 1 : 0); ++i)
-    scale *= inverse;
+    scale *= per_rho;
   weights = scale * total[0];
   for (std::uint32_t k = 0; k < form.moments; ++k) {
     Floats sum = all(0.0f);

@@ -19,9 +19,9 @@ struct Terms {
 inline Floats growth_at(const RunForm &form, const PointView &view) {
   if (form.powers == 0)
     return all(1.0f);
-  const Floats inverse = 1.0f / view.rho, t = form.run->radius_m * inverse;
+  const Floats per_rho = inverse(view.rho), t = form.run->radius_m * per_rho;
   const Floats across2 = view.position[0] * view.position[0] + view.position[1] * view.position[1];
-  const Floats u = t * (t + 2.0f * (form.coplanar ? root(larger(across2, all(tiny))) * inverse : all(1.0f)));
+  const Floats u = t * (t + 2.0f * (form.coplanar ? root(larger(across2, all(tiny))) * per_rho : all(1.0f)));
   Floats sum = all(0.0f);
   for (std::uint32_t i = form.powers; i-- > 0;)
     sum = sum * u + std::abs(form.run->moments_of_powers[i / 4][static_cast<int>(i % 4)]);
@@ -48,26 +48,29 @@ inline Floats power_at_least(const Floats &x, float exponent) {
 
 inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &weights) {
   const shader::LightRun &run = *form.run;
-  const Floats none = all(0.0f), inverse = 1.0f / (view.rho - run.radius_m), inverse2 = inverse * inverse;
+  const Floats none = all(0.0f), per_range = inverse(view.rho - run.radius_m),
+               per_range2 = per_range * per_range;
   const Floats facing = form.lambert
-                            ? smaller(larger((view.height + run.radius_m) * inverse, all(1e-6f)), all(1.0f))
+                            ? smaller(larger((view.height + run.radius_m) * per_range, all(1e-6f)), all(1.0f))
                             : all(1.0f);
   Floats terms = none;
   if (form.lambert) {
-    const Floats any = run.heights * run.intensity * inverse2 * inverse;
+    const Floats any = run.heights * run.intensity * per_range2 * per_range;
     const Floats lowest = view.height - run.radius_m; // of the run's sources, at least
-    terms += lowest > 0.0f ? smaller(any, run.heights * weights / lowest) : any;
+    terms += lowest > 0.0f ? smaller(any, run.heights * weights * inverse(lowest)) : any;
   }
   if (form.diagrams)
-    terms += run.diagrams * inverse2 * facing;
+    terms += run.diagrams * per_range2 * facing;
   if (form.beam_edges) {
-    const Floats all_light = run.intensity * inverse2 * facing; // without cosines of the axes
-    const Floats part = smaller(larger(weights / all_light, all(1e-37f)), all(1.0f));
+    const Floats all_light = run.intensity * per_range2 * facing; // without cosines of the axes
+    const Floats part = smaller(larger(weights * inverse(all_light), all(1e-37f)), all(1.0f));
     terms += run.beam_edges * weights * power_at_least(part, -run.beam_edge_root);
   }
   const Floats growth = growth_at(form, view);
   const Ints shines = weights > 0.0f; // where there is no light nothing can be off
-  return {shines ? growth * weights : none, shines ? growth * terms : none};
+  // A hair more, as inverses and roots are rounded.
+  constexpr float at_least = 1.00001f;
+  return {shines ? growth * weights : none, shines ? at_least * growth * terms : none};
 }
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -4,6 +4,7 @@
 
 #include "engine/light/host/term_sums.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
@@ -13,32 +14,43 @@ struct Errors {
   Floats distance_m, amplitude;
 };
 
-// Of weights, as distance (weights_error_m there).
+// Inverses and roots of bounds are a hair too large, not too small.
+constexpr float at_least = 1.000002f;
+
+// Of weights, as distance (weights_error_m there). `turning`: sqrt(condition^2 - 1), at the most.
 inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, const Floats &condition,
-                              const Floats &largest, const Floats &weights) {
-  const Floats square = larger(largest * largest - 1.0f, all(0.0f)), root_of = root(square + tiny);
-  const Floats common_m = smaller(per_weight_m * condition, frequency.any_weight_m * root_of);
+                              const Floats &turning, const Floats &weights) {
+  const Floats common_m = smaller(per_weight_m * condition, frequency.any_weight_m * turning);
   return frequency.weight_error * common_m + per_weight_m * weights;
+}
+
+// A pixel's only sample is at one range, for which the bound is mostly the tighter one.
+inline bool is_tighter_at_one_range(const shader::Frequency &frequency) {
+  return frequency.near_fixed_m <= frequency.fixed_m &&
+         frequency.near_per_condition_m <= frequency.per_condition_m &&
+         frequency.near_per_weight_m <= frequency.per_weight_m;
 }
 
 // `size`: of the return, as `terms` are.
 inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, const Floats &size) {
-  const Floats none = all(0.0f);
-  const Floats condition = terms.light > 0.0f ? terms.light / size : none,
-               weights = terms.weights > 0.0f ? terms.weights / size : none;
+  const Floats none = all(0.0f), infinite = all(std::numeric_limits<float>::infinity());
+  const Floats inverse_size = size > 0.0f ? at_least * inverse(size) : infinite;
+  const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
+               weights = terms.weights > 0.0f ? terms.weights * inverse_size : none;
   const Floats relative = frequency.amplitude_per_condition * condition + frequency.per_weight * weights;
-  const Floats grown =
-      relative < 1.0f ? 1.0f / (1.0f - relative) : all(std::numeric_limits<float>::infinity());
-  const Floats largest = condition * (1.0f + relative + 1e-6f) * grown;
-  const float near_per_weight_m = frequency.near_per_weight_m < frequency.per_weight_m
-                                      ? frequency.near_per_weight_m
-                                      : frequency.per_weight_m;
-  const Floats near_m = frequency.near_per_condition_m * condition +
-                        weights_error_m(frequency, near_per_weight_m, condition, largest, weights);
-  const Floats any_m = frequency.per_condition_m * condition +
-                       weights_error_m(frequency, frequency.per_weight_m, condition, largest, weights);
-  return {smaller(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
-          frequency.amplitude_fixed + relative};
+  const Floats grown = relative < 1.0f ? at_least * inverse(1.0f - relative) : infinite;
+  const Floats largest = condition * (1.0f + relative + 1e-6f) * grown,
+               turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
+  const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
+    const Floats growing_m = per_condition_m * condition +
+                             weights_error_m(frequency, per_weight_m, condition, turning, weights);
+    return fixed_m + growing_m * grown;
+  };
+  Floats distance_m = bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,
+                              std::min(frequency.near_per_weight_m, frequency.per_weight_m));
+  if (!is_tighter_at_one_range(frequency))
+    distance_m = smaller(distance_m, bound_m(frequency.fixed_m, frequency.per_condition_m, frequency.per_weight_m));
+  return {distance_m, frequency.amplitude_fixed + relative};
 }
 
 // For the frame's claim: both negative where they are not within what was asked for, or no numbers.
