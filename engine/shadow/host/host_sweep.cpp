@@ -56,8 +56,12 @@ void place_classes(const std::vector<std::pair<float, std::int32_t>> &classes, s
       ++first;
     const bool has_more =
         bin + 1 < angle_bins ? begins_before(first + 1, bin + 1) : first + 1 < classes.size();
-    to.bin_turn[bin] = of(first).first;
-    to.bin_ranks[bin] = of(first).second | of(first + 1).second << rank_bits | (has_more ? more_classes : 0);
+    const std::int32_t threshold =
+        begins_before(first, bin + 1)
+            ? static_cast<std::int32_t>(of(first).first * static_cast<float>(1 << fine_turn_bits)) & bin_mask
+            : bin_mask;
+    to.bin_ranks[bin] = of(first).second | of(first + 1).second << rank_bits | (has_more ? more_classes : 0) |
+                        static_cast<std::int32_t>(static_cast<std::uint32_t>(threshold) << threshold_shift);
   }
 }
 

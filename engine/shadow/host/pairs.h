@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
@@ -16,6 +17,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 struct Pairs {
   alignas(64) float line_x[segment + lanes], line_y[segment + lanes], offset[segment + lanes],
       near_line[segment + lanes];
+  alignas(64) float end_x[2][segment + lanes], end_y[2][segment + lanes]; // whose angles the ends have
   alignas(64) std::int32_t item[segment + lanes];
   alignas(64) std::int32_t from[segment + lanes], to[segment + lanes], wraps[segment + lanes]; // ranks
   alignas(64) std::int32_t turned[segment + lanes]; // the edge runs clockwise as seen from the sample
@@ -64,13 +66,13 @@ inline Floats turn_of(const Floats &x, const Floats &y) {
   return x < 0.0f ? 2.0f - t : y < 0.0f ? 4.0f + t : t;
 }
 
-// The number of diodes of smaller angles.
+// The number of diodes of smaller angles. Any angle has one, and that of an end is the same for all edges that
+// meet there: so it does not matter how it is rounded.
 inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
-  const Ints last = all(static_cast<std::int32_t>(angle_bins - 1));
-  const Ints bin = __builtin_convertvector(turn * (angle_bins / 4.0f), Ints);
-  const Ints within = smaller(larger(bin, Ints{}), last);
-  const Ints ranks = gathered(board.bin_ranks, within);
-  Ints beyond = turn > gathered(board.bin_turn, within);
+  const Ints fine = __builtin_convertvector(turn * static_cast<float>(1 << fine_turn_bits), Ints);
+  const Ints within = smaller(larger(fine, Ints{}), all((4 << fine_turn_bits) - 1));
+  const Ints ranks = gathered(board.bin_ranks, within >> bin_bits);
+  Ints beyond = (within & bin_mask) > ((ranks >> threshold_shift) & bin_mask);
   Ints rank = (beyond ? ranks >> rank_bits : ranks) & rank_mask;
   beyond &= (ranks & more_classes) != 0;
   while (bits_of(beyond) != 0) {
@@ -83,7 +85,7 @@ inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
 // Edges as one sample sees them, a lane an edge.
 struct Crossings {
   Ints counted; // it has to be looked at
-  Ints weight, is_unsure, turned, wraps, from, to;
+  Ints weight, is_unsure;
   Floats line_x, line_y, offset, near_line;
 };
 
@@ -125,8 +127,27 @@ inline void count_base(const Rows &items, int i, const Crossings &found, const F
   }
 }
 
-inline Crossings find_crossings(const Rows &items, int i, int count, const Sample &sample,
-                                const SilhouetteBoard &board, Sweep &sweep) {
+inline void add_pairs(const Crossings &found, int i, const Floats (&end_x)[2], const Floats (&end_y)[2],
+                      Pairs &pairs) {
+  const Packing packed(bits_of(found.counted));
+  const int at = pairs.count;
+  store(pairs.line_x + at, packed(found.line_x));
+  store(pairs.line_y + at, packed(found.line_y));
+  store(pairs.offset + at, packed(found.offset));
+  store(pairs.near_line + at, packed(found.near_line));
+  for (int end = 0; end < 2; ++end) {
+    store(pairs.end_x[end] + at, packed(end_x[end]));
+    store(pairs.end_y[end] + at, packed(end_y[end]));
+  }
+  store(pairs.item + at, packed(lane_numbers() + i));
+  store(pairs.amount + at, packed(-found.weight));
+  store(pairs.is_unsure + at, packed(found.is_unsure));
+  pairs.count += packed.count();
+}
+
+// Finds the edges among a vector's that may take diodes from a sample.
+inline void find_crossings(const Rows &items, int i, int count, const Sample &sample,
+                           const SilhouetteBoard &board, Sweep &sweep, Pairs &pairs) {
   const float *p = sample.point, *rest = sample.rest, depth = sweep.depth, reach = sweep.reach;
   const Floats3 a{(items.floats(row_ax, i) - p[0]) + (items.floats(row_rest_ax, i) - rest[0]),
                   (items.floats(row_ay, i) - p[1]) + (items.floats(row_rest_ay, i) - rest[1]),
@@ -183,51 +204,46 @@ inline Crossings find_crossings(const Rows &items, int i, int count, const Sampl
       found.offset * found.offset <= reach * reach * square * 1.001f + found.near_line * found.near_line;
   found.counted = found.counted & line_is_near & (~past_a | near_a) & (~past_b | near_b);
   if (bits_of(found.counted) == 0)
-    return found;
+    return;
   // An end before the centre has no angle, nor one beside the sample at its own height.
   const auto at_centre = [&](const Floats3 &end, const Floats3 &clipped_end, const Floats &size) {
     const Floats low = end.z < 0.0f ? all(sweep.beside * depth) : Floats{};
     return size <= larger(5e-6f * clipped_end.z, low);
   };
-  const Floats turn_a = turn_of(qa_x, qa_y), turn_b = turn_of(qb_x, qb_y);
-  Floats turn = turn_b - turn_a;
-  turn = turn > 2.0f ? turn - 4.0f : turn < -2.0f ? turn + 4.0f : turn;
-  Ints unclear = at_centre(a, clipped_a, size_qa) | at_centre(b, clipped_b, size_qb) |
-                 ((absolute(found.offset) < found.near_line) & (absolute(turn) > 0.5f));
+  Ints unclear = at_centre(a, clipped_a, size_qa) | at_centre(b, clipped_b, size_qb);
   if (board.lens_apart)
     unclear |= highest > board.nearest + depth;
   sweep.is_unclear = sweep.is_unclear || bits_of(found.counted & unclear) != 0;
-  found.turned = absolute(turn) > 1.9f ? found.offset < 0.0f : turn < 0.0f;
-  const Floats from = found.turned ? turn_b : turn_a, to = found.turned ? turn_a : turn_b;
-  found.from = rank_of(from, board);
-  found.to = rank_of(to, board);
-  found.wraps = from > to;
   if (board.lens_apart)
     count_base(items, i, found, clipped_a, clipped_b, line, sample, board, sweep);
-  const Ints all_diodes = all(static_cast<std::int32_t>(board.diodes));
-  found.counted &= found.to - found.from + (found.wraps & all_diodes) > 0;
-  return found;
+  add_pairs(found, i, {qa_x, qb_x}, {qa_y, qb_y}, pairs);
 }
 
-inline void add_pairs(const Crossings &found, int i, Pairs &pairs) {
-  const std::uint32_t bits = bits_of(found.counted);
-  if (bits == 0)
-    return;
-  const Packing packed(bits);
-  const int at = pairs.count;
-  const auto turned = [&](const auto &v) { return found.turned ? -v : v; };
-  store(pairs.line_x + at, packed(turned(found.line_x)));
-  store(pairs.line_y + at, packed(turned(found.line_y)));
-  store(pairs.offset + at, packed(turned(found.offset)));
-  store(pairs.near_line + at, packed(found.near_line));
-  store(pairs.item + at, packed(lane_numbers() + i));
-  store(pairs.from + at, packed(found.from));
-  store(pairs.to + at, packed(found.to));
-  store(pairs.wraps + at, packed(found.wraps));
-  store(pairs.turned + at, packed(found.turned));
-  store(pairs.amount + at, packed(-turned(found.weight)));
-  store(pairs.is_unsure + at, packed(found.is_unsure));
-  pairs.count += packed.count();
+// Finds the ranks between the ends of a vector's pairs, and turns those that run clockwise.
+inline void find_ranks(Pairs &pairs, int i, const SilhouetteBoard &board, Sweep &sweep) {
+  const Floats turn_a = turn_of(load<Floats>(pairs.end_x[0] + i), load<Floats>(pairs.end_y[0] + i)),
+               turn_b = turn_of(load<Floats>(pairs.end_x[1] + i), load<Floats>(pairs.end_y[1] + i));
+  Floats turn = turn_b - turn_a;
+  turn = turn > 2.0f ? turn - 4.0f : turn < -2.0f ? turn + 4.0f : turn;
+  const Floats offset = load<Floats>(pairs.offset + i);
+  const Ints is_there = lane_numbers() < pairs.count - i;
+  const Ints unclear = (absolute(offset) < load<Floats>(pairs.near_line + i)) & (absolute(turn) > 0.5f);
+  sweep.is_unclear = sweep.is_unclear || bits_of(is_there & unclear) != 0;
+  const Ints turned = absolute(turn) > 1.9f ? offset < 0.0f : turn < 0.0f;
+  const Floats from = turned ? turn_b : turn_a, to = turned ? turn_a : turn_b;
+  store(pairs.from + i, rank_of(from, board));
+  store(pairs.to + i, rank_of(to, board));
+  store(pairs.wraps + i, from > to);
+  store(pairs.turned + i, turned);
+  const auto turn_back = [&](auto *values) {
+    using Vector = std::conditional_t<std::is_same_v<decltype(values), float *>, Floats, Ints>;
+    const Vector v = load<Vector>(values + i);
+    store(values + i, turned ? -v : v);
+  };
+  turn_back(pairs.line_x);
+  turn_back(pairs.line_y);
+  turn_back(pairs.offset);
+  turn_back(pairs.amount);
 }
 
 // Which of the diodes that are too close to the line for floats lie beyond it.
@@ -286,10 +302,15 @@ inline void sweep_over(const ItemList &list, const Sample &sample, const Silhoue
   const Rows items = list.all();
   pairs.count = 0;
   for (int i = 0; i < list.count; i += lanes)
-    add_pairs(find_crossings(items, i, list.count, sample, board, sweep), i, pairs);
-  if (pairs.count > 0)
-    touch(sweep);
+    find_crossings(items, i, list.count, sample, board, sweep, pairs);
+  if (pairs.count == 0)
+    return;
+  for (int i = 0; i < pairs.count; i += lanes)
+    find_ranks(pairs, i, board, sweep);
+  touch(sweep);
   for (int pair = 0; pair < pairs.count; ++pair) {
+    if (pairs.to[pair] <= pairs.from[pair] && pairs.wraps[pair] == 0)
+      continue;
     int amount = pairs.amount[pair];
     if (pairs.is_unsure[pair] != 0) {
       const int weight = exact_weight(items, pairs.item[pair], sample, board);

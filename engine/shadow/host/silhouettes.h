@@ -67,11 +67,16 @@ struct EdgePlanes {
 constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
 // With a vector to spare, of the widest.
 constexpr std::uint32_t diode_room = most_diodes + 16;
-constexpr std::uint32_t angle_bins = 2048;
+
+// Angles as whole numbers, so many to a quadrant, and the bins that those fall into.
+constexpr std::int32_t fine_turn_bits = 22, bin_bits = 13, bin_mask = (1 << bin_bits) - 1;
+constexpr std::uint32_t angle_bins = 4u << (fine_turn_bits - bin_bits);
 
 // The ranks of a bin of angles: how many diodes have smaller angles than its first class, how many with that
-// class's, and whether more classes begin within the bin.
-constexpr std::int32_t rank_bits = 10, rank_mask = (1 << rank_bits) - 1, more_classes = 1 << 2 * rank_bits;
+// class's, whether more classes begin within the bin, and where in the bin that class begins.
+constexpr std::int32_t rank_bits = 9, rank_mask = (1 << rank_bits) - 1, more_classes = 1 << 2 * rank_bits,
+                       threshold_shift = 2 * rank_bits + 1;
+static_assert(most_diodes <= rank_mask && threshold_shift + bin_bits == 32);
 
 // A window of diodes on its board.
 struct SilhouetteBoard {
@@ -81,10 +86,9 @@ struct SilhouetteBoard {
   alignas(64) std::int32_t rank_of_bit[most_diodes];
   bool ranks_are_bits; // each is its own
   // Classes of one angle, by the number of diodes of smaller angles: a class's angle, with a last one above
-  // all, and that number for the next class. Likewise for the first class of each bin of angles.
+  // all, and that number for the next class.
   alignas(64) float rank_turn[most_diodes + 1];
   std::int32_t next_rank[most_diodes + 1];
-  alignas(64) float bin_turn[angle_bins];
   alignas(64) std::int32_t bin_ranks[angle_bins];
   // The members of SweepBoard, and more.
   double rotation[3][3], translation_m[3]; // board_from_camera
