@@ -151,15 +151,22 @@ struct ClassLists {
   const vulkan::Buffer *list = nullptr, *later = nullptr;
 };
 
+// Whether samples that are summed beforehand have to be told from those that turn away from some source: the
+// shadow pass has done so.
+bool tests_facing(const FrameBasis &on, const SumScope &scope) {
+  return scope.beforehand && on.path.windows == 0 && on.path.host_sum == HostSum::partial;
+}
+
 // A sum over samples that every source reaches is taken beforehand where it can be.
 void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
              SumScope scope, FrameGraph &graph) {
   scope.beforehand =
       on.path.point_dimensions > 0 && !scope.shadowed && !scope.by_host && scope.list == nullptr;
-  if (scope.beforehand)
-    scope.bound = on.plan.bound_beforehand;
+  if (scope.beforehand && on.plan.bound_beforehand)
+    scope.bound = tests_facing(on, scope) ? worse_of(*scope.bound, *on.plan.bound_beforehand)
+                                          : on.plan.bound_beforehand;
   if (scope.depth_records && on.path.host_pixels)
-    return graph.add_to_window(host_pixels_pass(on, groups, scope));
+    return graph.add_to_window(host_pixels_pass(on, groups, scope, tests_facing(on, scope)));
   if (scope.depth_records && on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
   Pass sum = accumulate_pass(on, groups, windows, scope);
@@ -170,7 +177,7 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
 void add_host_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                   SumScope scope, FrameGraph &graph) {
   if (on.path.host_pixels)
-    return graph.add_to_window(host_pixels_pass(on, groups, scope));
+    return graph.add_to_window(host_pixels_pass(on, groups, scope, false));
   graph.add_to_window(host_sum_pass(on, groups, scope));
   scope.by_host = true;
   scope.shadowed = false;
@@ -184,7 +191,7 @@ void sum_blocks(const FrameBasis &on, const SourceGroups &groups, const std::vec
     SumScope of_kind = scope;
     of_kind.shadowed = kind == shader::blocks_shaded;
     of_kind.blocks = lists.of(kind);
-    if (of_kind.shadowed && on.path.host_sum == HostSum::shaded)
+    if (of_kind.shadowed && on.path.host_sum == HostSum::partial)
       add_host_sum(on, groups, windows, std::move(of_kind), graph);
     else
       add_sum(on, groups, windows, std::move(of_kind), graph);

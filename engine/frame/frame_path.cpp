@@ -35,7 +35,7 @@ HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const Source
     return HostSum::none;
   const bool beforehand = groups.polynomials.point_dimensions > 0 &&
                           (facts.modulation.lit ? path.single_run : facts.model.all_facing);
-  return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::shaded : HostSum::none;
+  return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::partial : HostSum::none;
 }
 
 // Whether the light within a pixel changes as a known function does: paint does not, nor do beams' ends.
@@ -147,21 +147,39 @@ bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePl
          modulation.frequencies() <= most_direct_frequencies;
 }
 
-// The host knows no paint, and needs some way to every sample's sum.
-bool can_make_pixels_on_host(const FramePath &path, const FrameFacts &facts, const PathForms &allowed) {
-  const bool sums_all = path.host_sum == HostSum::all ||
-                        (path.point_dimensions > 0 && (path.windows == 0 || path.host_sum == HostSum::shaded));
-  return path.direct && sums_all && allowed.host_pixels && facts.host_is_device && facts.has_doubles &&
-         !facts.paint.painted;
+// Where the host knows all of a pixel: it knows no paint.
+bool may_make_pixels_on_host(const FrameFacts &facts, const PathForms &allowed) {
+  return allowed.host_pixels && facts.host_is_device && facts.has_doubles && !facts.paint.painted;
 }
 
-// 0 unless samples that some source does not light or face are summed apart or are not there.
-std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
-  const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
+bool can_make_pixels_on_host(const FramePath &path, const FrameFacts &facts, const PathForms &allowed) {
+  const bool sums_all =
+      path.host_sum == HostSum::all ||
+      (path.point_dimensions > 0 && (path.windows == 0 || path.host_sum == HostSum::partial));
+  return path.direct && sums_all && may_make_pixels_on_host(facts, allowed);
+}
+
+// Of samples that every source lights and faces; 0 where they are not summed beforehand.
+std::uint32_t dimensions_beforehand(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
   const bool is_plain = !path.is_sorted() && !path.classes.front().reduced &&
                         (path.sums_records || !facts.modulation.keeps_terms) &&
                         plan.precision == Precision::fp32 && path.summation == Summation::polynomial_moments;
-  return takes_all && is_plain && path.host_sum != HostSum::all ? plan.all.polynomials.point_dimensions : 0;
+  return is_plain ? plan.all.polynomials.point_dimensions : 0;
+}
+
+// 0 unless the other samples are summed apart or are not there.
+std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
+  const bool takes_all = path.windows > 0 ? path.sums_records : facts.model.all_facing;
+  return takes_all && path.host_sum != HostSum::all ? dimensions_beforehand(path, facts, plan) : 0;
+}
+
+// Where no shadows fall, only the host finds out which samples face all sources, as it makes their pixels.
+void sum_facing_beforehand(const FrameFacts &facts, const FramePlan &plan, FramePath &path) {
+  if (!path.host_pixels || path.windows > 0 || path.host_sum != HostSum::all)
+    return;
+  path.point_dimensions = dimensions_beforehand(path, facts, plan);
+  if (path.point_dimensions > 0)
+    path.host_sum = HostSum::partial;
 }
 
 // Within an error, sorting pixels and reducing the sources costs more than it saves where sums beforehand do
@@ -169,8 +187,10 @@ std::uint32_t point_dimensions(const FramePath &path, const FrameFacts &facts, c
 // samples a pixel this holds only where no point stands in for them, or where shadows may fall.
 bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
                         const PathForms &allowed) {
-  const bool beforehand =
-      plan.all.polynomials.point_dimensions > 0 && (facts.modulation.lit || facts.model.all_facing);
+  const bool finds_facing = request.sensor.samples == 1 && allowed.direct_pixels && allowed.host_sum &&
+                            may_make_pixels_on_host(facts, allowed);
+  const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
+                          (facts.modulation.lit || facts.model.all_facing || finds_facing);
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
                          uniform_points(facts, plan, request, allowed).has_value();
   return !thins_out && (beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size());
@@ -239,7 +259,8 @@ std::string record_text(const FramePath &path) {
   return path.record == SampleRecord::point
              ? "point"
              : fmt::format("depth{}{}{}", path.one_backscatter ? ", one backscatter" : "",
-                           path.direct ? ", to channels at once" : "", path.host_pixels ? " on the host" : "");
+                           path.direct ? ", to channels at once" : "",
+                           path.host_pixels ? " on the host" : "");
 }
 
 std::string visibility_text(const FramePath &path) {
@@ -291,6 +312,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
                                                                                : SampleRecord::point;
   path.point_dimensions = point_dimensions(path, facts, plan);
   path.host_pixels = can_make_pixels_on_host(path, facts, allowed);
+  sum_facing_beforehand(facts, plan, path);
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;

@@ -24,8 +24,8 @@ enum class SampleRecord { depth, point };
 // each source's return.
 enum class Summation { polynomial_moments, moments, per_diode };
 
-// Samples that the host sums over the sources.
-enum class HostSum { none, shaded, all };
+// Samples that the host sums over the sources, one by one; partial: those that some source does not reach.
+enum class HostSum { none, partial, all };
 
 // The pixels of a class.
 enum class PixelsOf {

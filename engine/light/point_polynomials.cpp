@@ -95,7 +95,8 @@ void add_power(const Term &term, std::uint32_t power, std::uint32_t dimensions, 
         const double value = binomial(power, l) * binomial(power - l, k) * binomial(power - l - k, j) *
                              constant[power - j - k - l] * x[j] * y[k] * z[l];
         for (std::size_t component = 0; component < components; ++component)
-          to[polynomial_place(j, k, l, dimensions) * components + component] += value * term.weights[component];
+          to[polynomial_place(j, k, l, dimensions) * components + component] +=
+              value * term.weights[component];
       }
 }
 

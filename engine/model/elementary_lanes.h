@@ -28,8 +28,7 @@ inline Complex unit_phasor(const Floats &turns) {
   const Floats quarter = rounded(4.0f * turns), y = turns - 0.25f * quarter, u = y * y;
   const Floats s =
       y * (6.283185307f + u * (-41.34170215f + u * (81.60520471f + u * (-76.69786635f + u * 41.47283324f))));
-  const Floats c =
-      1.0f + u * (-19.73920865f + u * (64.93931614f + u * (-85.44284467f + u * 59.22016896f)));
+  const Floats c = 1.0f + u * (-19.73920865f + u * (64.93931614f + u * (-85.44284467f + u * 59.22016896f)));
   const Ints q = __builtin_convertvector(quarter, Ints), is_odd = (q & 1) != 0, is_turned = (q & 2) != 0;
   const Floats re = is_odd ? -s : c, im = is_odd ? c : s;
   return {is_turned ? -re : re, is_turned ? -im : im};

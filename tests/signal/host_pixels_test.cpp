@@ -17,12 +17,15 @@ using namespace pmdsim::test;
 
 namespace {
 
-// Two slants, a board before them, and nothing beside them.
+// Two slants, a board before them, a side wall that turns away from half of the light, and nothing beside
+// them.
 Scene scene_of() {
   SceneBuilder builder;
   builder.add_mesh({{-3, -3, 2.5}, {1.1, -3, 1.5}, {1.1, 3, 1.9}, {-3, 3, 2.9}}, {{0, 2, 1}, {0, 3, 2}});
   builder.add_mesh({{-3, 0.5, 1.2}, {3, 0.5, 1.2}, {3, 0.9, 3.5}, {-3, 0.9, 3.5}}, {{0, 2, 1}, {0, 3, 2}},
                    {.reflectivity = 0.4});
+  builder.add_mesh({{-0.3, -0.6, 1.0}, {-0.3, 0.3, 1.0}, {-0.1, 0.3, 1.9}, {-0.1, -0.6, 1.9}},
+                   {{0, 1, 2}, {0, 2, 3}}, {.reflectivity = 0.8, .double_sided = true});
   builder.add_wall({1.0, {.reflectivity = 0.7}, {0.05, -0.1}, {0.2, 0.15}});
   return builder.scene();
 }
@@ -43,17 +46,17 @@ std::vector<PixelCase> pixel_cases() {
       {"light through all", Backscatter::lambert, Shadows::off},
       {"the paper's backscatter", Backscatter::constant, Shadows::automatic, {}},
       {"frequencies", Backscatter::lambert, Shadows::automatic, cosine(1.0),
-       [](Sensor &sensor) { sensor.modulation_hz = {20e6, 31e6, 7e6}; }},
-      {"a phase, taps",
-       Backscatter::lambert,
-       Shadows::automatic,
-       cosine(3.0),
-       [](Sensor &sensor) { sensor.taps = 5; },
-       1.3},
+       [](Sensor &sensor) {
+         sensor.modulation_hz = {20e6, 31e6, 7e6};
+       }},
+      {"a phase, taps", Backscatter::lambert, Shadows::automatic, cosine(3.0),
+       [](Sensor &sensor) { sensor.taps = 5; }, 1.3},
       {"vignetting", Backscatter::lambert, Shadows::automatic, cosine(3.0),
        [](Sensor &sensor) { sensor.vignetting = Vignetting::cos4; }},
       {"a tilted chip", Backscatter::lambert, Shadows::automatic, cosine(3.0),
-       [](Sensor &sensor) { sensor.chip.rotation_rad = {0.05, -0.03, 0.2}; }},
+       [](Sensor &sensor) {
+         sensor.chip.rotation_rad = {0.05, -0.03, 0.2};
+       }},
       {"two planes", Backscatter::lambert, Shadows::automatic, cosine(1.0), [](Sensor &) {}, 0.0, 0.01},
   };
 }

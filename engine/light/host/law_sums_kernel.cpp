@@ -38,8 +38,7 @@ void sum_rows(const LawSums &of, std::uint32_t first, std::uint32_t last) {
 }
 
 void sum_blocks(const LawSums &of, std::uint32_t first, std::uint32_t last) {
-  for_each_vector_of_blocks(of.blocks, first, last,
-                            [&](VectorSamples &samples) { sum_vector(of, samples); });
+  for_each_vector_of_blocks(of.blocks, first, last, [&](VectorSamples &samples) { sum_vector(of, samples); });
 }
 
 } // namespace

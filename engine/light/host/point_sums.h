@@ -74,7 +74,8 @@ inline void find_moments(const RunForm &form, const PointView &view, const Float
     Floats sum = all(0.0f);
     for (std::uint32_t i = form.powers; i-- > 0;)
       sum = sum * inverse_rho2 +
-            form.run->moments_of_powers[shader::largest_powers / 4 * k + i / 4][static_cast<int>(i % 4)] * total[i];
+            form.run->moments_of_powers[shader::largest_powers / 4 * k + i / 4][static_cast<int>(i % 4)] *
+                total[i];
     moment[k] = scale * sum;
     scale *= view.rho;
   }

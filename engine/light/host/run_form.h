@@ -11,15 +11,15 @@ namespace pmdsim {
 struct RunForm {
   const shader::LightRun *run;
   std::uint32_t powers, moments;
-  bool lambert;           // a weight has the cosine of the surface
-  bool faces;             // sources behind a surface do not count
-  std::uint32_t cosines;  // of each source's axis, in a weight
+  bool lambert;          // a weight has the cosine of the surface
+  std::uint32_t cosines; // of each source's axis, in a weight
   bool coplanar, phased;
   bool diagrams, beam_edges; // rounding that counts apart (shaders/light/sum.glsl: terms_of)
   // Sums beforehand; nullptr: none. The coefficients stand in the order in which Horner's rule takes them.
   const shader::PointPolynomials *beforehand;
   const float *coefficients;
   std::uint32_t dimensions;
+  bool tests_facing; // only samples that face all sources are summed so
 };
 
 } // namespace pmdsim

@@ -39,9 +39,8 @@ inline Floats power_at_least(const Floats &x, float exponent) {
   const Floats power = smaller(exponent * log2_x, all(14.0f)); // 2^14 > 1e4
   const Floats whole = rounded(power), f = power - whole;
   const Floats fraction =
-      1.0f +
-      f * (0.6931471806f +
-           f * (0.2402265070f + f * (0.05550410866f + f * (0.009618129108f + f * 0.001333355815f))));
+      1.0f + f * (0.6931471806f +
+                  f * (0.2402265070f + f * (0.05550410866f + f * (0.009618129108f + f * 0.001333355815f))));
   const Ints of_two = (__builtin_convertvector(whole, Ints) + 127) << 23;
   return smaller(1.0001f * fraction * reinterpret_cast<Floats>(of_two), all(1e4f));
 }

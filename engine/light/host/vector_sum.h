@@ -33,8 +33,8 @@ inline Ints tables_of(const VectorSamples &samples, const RunOfBatches &run, con
 }
 
 // Moments from sums of powers for the samples that a table is for, and behind them the first sum.
-inline void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t moments, const Floats *sums,
-                  Floats *moment) {
+inline void find_moments(const PowerTable &table, const Ints &takes, std::uint32_t moments,
+                         const Floats *sums, Floats *moment) {
   for (std::uint32_t k = 0; k < moments; ++k) {
     Floats sum = all(0.0f);
     for (std::uint32_t down = 0; down < table.powers; ++down) {

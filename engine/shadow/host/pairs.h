@@ -66,8 +66,8 @@ inline Floats turn_of(const Floats &x, const Floats &y) {
   return x < 0.0f ? 2.0f - t : y < 0.0f ? 4.0f + t : t;
 }
 
-// The number of diodes of smaller angles. Any angle has one, and that of an end is the same for all edges that
-// meet there: so it does not matter how it is rounded.
+// The number of diodes of smaller angles. Any angle has one, and that of an end is the same for all edges
+// that meet there: so it does not matter how it is rounded.
 inline Ints rank_of(const Floats &turn, const SilhouetteBoard &board) {
   const Ints fine = __builtin_convertvector(turn * static_cast<float>(1 << fine_turn_bits), Ints);
   const Ints within = smaller(larger(fine, Ints{}), all((4 << fine_turn_bits) - 1));

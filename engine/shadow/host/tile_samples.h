@@ -22,8 +22,8 @@ struct Sample {
 
 inline float sum_of_sizes(const float (&v)[3]) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
 
-// A tile is 8 blocks of 4 x 2 neighbours. Its samples lie place by place of a block, each place block by block,
-// so that a vector holds one place of all blocks.
+// A tile is 8 blocks of 4 x 2 neighbours. Its samples lie place by place of a block, each place block by
+// block, so that a vector holds one place of all blocks.
 constexpr int block_wide = 4, block_high = 2, block_samples = block_wide * block_high;
 constexpr int blocks_across = tile_side / block_wide,
               tile_blocks = static_cast<int>(shader::tile_samples) / block_samples;
@@ -45,7 +45,7 @@ struct TileSamples {
   alignas(64) double exact[3][shader::tile_samples]; // board frame, m
   alignas(64) float point[3][shader::tile_samples];
   alignas(64) float normal[3][shader::tile_samples] = {}; // where some diode may be behind a surface
-  alignas(64) std::int32_t own[shader::tile_samples]; // the shape that it sees
+  alignas(64) std::int32_t own[shader::tile_samples];     // the shape that it sees
   alignas(64) std::int32_t sees[shader::tile_samples];
 };
 

@@ -101,14 +101,16 @@ inline void add_shaft(const Shaft &of, Shaft &to) {
 }
 
 // The shafts of a tile's blocks, by vectors of all blocks; returns that of the tile.
-inline Shaft find_shafts(const TileSamples &samples, const SilhouetteBoard &board, Shaft (&of_blocks)[tile_blocks]) {
+inline Shaft find_shafts(const TileSamples &samples, const SilhouetteBoard &board,
+                         Shaft (&of_blocks)[tile_blocks]) {
   constexpr std::size_t count = shader::tile_samples, directions = 8;
   alignas(64) float slopes[directions][count], sights[directions][count], low[3][count], high[3][count];
   for (std::size_t s = 0; s < count; s += lanes) {
     const Floats x = load<Floats>(samples.point[0] + s), y = load<Floats>(samples.point[1] + s),
                  z = load<Floats>(samples.point[2] + s);
     const Ints sees = load<Ints>(samples.sees + s) != 0;
-    const Floats u = diagonal * (x + y), v = diagonal * (x - y), along[directions] = {x, -x, y, -y, u, -u, v, -v};
+    const Floats u = diagonal * (x + y), v = diagonal * (x - y),
+                 along[directions] = {x, -x, y, -y, u, -u, v, -v};
     const Floats per_depth = 1.0f / larger(-z, all(1e-6f)), per_sight = 1.0f / (board.lens_z - z);
     for (std::size_t k = 0; k < directions; ++k) {
       store(slopes[k] + s, sees ? (along[k] - board.supports[k]) * per_depth : all(-1e9f));

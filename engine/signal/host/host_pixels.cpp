@@ -28,7 +28,7 @@ static_assert(row_of(&Return::distance_m).slot.index == 2 && row_of(&Measurement
 
 class PixelsOnHost {
 public:
-  PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
+  PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool tests_facing);
 
   void make(const shader::Strip &strip) const;
 
@@ -73,15 +73,16 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
   return form;
 }
 
-PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
+PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                           bool tests_facing)
     : buffers_(on.buffers), sums_(on, groups, scope),
       run_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand).front()),
       form_(form_of(on, groups, scope)), tones_(on.modulation.all_tones()),
-      frequencies_(frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound,
-                                     groups.diode_count)),
+      frequencies_(
+          frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
       backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
-      lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)),
-      keeps_bounds_(on.modulation.keeps_bounds), first_tap_(row_of(&Return::taps).slot.index),
+      lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
+      first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
@@ -89,6 +90,7 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
   if (groups.runs.size() != 1 || on.scene.paint.painted || !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
   form_.run = &run_;
+  form_.tests_facing = tests_facing;
   if (scope.beforehand)
     add_coefficients(groups, on.model);
 }
@@ -147,8 +149,9 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
 
 } // namespace
 
-Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
-  const auto pixels = std::make_shared<const PixelsOnHost>(on, groups, scope);
+Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                      bool tests_facing) {
+  const auto pixels = std::make_shared<const PixelsOnHost>(on, groups, scope, tests_facing);
   return {.name = "accumulate",
           .reads = ids | (scope.shadowed ? visibility_bits : no_resource) |
                    (on.modulation.lit ? visibility_counts : no_resource) |

@@ -42,20 +42,22 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   const Floats largest = condition * (1.0f + relative + 1e-6f) * grown,
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
   const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
-    const Floats growing_m = per_condition_m * condition +
-                             weights_error_m(frequency, per_weight_m, condition, turning, weights);
+    const Floats growing_m =
+        per_condition_m * condition + weights_error_m(frequency, per_weight_m, condition, turning, weights);
     return fixed_m + growing_m * grown;
   };
   Floats distance_m = bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,
                               std::min(frequency.near_per_weight_m, frequency.per_weight_m));
   if (!is_tighter_at_one_range(frequency))
-    distance_m = smaller(distance_m, bound_m(frequency.fixed_m, frequency.per_condition_m, frequency.per_weight_m));
+    distance_m =
+        smaller(distance_m, bound_m(frequency.fixed_m, frequency.per_condition_m, frequency.per_weight_m));
   return {distance_m, frequency.amplitude_fixed + relative};
 }
 
 // For the frame's claim: both negative where they are not within what was asked for, or no numbers.
 inline Errors held(const shader::Frequency &frequency, const Errors &errors) {
-  const Ints is_kept = (errors.distance_m <= frequency.limit_m) & (errors.amplitude <= frequency.amplitude_limit);
+  const Ints is_kept =
+      (errors.distance_m <= frequency.limit_m) & (errors.amplitude <= frequency.amplitude_limit);
   const auto negated = [](const Floats &error) { return error > 0.0f ? -error : all(-1.0f); };
   return {is_kept ? errors.distance_m : negated(errors.distance_m),
           is_kept ? errors.amplitude : negated(errors.amplitude)};

@@ -16,9 +16,7 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 
-double of_pair(const shader::vec2 &pair) {
-  return static_cast<double>(pair.x) + static_cast<double>(pair.y);
-}
+double of_pair(const shader::vec2 &pair) { return static_cast<double>(pair.x) + static_cast<double>(pair.y); }
 
 // The sums over the sources at a vector's samples.
 struct Light {
@@ -26,15 +24,34 @@ struct Light {
   Floats weights; // their sum
 };
 
-void sum_light(const PixelWork &of, VectorSamples &samples, const PointView &view, Light &light) {
-  if (of.form.beforehand) {
-    Floats total[most_host_sums];
-    sum_beforehand(of.form, view, total);
-    return find_moments(of.form, view, total, light.moment, light.weights);
-  }
+void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
+  Floats total[most_host_sums];
+  sum_beforehand(form, view, total);
+  find_moments(form, view, total, light.moment, light.weights);
+}
+
+void sum_sources(const PixelWork &of, VectorSamples &samples, Light &light) {
   find_surfaces(of.sums.samples, samples);
   VectorSum(of.sums, samples).sum(of.sums.runs[0], light.moment);
   light.weights = light.moment[of.form.moments];
+}
+
+void sum_light(const PixelWork &of, VectorSamples &samples, const PointView &view, Light &light) {
+  if (!of.form.beforehand)
+    return sum_sources(of, samples, light);
+  const Ints sees = load<Ints>(samples.sees) != 0,
+             faces = view.height > 1.001f * of.form.run->radius_m; // all sources
+  const Ints apart = of.form.tests_facing ? sees & ~faces : Ints{};
+  if (bits_of(apart) == 0)
+    return sum_beforehand(of.form, view, light);
+  sum_sources(of, samples, light);
+  if (bits_of(sees & faces) == 0)
+    return;
+  Light facing;
+  sum_beforehand(of.form, view, facing);
+  for (std::uint32_t k = 0; k < of.form.moments; ++k)
+    light.moment[k] = apart != 0 ? light.moment[k] : facing.moment[k];
+  light.weights = apart != 0 ? light.weights : facing.weights;
 }
 
 // sum_k (j kappa)^k / k! * moment[k], by Horner's rule.
@@ -110,7 +127,8 @@ void store_phase(const PixelWork &of, const shader::Frequency &frequency, const 
     return is_known ? smaller(larger(narrow(value), none), all(below)) : nan;
   };
   const double ambiguity_m = of_pair(frequency.ambiguity_m);
-  store_channels(of, frequency.first_channel, samples, amplitude, limited(within * two_pi, frequency.below.x));
+  store_channels(of, frequency.first_channel, samples, amplitude,
+                 limited(within * two_pi, frequency.below.x));
   store_channels(of, frequency.first_channel + 2, samples, limited(within * ambiguity_m, frequency.below.y),
                  range_m);
 }
@@ -130,7 +148,8 @@ void hold(const PixelWork &of, std::uint32_t f, const VectorSamples &samples, co
 // B over the surface's cosine, with the lens's vignetting.
 Floats backscatter_of(const PixelWork &of, const VectorSamples &samples) {
   constexpr int after_plane = 8; // words of TrianglePlane
-  Floats backscatter = of.backscatter ? all(*of.backscatter) : of_planes(of.sums.samples.planes, samples, after_plane);
+  Floats backscatter =
+      of.backscatter ? all(*of.backscatter) : of_planes(of.sums.samples.planes, samples, after_plane);
   if (of.vignetting) {
     const Wide x = load_wide(samples.point_m[0]), y = load_wide(samples.point_m[1]),
                z = load_wide(samples.point_m[2]);
@@ -143,8 +162,10 @@ Floats backscatter_of(const PixelWork &of, const VectorSamples &samples) {
 void store_lit(const PixelWork &of, const VectorSamples &samples) {
   const shader::Frequency &frequency = of.frequencies[0];
   const Ints reached = gathered(reinterpret_cast<const std::int32_t *>(of.lit), load<Ints>(samples.number));
-  const Floats part = __builtin_convertvector(reached, Floats) / static_cast<float>(std::max(frequency.diodes, 1u));
-  store_channels(of, frequency.lit_channel, samples, load<Ints>(samples.sees) != 0 ? part : all(0.0f), all(0.0f));
+  const Floats part =
+      __builtin_convertvector(reached, Floats) / static_cast<float>(std::max(frequency.diodes, 1u));
+  store_channels(of, frequency.lit_channel, samples, load<Ints>(samples.sees) != 0 ? part : all(0.0f),
+                 all(0.0f));
 }
 
 void store_nothing(const PixelWork &of, const VectorSamples &samples) {
@@ -159,7 +180,8 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples) {
     store_lit(of, samples);
 }
 
-void store_pixels(const PixelWork &of, const VectorSamples &samples, const PointView &view, const Light &light) {
+void store_pixels(const PixelWork &of, const VectorSamples &samples, const PointView &view,
+                  const Light &light) {
   const Floats none = all(0.0f), backscatter = backscatter_of(of, samples);
   const Ints sees = load<Ints>(samples.sees) != 0;
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
@@ -177,8 +199,10 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Point
     // The phase stays relative to the range, which makes it exact to the last bit of the output.
     const Wide whole = view.range * of_pair(frequency.turns_per_m), of_range = whole - rounded(whole);
     if (of.kept_taps > 0)
-      store_taps(of, frequency, samples, all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
-    store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)), range_m);
+      store_taps(of, frequency, samples,
+                 all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
+    store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)),
+                range_m);
     if (of.errors)
       hold(of, f, samples, terms, size);
   }
@@ -192,7 +216,8 @@ void make_pixels(const PixelWork &of, VectorSamples &samples) {
   if (seen == lanes)
     return store_nothing(of, samples);
   fill_gaps(samples, seen);
-  const PointView view = see_points(samples, of.sums.samples.planes, *of.form.run, of.form.lambert);
+  const PointView view =
+      see_points(samples, of.sums.samples.planes, *of.form.run, of.form.lambert || of.form.tests_facing);
   Light light;
   sum_light(of, samples, view, light);
   store_pixels(of, samples, view, light);
