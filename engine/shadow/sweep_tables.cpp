@@ -1,6 +1,6 @@
 #include "engine/shadow/sweep_tables.h"
 
-#include "engine/light/turn.h"
+#include "engine/model/turn.h"
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>

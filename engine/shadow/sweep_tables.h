@@ -16,7 +16,7 @@ struct SweepTables {
   std::vector<shader::vec4> diodes; // two of each: x, y, their rests; z, its rest. Board frame, m
 };
 
-// Diodes whose angles about the board's centre (engine/light/turn.h) differ by no more count as of one angle.
+// Diodes whose angles about the board's centre (engine/model/turn.h) differ by no more count as of one angle.
 constexpr float same_turn = 1e-6f;
 
 // The distance by which a line on the board may be off for `lines` to be right, m.

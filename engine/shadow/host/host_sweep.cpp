@@ -1,6 +1,6 @@
 #include "engine/shadow/host/host_sweep.h"
 
-#include "engine/light/turn.h"
+#include "engine/model/turn.h"
 #include "engine/model/instruction_sets.h"
 #include "engine/sampling/host/host_samples.h"
 #include "engine/shadow/host/silhouette_tree.h"
