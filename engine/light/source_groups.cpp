@@ -3,8 +3,8 @@
 #include "engine/light/diagram_tables.h"
 #include "engine/light/path_difference.h"
 #include "engine/light/radiation_laws.h"
-#include "engine/model/turn.h"
 #include "engine/model/error.h"
+#include "engine/model/turn.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "engine/shadow/host/host_sweep.h"
 
-#include "engine/model/turn.h"
 #include "engine/model/instruction_sets.h"
+#include "engine/model/turn.h"
 #include "engine/sampling/host/host_samples.h"
 #include "engine/shadow/host/silhouette_tree.h"
 #include "engine/shadow/sweep_tables.h"
