@@ -100,9 +100,8 @@ void store_channels(const PixelWork &of, std::uint32_t channel, const VectorSamp
 
 // |z| without overflow or underflow of the squares.
 Floats magnitude(const Complex &z) {
-  const Floats longer = larger(absolute(z.re), absolute(z.im));
-  const Floats inverse_longer = 1.0f / longer, re = z.re * inverse_longer, im = z.im * inverse_longer;
-  return longer > 0.0f ? longer * root(re * re + im * im) : all(0.0f);
+  const Floats longer = larger(absolute(z.re), absolute(z.im)), re = z.re / longer, im = z.im / longer;
+  return longer > 0.0f ? longer * narrow(root(wide(re * re + im * im))) : all(0.0f);
 }
 
 // The N correlation samples; `whole`: the return with all of its phase.
