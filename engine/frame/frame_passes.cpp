@@ -151,8 +151,8 @@ struct ClassLists {
   const vulkan::Buffer *list = nullptr, *later = nullptr;
 };
 
-// Whether samples that are summed beforehand have to be told from those that turn away from some source: the
-// shadow pass has done so.
+// Whether samples that are summed beforehand have to be told from those that turn away from some source, as
+// no shadow pass has done so.
 bool tests_facing(const FrameBasis &on, const SumScope &scope) {
   return scope.beforehand && on.path.windows == 0 && on.path.host_sum == HostSum::partial;
 }

@@ -188,7 +188,8 @@ void sum_facing_beforehand(const FrameFacts &facts, const FramePlan &plan, Frame
 bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
                         const PathForms &allowed) {
   const bool finds_facing = request.sensor.samples == 1 && allowed.direct_pixels && allowed.host_sum &&
-                            may_make_pixels_on_host(facts, allowed);
+                            may_make_pixels_on_host(facts, allowed) && plan.all.runs.size() == 1 &&
+                            can_sum_on_host(plan.all);
   const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
                           (facts.modulation.lit || facts.model.all_facing || finds_facing);
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
@@ -228,7 +229,13 @@ constexpr std::array grid_names{"nominal", "posed", "tiled", "distorted"};
 constexpr std::array surface_names{"constant, all facing", "constant, tested", "lambert"};
 constexpr std::array pattern_names{"isotropic", "whole power of the cosine", "power of the cosine",
                                    "diagram around the axis", "any"};
-constexpr std::array host_sum_names{"", ", shaded samples on the host", ", on the host"};
+std::string host_sum_text(const FramePath &path) {
+  return path.host_sum == HostSum::all       ? ", on the host"
+         : path.host_sum != HostSum::partial ? ""
+         : path.windows > 0                  ? ", shaded samples on the host"
+                                             : ", samples that turn away on the host";
+}
+
 constexpr std::array precision_names{"fp32", "fp64"};
 
 std::string name_among(const auto &names, auto number) { return names[static_cast<std::size_t>(number)]; }
@@ -245,10 +252,9 @@ std::string summation_text(const FramePath &path) {
   case Summation::polynomial_moments:
     return fmt::format("{} moments from {} powers{}{}{}{}", path.moments, path.powers,
                        path.equal_weights ? ", equal weights" : "", path.coplanar ? ", coplanar" : "",
-                       path.point_dimensions > 0 ? ", summed beforehand" : "",
-                       host_sum_names[static_cast<std::size_t>(path.host_sum)]);
+                       path.point_dimensions > 0 ? ", summed beforehand" : "", host_sum_text(path));
   case Summation::moments:
-    return fmt::format("{} moments{}", path.moments, host_sum_names[static_cast<std::size_t>(path.host_sum)]);
+    return fmt::format("{} moments{}", path.moments, host_sum_text(path));
   case Summation::per_diode:
     return "diode by diode";
   }

@@ -127,8 +127,8 @@ void part_in_two(std::span<NumberedDiode> diodes, std::size_t first) {
                            [axis](const Diode &diode) { return diode.position_m[axis]; });
 }
 
-// Orders a group's diodes by their angles about the lens, seen from the scene. So those that share a bundle
-// stand together, and the sweep's order is that of the bits on boards across the view.
+// Orders a group's diodes by their angles about the lens, seen from the scene: on boards across the view the
+// sweep's order is that of the bits then. Those that share a bundle stand in one sector.
 void order_by_angles(std::span<NumberedDiode> diodes) {
   std::ranges::stable_sort(diodes, {}, [](const Diode &diode) {
     return turn_of({static_cast<float>(diode.position_m.x), -static_cast<float>(diode.position_m.y)});

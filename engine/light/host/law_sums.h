@@ -77,7 +77,7 @@ struct LawSums {
   std::uint32_t shining;           // all of them
   std::uint32_t plane;             // words of one
   // Out: for each run a plane for each moment, and one for the sum of W rho^-p, which the terms of
-  // polynomials are relative to, or of w where roots are drawn.
+  // polynomials are relative to, or of w where roots are drawn. nullptr where the host makes the pixels.
   float *run_moments;
 };
 

@@ -309,8 +309,9 @@ inline void sweep_over(const ItemList &list, const Sample &sample, const Silhoue
     find_ranks(pairs, i, board, sweep);
   touch(sweep);
   for (int pair = 0; pair < pairs.count; ++pair) {
-    if (pairs.to[pair] <= pairs.from[pair] && pairs.wraps[pair] == 0)
-      continue;
+    const std::int32_t around = pairs.wraps[pair] != 0 ? static_cast<std::int32_t>(board.diodes) : 0;
+    if (pairs.to[pair] + around <= pairs.from[pair])
+      continue; // no diode is in its angle
     int amount = pairs.amount[pair];
     if (pairs.is_unsure[pair] != 0) {
       const int weight = exact_weight(items, pairs.item[pair], sample, board);

@@ -65,8 +65,8 @@ struct EdgePlanes {
 
 // The most diodes that a window has.
 constexpr std::uint32_t most_diodes = shader::bundles_per_window * shader::diodes_per_bundle;
-// With a vector to spare, of the widest.
-constexpr std::uint32_t diode_room = most_diodes + 16;
+// With two vectors to spare, of the widest: a pair that begins behind the last diode counts in them, nothing.
+constexpr std::uint32_t diode_room = most_diodes + 32;
 
 // Angles as whole numbers, so many to a quadrant, and the bins that those fall into.
 constexpr std::int32_t fine_turn_bits = 22, bin_bits = 13, bin_mask = (1 << bin_bits) - 1;

@@ -75,7 +75,7 @@ inline Sample sample_of(const TileSamples &samples, int place) {
 
 // Records of tiles lie apart in memory.
 inline void fetch_soon(const SampleSource &of, const Place &at) {
-  if (of.records && at.index + tile_side < of.strip.padded_pixels) {
+  if (at.index + tile_side < of.strip.padded_pixels) {
     const std::byte *record = of.ids + (std::size_t{at.index} + tile_side) * sizeof(shader::uvec4);
     __builtin_prefetch(record);
     __builtin_prefetch(record + 64);

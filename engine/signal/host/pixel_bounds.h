@@ -16,6 +16,7 @@ struct Errors {
 
 // Inverses and roots of bounds are a hair too large, not too small.
 constexpr float at_least = 1.000002f;
+constexpr float smallest = 1e-37f; // that has an inverse
 
 // Of weights, as distance (weights_error_m there). `turning`: sqrt(condition^2 - 1), at the most.
 inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, const Floats &condition,
@@ -34,12 +35,13 @@ inline bool is_tighter_at_one_range(const shader::Frequency &frequency) {
 // `size`: of the return, as `terms` are.
 inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, const Floats &size) {
   const Floats none = all(0.0f), infinite = all(std::numeric_limits<float>::infinity());
-  const Floats inverse_size = size > 0.0f ? at_least * inverse(size) : infinite;
+  const Floats inverse_size = size > smallest ? at_least * inverse(size) : infinite;
   const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
                weights = terms.weights > 0.0f ? terms.weights * inverse_size : none;
   const Floats relative = frequency.amplitude_per_condition * condition + frequency.per_weight * weights;
   const Floats grown = relative < 1.0f ? at_least * inverse(1.0f - relative) : infinite;
-  const Floats largest = condition * (1.0f + relative + 1e-6f) * grown,
+  // As large as has a square: what grows without end is unbounded by `grown` itself.
+  const Floats largest = smaller(condition * (1.0f + relative + 1e-6f) * grown, all(1e18f)),
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
   const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
     const Floats growing_m =

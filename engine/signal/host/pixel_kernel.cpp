@@ -20,8 +20,8 @@ double of_pair(const shader::vec2 &pair) { return static_cast<double>(pair.x) + 
 
 // The sums over the sources at a vector's samples.
 struct Light {
-  Floats moment[most_host_sums];
-  Floats weights; // their sum
+  Floats moment[most_host_sums] = {};
+  Floats weights = {}; // their sum
 };
 
 void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
@@ -40,7 +40,7 @@ void sum_light(const PixelWork &of, VectorSamples &samples, const PointView &vie
   if (!of.form.beforehand)
     return sum_sources(of, samples, light);
   const Ints sees = load<Ints>(samples.sees) != 0,
-             faces = view.height > 1.001f * of.form.run->radius_m; // all sources
+             faces = view.height > 1.001f * of.form.run->radius_m + 1e-6f * view.rho; // all sources
   const Ints apart = of.form.tests_facing ? sees & ~faces : Ints{};
   if (bits_of(apart) == 0)
     return sum_beforehand(of.form, view, light);
@@ -83,7 +83,10 @@ void store_pairs(float *pairs, const VectorSamples &samples, const Floats &first
   }
   for (int lane = 0; lane < lanes; lane += stretch) {
     const std::int32_t *number = samples.number + lane;
-    if (number[stretch - 1] == number[0] + stretch - 1) {
+    bool follow = true;
+    for (int i = 1; i < stretch; ++i)
+      follow = follow && number[i] == number[0] + i;
+    if (follow) {
       std::memcpy(pairs + std::ptrdiff_t{2} * number[0], both[lane], sizeof(both[0]) * stretch);
       continue;
     }
