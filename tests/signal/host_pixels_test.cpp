@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <vector>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -38,6 +39,7 @@ struct PixelCase {
   std::function<void(Sensor &)> change = [](Sensor &) {};
   double phase_rad = 0.0;
   double along_m = 0.0; // of every other diode, off the others' plane
+  glm::dvec3 axis{0.0, 0.0, 1.0};
 };
 
 std::vector<PixelCase> pixel_cases() {
@@ -61,10 +63,20 @@ std::vector<PixelCase> pixel_cases() {
   };
 }
 
+// Beside their ends floats know little of their light.
+PixelCase beams_that_end_in_view() {
+  PixelCase beams{"beams that end in view"};
+  beams.pattern = cosine(8.0);
+  beams.axis = {1.0, 0.1, 0.05};
+  return beams;
+}
+
 Illuminator light_of(const PixelCase &of) {
   Illuminator light = light_at(ring(100, 0.12), of.phase_rad, of.pattern);
   for (std::size_t i = 0; i < light.diodes.size(); i += 2)
     light.diodes[i].position_m.z += of.along_m;
+  for (Diode &diode : light.diodes)
+    diode.axis = glm::normalize(of.axis);
   return light;
 }
 
@@ -154,18 +166,20 @@ TEST_CASE("the host makes pixels as the device does, and as the reference") {
 
 namespace {
 
-void check_bounds(const Measurement &host, const Measurement &device) {
+// `tolerance`: relative.
+void check_bounds(const Measurement &host, const Measurement &device, double tolerance) {
   CHECK(host.accuracy.unpromised == device.accuracy.unpromised);
-  CHECK(host.accuracy.claimed_m.value() == Approx(device.accuracy.claimed_m.value()).epsilon(1e-3));
+  CHECK(host.accuracy.claimed_m.value() == Approx(device.accuracy.claimed_m.value()).epsilon(tolerance));
   CHECK(host.accuracy.claimed_amplitude.value() ==
-        Approx(device.accuracy.claimed_amplitude.value()).epsilon(1e-3));
+        Approx(device.accuracy.claimed_amplitude.value()).epsilon(tolerance));
   for (std::size_t f = 0; f < host.returns.size(); ++f) {
     const auto &of_host = host.returns[f].error_bound_m, &of_device = device.returns[f].error_bound_m;
     REQUIRE(of_host.size() == of_device.size());
     for (std::size_t i = 0; i < of_host.size(); ++i) {
       INFO(i << ": " << of_host[i] << " and " << of_device[i]);
       REQUIRE(std::isnan(of_host[i]) == std::isnan(of_device[i]));
-      REQUIRE((std::isnan(of_host[i]) || of_host[i] == Approx(of_device[i]).epsilon(1e-3)));
+      REQUIRE((std::isnan(of_host[i]) || of_host[i] == of_device[i] ||
+               of_host[i] == Approx(of_device[i]).epsilon(tolerance)));
     }
   }
 }
@@ -187,8 +201,11 @@ TEST_CASE("the host bounds a pixel's error as the device does") {
   Accuracy within, precise;
   within.mode = Mode::automatic;
   within.max_error_m = 100e-6;
+  within.precision = Precision::fp32; // so that no pixel is summed again in double
   precise.precision = Precision::fp64;
-  for (const PixelCase &of : pixel_cases()) {
+  std::vector<PixelCase> cases = pixel_cases();
+  cases.push_back(beams_that_end_in_view());
+  for (const PixelCase &of : cases) {
     // On the device pixels that turn away from some source, and boards in space, are sorted into classes.
     const bool sorts = of.shadows == Shadows::off;
     if (of.along_m != 0.0)
@@ -199,7 +216,7 @@ TEST_CASE("the host bounds a pixel's error as the device does") {
       const Measurement host = measured(of, bits, within);
       check_within_bounds(host, exact);
       if (!sorts)
-        check_bounds(host, device);
+        check_bounds(host, device, of.pattern.order > 3.0 ? 2e-2 : 1e-3); // as far as light is known
     }
   }
 }
