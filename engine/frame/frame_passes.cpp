@@ -162,11 +162,12 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
              SumScope scope, FrameGraph &graph) {
   scope.beforehand =
       on.path.point_dimensions > 0 && !scope.shadowed && !scope.by_host && scope.list == nullptr;
+  scope.tests_facing = tests_facing(on, scope);
   if (scope.beforehand && on.plan.bound_beforehand)
-    scope.bound = tests_facing(on, scope) ? worse_of(*scope.bound, *on.plan.bound_beforehand)
-                                          : on.plan.bound_beforehand;
+    scope.bound =
+        scope.tests_facing ? worse_of(*scope.bound, *on.plan.bound_beforehand) : on.plan.bound_beforehand;
   if (scope.depth_records && on.path.host_pixels)
-    return graph.add_to_window(host_pixels_pass(on, groups, scope, tests_facing(on, scope)));
+    return graph.add_to_window(host_pixels_pass(on, groups, scope));
   if (scope.depth_records && on.path.direct)
     scope.output = direct_pixels(on, groups, scope);
   Pass sum = accumulate_pass(on, groups, windows, scope);
@@ -177,7 +178,7 @@ void add_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector
 void add_host_sum(const FrameBasis &on, const SourceGroups &groups, const std::vector<SourceWindow> &windows,
                   SumScope scope, FrameGraph &graph) {
   if (on.path.host_pixels)
-    return graph.add_to_window(host_pixels_pass(on, groups, scope, false));
+    return graph.add_to_window(host_pixels_pass(on, groups, scope));
   graph.add_to_window(host_sum_pass(on, groups, scope));
   scope.by_host = true;
   scope.shadowed = false;

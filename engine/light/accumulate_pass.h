@@ -45,6 +45,7 @@ struct SumOutput {
 struct SumScope {
   bool shadowed = false;                 // not every diode reaches every sample
   bool beforehand = false;               // the diodes are summed beforehand (point_polynomials.h)
+  bool tests_facing = false;             // but for samples that turn away from some diode
   bool by_host = false;                  // the diodes are summed by the host (host/host_sum.h)
   Precision precision = Precision::fp32; // of the groups and of the surfaces' vectors
   const vulkan::Buffer *list = nullptr;  // of pixels; else all

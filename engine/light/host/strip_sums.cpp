@@ -10,8 +10,11 @@ namespace {
 
 constexpr std::uint32_t blocks_at_once = 32;
 
-// Whether rounding is bounded as if powers stood for roots.
-bool has_bound_of_powers(const SourceGroups &groups) { return groups.polynomials.powers > 0; }
+// Whether powers may stand for roots: where rounding is bounded as if they did, and something is summed so.
+bool takes_powers(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  const bool are_summed = !scope.beforehand || scope.tests_facing;
+  return are_summed && (groups.polynomials.powers > 0 || !on.modulation.keeps_terms);
+}
 
 } // namespace
 
@@ -20,8 +23,8 @@ StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumS
                                      vulkan::uses_fp64(on.device, on.options.precision)),
       blocks_(scope.blocks), lambert_(on.model.backscatter == shader::backscatter_lambert),
       shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
-      shining_(shining_diodes(groups)), batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
-                                                 has_bound_of_powers(groups) || !on.modulation.keeps_terms) {}
+      shining_(shining_diodes(groups)),
+      batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(), takes_powers(on, groups, scope)) {}
 
 LawSums StripSums::of(const shader::Strip &strip) const {
   return {.samples = samples_.of(strip),

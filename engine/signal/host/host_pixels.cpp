@@ -28,7 +28,7 @@ static_assert(row_of(&Return::distance_m).slot.index == 2 && row_of(&Measurement
 
 class PixelsOnHost {
 public:
-  PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool tests_facing);
+  PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
 
   void make(const shader::Strip &strip) const;
 
@@ -73,8 +73,7 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
   return form;
 }
 
-PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
-                           bool tests_facing)
+PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
     : buffers_(on.buffers), sums_(on, groups, scope),
       run_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand).front()),
       form_(form_of(on, groups, scope)), tones_(on.modulation.all_tones()),
@@ -90,7 +89,7 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
   if (groups.runs.size() != 1 || on.scene.paint.painted || !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
   form_.run = &run_;
-  form_.tests_facing = tests_facing;
+  form_.tests_facing = scope.tests_facing;
   if (scope.beforehand)
     add_coefficients(groups, on.model);
 }
@@ -149,9 +148,8 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
 
 } // namespace
 
-Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
-                      bool tests_facing) {
-  const auto pixels = std::make_shared<const PixelsOnHost>(on, groups, scope, tests_facing);
+Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  const auto pixels = std::make_shared<const PixelsOnHost>(on, groups, scope);
   return {.name = "accumulate",
           .reads = ids | (scope.shadowed ? visibility_bits : no_resource) |
                    (on.modulation.lit ? visibility_counts : no_resource) |

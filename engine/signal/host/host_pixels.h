@@ -8,9 +8,7 @@ namespace pmdsim {
 
 // The sum and the demodulation of `groups`, which are one run, within a scope of depth records: summed
 // beforehand where the scope is, else source by source, with the bits of the only window where it is
-// shadowed. `tests_facing`: samples that turn away from some source are summed source by source, whatever the
-// scope is. Nothing may be painted.
-Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
-                      bool tests_facing);
+// shadowed. Nothing may be painted.
+Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
 
 } // namespace pmdsim
