@@ -96,13 +96,14 @@ SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminat
   const auto in_runs_of = [&](std::uint32_t most_blocks) {
     SourceGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
     if (precision == Precision::fp32 && view.modulation.by_moments())
-      choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed);
+      choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed,
+                         view.on_host && view.sensor.samples == 1);
     return groups;
   };
   SourceGroups groups = in_runs_of(usual_run_blocks);
   // A window of shadows' bits holds no long run.
   const bool long_runs =
-      view.long_runs && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
+      view.on_host && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
   return long_runs ? in_runs_of(long_run_blocks) : groups;
 }
 
@@ -173,7 +174,8 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
 double largest_growth(const FramePlan &plan) {
   double growth = 1.0;
   for (const SourceGroups *groups : {&plan.all, &plan.reduced, &plan.uniform_groups})
-    growth = std::max(growth, groups->polynomials.growth);
+    growth = std::max({growth, groups->polynomials.growth,
+                       groups->near_polynomials ? groups->near_polynomials->growth : 1.0});
   return growth;
 }
 

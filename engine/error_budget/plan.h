@@ -21,7 +21,7 @@ struct LightFacts {
   const Modulation &modulation;
   SumModel model; // of all diodes
   Backscatter backscatter;
-  bool long_runs; // of diodes that are alike: on a CPU, whose dispatches need not be short
+  bool on_host; // the device is the host's processor: its dispatches need not be short, and the host may sum
   PathForms allowed = {};
   bool painted = true; // some surface's backscatter is looked up
 };

@@ -309,6 +309,19 @@ private:
   double weight_; // relative error of each
 };
 
+// To the bounds of all frequencies.
+void raise_to(RoundingBound &largest, const Bound &bound, const Modulation &modulation) {
+  for (const double frequency_hz : modulation.modulation_hz) {
+    const RoundingBound of_frequency = bound.of(frequency_hz);
+    using Part = RoundingBound;
+    for (const auto part :
+         {&Part::fixed_m, &Part::per_condition_m, &Part::amplitude_fixed, &Part::amplitude_per_condition,
+          &Part::weight_error, &Part::per_weight_m, &Part::amplitude_per_weight, &Part::any_weight_m,
+          &Part::beam_edge_error, &Part::per_apart})
+      largest.*part = std::max(largest.*part, of_frequency.*part);
+  }
+}
+
 // A lower bound of the cosine to `axis` of all that lies in `box`, seen from diodes within `from`.
 double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const VisibleBox &box) {
   const glm::dvec3 low_m = box.low_m - from.high_m, high_m = box.high_m - from.low_m;
@@ -338,16 +351,12 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
   if (!std::ranges::all_of(groups.positions,
                            [](const SourcePosition &place) { return std::isfinite(place.law_error); }))
     return std::nullopt;
-  const Bound bound(groups, visible, model, modulation, scope);
   RoundingBound largest{};
-  for (const double frequency_hz : modulation.modulation_hz) {
-    const RoundingBound of_frequency = bound.of(frequency_hz);
-    using Bound = RoundingBound;
-    for (const auto part :
-         {&Bound::fixed_m, &Bound::per_condition_m, &Bound::amplitude_fixed, &Bound::amplitude_per_condition,
-          &Bound::weight_error, &Bound::per_weight_m, &Bound::amplitude_per_weight, &Bound::any_weight_m,
-          &Bound::beam_edge_error, &Bound::per_apart})
-      largest.*part = std::max(largest.*part, of_frequency.*part);
+  raise_to(largest, Bound(groups, visible, model, modulation, scope), modulation);
+  if (groups.near_polynomials) { // in place of roots
+    SourceGroups by_powers = groups;
+    by_powers.polynomials = *groups.near_polynomials;
+    raise_to(largest, Bound(by_powers, visible, model, modulation, scope), modulation);
   }
   return largest;
 }

@@ -217,7 +217,7 @@ void sum_records(const FrameBasis &on, const SourceGroups &groups, const std::ve
 void demodulate_records(const FrameBasis &on, const SourceGroups &groups, SumScope scope, FrameGraph &graph) {
   const bool settles = holds_pixels(on.modulation);
   if (on.path.direct) {
-    if (settles)
+    if (settles && !on.path.host_pixels)
       graph.add_to_window(claims_pass(on, errors_of_direct_pixels(on.buffers), scope.later));
     return;
   }

@@ -113,14 +113,16 @@ double path_terms_at_m(std::span<const Coefficients> of_moments, double most_u, 
   return most_m;
 }
 
+// Where |u| is at most `most_u`.
 double path_terms_m(std::span<const Coefficients> of_moments, const PathDifference &reach,
-                    double wavenumber_rad_m) {
+                    double wavenumber_rad_m, double most_u = std::numeric_limits<double>::infinity()) {
   constexpr int places = 32;
   double most_m = 0.0;
   for (int i = 0; i <= places && std::isfinite(reach.range_m); ++i) { // nothing is seen at infinity
     const double rho_m =
         reach.range_m * std::pow(reach.farthest_m / reach.range_m, static_cast<double>(i) / places);
-    raise(most_m, path_terms_at_m(of_moments, largest_u(reach.radius_m, rho_m), rho_m, wavenumber_rad_m));
+    const double u = std::min(most_u, largest_u(reach.radius_m, rho_m));
+    raise(most_m, path_terms_at_m(of_moments, u, rho_m, wavenumber_rad_m));
   }
   return most_m;
 }
@@ -220,6 +222,32 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
       widest = NearPolynomials{u, run.table};
   }
   return widest;
+}
+
+std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
+                                                        std::uint32_t inverse_powers, std::uint32_t moments,
+                                                        double wavenumber_rad_m) {
+  MomentPolynomials bound;
+  for (const std::uint32_t powers : near_powers(0))
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+      const PathDifference &reach = reaches[i];
+      if (i > 0 && reach == reaches[i - 1])
+        continue;
+      const auto near = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers);
+      if (!near)
+        continue;
+      std::vector<Coefficients> sizes;
+      fit_run({-near->largest_u, near->largest_u}, reach.farthest_m, inverse_powers, moments, powers,
+              wavenumber_rad_m, &sizes);
+      raise(bound.growth, value(sizes[0], near->largest_u));
+      raise(bound.path_terms_m, path_terms_m(sizes, reach, wavenumber_rad_m, near->largest_u));
+      bound.powers = std::max(bound.powers, powers);
+    }
+  if (bound.powers == 0)
+    return std::nullopt;
+  bound.weight_error = near_weight_error;
+  bound.angle_error_rad = near_angle_error_rad;
+  return bound;
 }
 
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,

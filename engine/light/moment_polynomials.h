@@ -61,4 +61,10 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
                                                     std::uint32_t moments, double wavenumber_rad_m,
                                                     std::uint32_t powers);
 
+// The errors and the growth of all of these tables where a frame has no polynomials, and nearer places draw
+// roots; it has no tables. Nothing where there are none, either.
+std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
+                                                        std::uint32_t inverse_powers, std::uint32_t moments,
+                                                        double wavenumber_rad_m);
+
 } // namespace pmdsim

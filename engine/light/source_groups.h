@@ -9,6 +9,7 @@
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -57,6 +58,9 @@ struct SourceGroups {
   double radius_m = 0.0; // of the largest group
   double radius_over_range = 0.0; // at most, of any group: its radius over the range to what is visible
   MomentPolynomials polynomials;  // what the moments are summed by, run by run
+  // Where these have no powers: of the tables that the host may have for places that are not near, whose
+  // errors the frame's bounds contain.
+  std::optional<MomentPolynomials> near_polynomials;
 };
 
 // The most blocks of a run, one straight line of code: of any diodes, and of such as are alike

@@ -44,15 +44,20 @@ double least_intensity(const SourceGroups &groups) {
 } // namespace
 
 void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
-                        const PathForms &allowed) {
+                        const PathForms &allowed, bool host_sums) {
   std::vector<PathDifference> reaches;
   for (const SourceRun &run : groups.runs)
     reaches.push_back(run.reach);
-  if (const auto powers = inverse_powers(model); powers && allowed.polynomial_moments)
-    groups.polynomials =
-        fit_polynomials(reaches, *powers, groups.moments, wavenumber_rad_m, least_intensity(groups));
-  if (groups.polynomials.powers == 0)
+  const auto inverse = inverse_powers(model);
+  if (!inverse || !allowed.polynomial_moments)
     return;
+  groups.polynomials =
+      fit_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m, least_intensity(groups));
+  if (groups.polynomials.powers == 0) {
+    if (host_sums)
+      groups.near_polynomials = bound_near_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m);
+    return;
+  }
   groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);
   groups.polynomials.coplanar =
       allowed.coplanar && std::ranges::all_of(groups.diodes, [](const shader::GroupSource &diode) {

@@ -32,9 +32,9 @@ struct SumModel {
 std::optional<std::uint32_t> inverse_powers(const SumModel &model);
 
 // Has the moments of `groups` summed by powers where the model allows and it is worth it
-// (moment_polynomials.h).
+// (moment_polynomials.h). `host_sums`: else the host may have them so, place by place.
 void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
-                        const PathForms &allowed = {});
+                        const PathForms &allowed = {}, bool host_sums = false);
 
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light);

@@ -18,7 +18,7 @@ struct PlannedSetup {
   Scene scene = wall_at(2.0);
   Sensor sensor;
   std::vector<Illuminator> lights;
-  bool long_runs = true;
+  bool on_host = true;
 
   PlannedSetup() {
     sensor.resolution = {64, 64};
@@ -40,7 +40,7 @@ FramePlan plan(const PlannedSetup &setup, const Accuracy &accuracy, std::uint32_
   const Modulation signal = modulation_of(setup.sensor, {});
   const SumModel model = sum_model(lights, Backscatter::constant, all_face_the_light(camera, lights));
   return plan_frame(
-      {lights, projection.visible, setup.sensor, signal, model, Backscatter::constant, setup.long_runs},
+      {lights, projection.visible, setup.sensor, signal, model, Backscatter::constant, setup.on_host},
       accuracy, attempt);
 }
 
@@ -123,13 +123,13 @@ TEST_CASE("of many diodes those that are alike stand in long runs") {
   CHECK(alike.all.runs.size() == 1);
   CHECK(alike.all.blocks_per_run == 45);
   CHECK(alike.all.polynomials.tables.size() == 1);
-  many.long_runs = false;
+  many.on_host = false;
   const FramePlan short_runs = plan(many, {});
   CHECK(short_runs.all.polynomials.equal_weights);
   CHECK(short_runs.all.blocks_per_run == 15);
   REQUIRE((alike.claimed_m && short_runs.claimed_m));
   CHECK(*alike.claimed_m < 1.05 * *short_runs.claimed_m); // the rounding of long runs is hardly worse
-  many.long_runs = true;
+  many.on_host = true;
   many.lights[0].diodes[3].intensity_w_sr = 0.5;
   const FramePlan unequal = plan(many, {});
   CHECK_FALSE(unequal.all.polynomials.equal_weights);

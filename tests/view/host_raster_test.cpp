@@ -1,6 +1,7 @@
 // The host's raster leaves the bits of the device's.
 
 #include "tests/comparison/frame_bytes.h"
+#include "tests/comparison/light_formula.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"

@@ -17,7 +17,7 @@ constexpr std::size_t most_moments = 32; // of a sample
 class SumOnHost {
 public:
   SumOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
-      : buffers_(on.buffers), sums_(on, groups, scope),
+      : buffers_(on.buffers), sums_(on, groups, scope, false),
         sum_laws_(widest_sum_laws(on.options.host_vector_bits)) {}
 
   void sum(const shader::Strip &strip) const {

@@ -11,20 +11,23 @@ namespace {
 constexpr std::uint32_t blocks_at_once = 32;
 
 // Whether powers may stand for roots: where rounding is bounded as if they did, and something is summed so.
-bool takes_powers(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+bool takes_powers(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                  bool bounds_growth) {
   const bool are_summed = !scope.beforehand || scope.tests_facing;
-  return are_summed && (groups.polynomials.powers > 0 || !on.modulation.keeps_terms);
+  const bool are_bounded = groups.polynomials.powers > 0 || (groups.near_polynomials && bounds_growth);
+  return are_summed && (are_bounded || !on.modulation.keeps_terms);
 }
 
 } // namespace
 
-StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
+StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
+                     bool bounds_growth)
     : buffers_(on.buffers), samples_(on.buffers, on.scene.planes, on.sensor, scope.depth_records,
                                      vulkan::uses_fp64(on.device, on.options.precision)),
       blocks_(scope.blocks), lambert_(on.model.backscatter == shader::backscatter_lambert),
       shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
       shining_(shining_diodes(groups)),
-      batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(), takes_powers(on, groups, scope)) {}
+      batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(), takes_powers(on, groups, scope, bounds_growth)) {}
 
 LawSums StripSums::of(const shader::Strip &strip) const {
   return {.samples = samples_.of(strip),

@@ -14,7 +14,8 @@ using LoopOverPart = std::function<void(std::uint32_t first, std::uint32_t last)
 
 class StripSums {
 public:
-  StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);
+  // `bounds_growth`: the loops tell by what rounding grows where tables stand for roots.
+  StripSums(const PassSetup &on, const SourceGroups &groups, const SumScope &scope, bool bounds_growth);
 
   // Without a place for its moments.
   LawSums of(const shader::Strip &strip) const;

@@ -17,8 +17,6 @@ struct Terms {
 
 // The factor by which the terms of the weights' polynomial in u, all taken as positive, may exceed it.
 inline Floats growth_at(const RunForm &form, const PointView &view) {
-  if (form.powers == 0)
-    return all(1.0f);
   const Floats per_rho = inverse(view.rho), t = form.run->radius_m * per_rho;
   const Floats across2 = view.position[0] * view.position[0] + view.position[1] * view.position[1];
   const Floats u = t * (t + 2.0f * (form.coplanar ? root(larger(across2, all(tiny))) * per_rho : all(1.0f)));
@@ -45,7 +43,9 @@ inline Floats power_at_least(const Floats &x, float exponent) {
   return smaller(1.0001f * fraction * reinterpret_cast<Floats>(of_two), all(1e4f));
 }
 
-inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &weights) {
+// `near_growth`: of the host's tables, where the frame's polynomials have no powers.
+inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &weights,
+                      const Floats &near_growth) {
   const shader::LightRun &run = *form.run;
   const Floats none = all(0.0f), per_range = inverse(view.rho - run.radius_m),
                per_range2 = per_range * per_range;
@@ -65,7 +65,7 @@ inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &
     const Floats part = smaller(larger(weights * inverse(all_light), all(1e-37f)), all(1.0f));
     terms += run.beam_edges * weights * power_at_least(part, -run.beam_edge_root);
   }
-  const Floats growth = growth_at(form, view);
+  const Floats growth = form.powers > 0 ? growth_at(form, view) : near_growth;
   const Ints shines = weights > 0.0f; // where there is no light nothing can be off
   // A hair more, as inverses and roots are rounded.
   constexpr float at_least = 1.00001f;

@@ -22,14 +22,27 @@ inline void find_reach(const LawSums &of, const VectorSamples &samples, Reach &r
 }
 
 // For each sample, the first of the run's tables that reaches so far, or the number of tables.
-inline Ints tables_of(const VectorSamples &samples, const RunOfBatches &run, const RunView &view) {
+inline Ints tables_of(const RunOfBatches &run, const Floats &largest_u) {
   Ints table = all(0);
-  if (run.table_count == 0)
-    return table;
-  const Floats largest = largest_u(samples, run, view);
   for (std::uint32_t i = 0; i < run.table_count; ++i)
-    table -= largest > run.tables[i].largest_u;
+    table -= largest_u > run.tables[i].largest_u;
   return table;
+}
+
+// The factor by which the terms of a table's weights, all taken as positive, may exceed their first sum; 1
+// where roots are drawn.
+inline Floats growth_of(const RunOfBatches &run, const Ints &table, const Floats &largest_u) {
+  Floats growth = all(1.0f);
+  for (std::uint32_t t = 0; t < run.table_count; ++t) {
+    const Ints takes = table == static_cast<std::int32_t>(t);
+    if (bits_of(takes) == 0)
+      continue;
+    Floats sum = all(0.0f);
+    for (std::uint32_t i = run.tables[t].powers; i-- > 0;)
+      sum = sum * largest_u + std::abs(run.tables[t].of_moments[0][i]);
+    growth = takes != 0 ? sum : growth;
+  }
+  return growth;
 }
 
 // Moments from sums of powers for the samples that a table is for, and behind them the first sum.
@@ -54,10 +67,13 @@ public:
       find_reach(of, samples, reach_);
   }
 
-  // The moments of a run, m^-2 m^k.
-  void sum(const RunOfBatches &run, Floats *moment) const {
+  // The moments of a run, m^-2 m^k, and, where it is asked for, what rounding grows by.
+  void sum(const RunOfBatches &run, Floats *moment, Floats *growth = nullptr) const {
     const RunView view = view_from(samples_, run);
-    const Ints table = tables_of(samples_, run, view);
+    const Floats u = run.table_count > 0 ? largest_u(samples_, run, view) : all(0.0f);
+    const Ints table = tables_of(run, u);
+    if (growth)
+      *growth = growth_of(run, table, u);
     sum_powers(run, view, table, moment);
     const auto beyond = static_cast<std::int32_t>(run.table_count);
     if (bits_of(table == beyond) != 0) {

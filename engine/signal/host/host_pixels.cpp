@@ -9,10 +9,12 @@
 #include "engine/signal/host/pixel_loops.h"
 #include "engine/vulkan/commands.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -33,6 +35,7 @@ public:
   void make(const shader::Strip &strip) const;
 
 private:
+  void report(const PixelClaims &claims) const;
   void add_coefficients(const SourceGroups &groups, const SumModel &model);
 
   const StripBuffers &buffers_;
@@ -44,7 +47,8 @@ private:
   std::vector<shader::Tone> tones_;
   std::vector<shader::Frequency> frequencies_;
   std::optional<float> backscatter_;
-  bool vignetting_, lit_, holds_, keeps_bounds_;
+  bool vignetting_, lit_, holds_, keeps_bounds_, reports_kept_;
+  const vulkan::Buffer *later_;
   std::uint32_t first_tap_, bound_;
   std::vector<std::array<float, 2>> tap_phasors_; // of those that are kept
   PixelLoops loops_;
@@ -74,14 +78,14 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
 }
 
 PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
-    : buffers_(on.buffers), sums_(on, groups, scope),
+    : buffers_(on.buffers), sums_(on, groups, scope, true),
       run_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand).front()),
       form_(form_of(on, groups, scope)), tones_(on.modulation.all_tones()),
       frequencies_(
           frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
       backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
       lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
-      first_tap_(row_of(&Return::taps).slot.index),
+      reports_kept_(on.modulation.reports_kept), later_(scope.later), first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
@@ -125,6 +129,7 @@ void PixelsOnHost::add_coefficients(const SourceGroups &groups, const SumModel &
 
 void PixelsOnHost::make(const shader::Strip &strip) const {
   const LawSums sums = sums_.of(strip);
+  auto *later = later_ ? later_->mapped_as<shader::PixelList>() : nullptr;
   const PixelWork work{.sums = sums,
                        .form = form_,
                        .tones = tones_.data(),
@@ -135,15 +140,36 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
                        .lit = lit_ ? buffers_.lit.mapped_as<std::uint32_t>() : nullptr,
                        .channels = buffers_.channels.mapped_as<float>(),
                        .plane = sums.plane,
-                       .errors = holds_ ? buffers_.sum.mapped_as<float>() : nullptr,
+                       .holds = holds_,
+                       .later = later ? reinterpret_cast<std::uint32_t *>(later + 1) : nullptr,
+                       .later_count = later ? &later->count : nullptr,
                        .keeps_bounds = keeps_bounds_,
                        .first_tap = first_tap_,
                        .bound = bound_,
                        .kept_taps = static_cast<std::uint32_t>(tap_phasors_.size()),
                        .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data())};
-  sums_.for_each_part(
-      sums, [&](std::uint32_t first, std::uint32_t last) { loops_.of_rows(work, first, last); },
-      [&](std::uint32_t first, std::uint32_t last) { loops_.of_blocks(work, first, last); });
+  std::mutex reporting;
+  const auto make_with = [&](const auto &loop) {
+    return [&, loop](std::uint32_t first, std::uint32_t last) {
+      const PixelClaims claims = loop(work, first, last);
+      const std::lock_guard lock(reporting);
+      report(claims);
+    };
+  };
+  sums_.for_each_part(sums, make_with(loops_.of_rows), make_with(loops_.of_blocks));
+}
+
+void PixelsOnHost::report(const PixelClaims &claims) const {
+  if (!holds_)
+    return;
+  auto &words = *buffers_.violations.mapped_as<shader::BudgetViolations>();
+  if (reports_kept_) {
+    words.kept_m = std::max(words.kept_m, claims.kept_m);
+    words.kept_amplitude = std::max(words.kept_amplitude, claims.kept_amplitude);
+  }
+  words.returns += claims.returns_beyond;
+  words.worst_m = std::max(words.worst_m, claims.worst_m);
+  words.amplitude = std::max(words.amplitude, claims.worst_amplitude);
 }
 
 } // namespace
@@ -154,7 +180,7 @@ Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const Sum
           .reads = ids | (scope.shadowed ? visibility_bits : no_resource) |
                    (on.modulation.lit ? visibility_counts : no_resource) |
                    (scope.blocks ? block_lists : no_resource),
-          .writes = channels | ::pmdsim::sums,
+          .writes = channels | (scope.later ? pixel_lists : no_resource),
           .record = [](const Recording &at) { vulkan::host_barrier(at.commands); },
           .store = [pixels](const Recording &at, Measurement &) { pixels->make(at.of_strip()); }};
 }

@@ -56,13 +56,4 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   return {distance_m, frequency.amplitude_fixed + relative};
 }
 
-// For the frame's claim: both negative where they are not within what was asked for, or no numbers.
-inline Errors held(const shader::Frequency &frequency, const Errors &errors) {
-  const Ints is_kept =
-      (errors.distance_m <= frequency.limit_m) & (errors.amplitude <= frequency.amplitude_limit);
-  const auto negated = [](const Floats &error) { return error > 0.0f ? -error : all(-1.0f); };
-  return {is_kept ? errors.distance_m : negated(errors.distance_m),
-          is_kept ? errors.amplitude : negated(errors.amplitude)};
-}
-
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -3,7 +3,7 @@
 // does.
 #include "engine/light/host/point_sums.h"
 #include "engine/light/host/vector_sum.h"
-#include "engine/signal/host/pixel_bounds.h"
+#include "engine/signal/host/pixel_claims.h"
 #include "engine/signal/host/pixel_loops.h"
 
 #include <algorithm>
@@ -20,8 +20,9 @@ double of_pair(const shader::vec2 &pair) { return static_cast<double>(pair.x) + 
 
 // The sums over the sources at a vector's samples.
 struct Light {
-  Floats moment[most_host_sums] = {};
-  Floats weights = {}; // their sum
+  Floats moment[most_host_sums]; // as many as there are
+  Floats weights;                // their sum
+  Floats growth = all(1.0f);     // of rounding, where tables stand for roots
 };
 
 void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
@@ -31,8 +32,10 @@ void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
 }
 
 void sum_sources(const PixelWork &of, VectorSamples &samples, Light &light) {
+  std::fill_n(light.moment, of.form.moments + 1, Floats{});
   find_surfaces(of.sums.samples, samples);
-  VectorSum(of.sums, samples).sum(of.sums.runs[0], light.moment);
+  const bool asks_growth = of.holds && of.form.powers == 0;
+  VectorSum(of.sums, samples).sum(of.sums.runs[0], light.moment, asks_growth ? &light.growth : nullptr);
   light.weights = light.moment[of.form.moments];
 }
 
@@ -135,16 +138,14 @@ void store_phase(const PixelWork &of, const shader::Frequency &frequency, const 
                  range_m);
 }
 
-// What a pixel's return may be off by.
-void hold(const PixelWork &of, std::uint32_t f, const VectorSamples &samples, const Terms &terms,
-          const Floats &size) {
-  const shader::Frequency &frequency = of.frequencies[f];
+// What the pixels' returns may be off by.
+void hold(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+          const Terms &terms, const Floats &size, HeldPixels &held) {
   const Errors errors = errors_of(frequency, terms, size);
   if (of.keeps_bounds)
     store_channels(of, frequency.first_channel + of.bound, samples,
                    size > 0.0f ? errors.distance_m : all(std::numeric_limits<float>::quiet_NaN()), all(0.0f));
-  const Errors left = held(frequency, errors);
-  store_pairs(of.errors + std::size_t{2} * f * of.plane, samples, left.distance_m, left.amplitude);
+  held.add(frequency, samples, errors);
 }
 
 // B over the surface's cosine, with the lens's vignetting.
@@ -170,27 +171,27 @@ void store_lit(const PixelWork &of, const VectorSamples &samples) {
                  all(0.0f));
 }
 
-void store_nothing(const PixelWork &of, const VectorSamples &samples) {
+void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels &held) {
   const Floats none = all(0.0f), nan = all(std::numeric_limits<float>::quiet_NaN());
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
     store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
     store_taps(of, of.frequencies[f], samples, Complex());
-    if (of.errors)
-      hold(of, f, samples, {none, none}, none);
+    if (of.holds)
+      hold(of, of.frequencies[f], samples, {none, none}, none, held);
   }
   if (of.lit)
     store_lit(of, samples);
 }
 
 void store_pixels(const PixelWork &of, const VectorSamples &samples, const PointView &view,
-                  const Light &light) {
+                  const Light &light, HeldPixels &held) {
   const Floats none = all(0.0f), backscatter = backscatter_of(of, samples);
   const Ints sees = load<Ints>(samples.sees) != 0;
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
   const Floats range_m = sees ? narrow(view.range) : all(std::numeric_limits<float>::quiet_NaN());
   Terms terms{};
-  if (of.errors) {
-    terms = terms_of(of.form, view, light.weights);
+  if (of.holds) {
+    terms = terms_of(of.form, view, light.weights, light.growth);
     terms = {shines ? backscatter * terms.light : none, shines ? backscatter * terms.weights : none};
   }
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
@@ -205,34 +206,39 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Point
                  all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
     store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)),
                 range_m);
-    if (of.errors)
-      hold(of, f, samples, terms, size);
+    if (of.holds)
+      hold(of, frequency, samples, terms, size, held);
   }
   if (of.lit)
     store_lit(of, samples);
 }
 
-void make_pixels(const PixelWork &of, VectorSamples &samples) {
+void make_pixels(const PixelWork &of, VectorSamples &samples, HeldPixels &held) {
   find_samples(of.sums.samples, samples);
   const int seen = static_cast<int>(std::find(samples.sees, samples.sees + lanes, 1) - samples.sees);
   if (seen == lanes)
-    return store_nothing(of, samples);
+    return store_nothing(of, samples, held);
   fill_gaps(samples, seen);
   const PointView view =
       see_points(samples, of.sums.samples.planes, *of.form.run, of.form.lambert || of.form.tests_facing);
   Light light;
   sum_light(of, samples, view, light);
-  store_pixels(of, samples, view, light);
+  store_pixels(of, samples, view, light, held);
+  held.end_vector(samples);
 }
 
-void make_rows(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+PixelClaims make_rows(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+  HeldPixels held(of);
   for_each_vector_of_rows(of.sums.samples.strip.columns, first, last,
-                          [&](VectorSamples &samples) { make_pixels(of, samples); });
+                          [&](VectorSamples &samples) { make_pixels(of, samples, held); });
+  return held.claims();
 }
 
-void make_blocks(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+PixelClaims make_blocks(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+  HeldPixels held(of);
   for_each_vector_of_blocks(of.sums.blocks, first, last,
-                            [&](VectorSamples &samples) { make_pixels(of, samples); });
+                            [&](VectorSamples &samples) { make_pixels(of, samples, held); });
+  return held.claims();
 }
 
 } // namespace

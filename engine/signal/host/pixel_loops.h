@@ -21,7 +21,9 @@ struct PixelWork {
   const std::uint32_t *lit; // sources that reach a sample; nullptr where they are no channel
   float *channels;          // pair by pair (shaders/shared/interface.h)
   std::uint32_t plane;      // pixels of a channel, padding included
-  float *errors;            // as in ClaimsConstants; nullptr: no error was asked for
+  bool holds;               // an error was asked for
+  // The list of pixels that may be beyond it and its length, which threads share; nullptr: they are counted.
+  std::uint32_t *later, *later_count;
   bool keeps_bounds;
   // Of each frequency's channels, the pairs in which taps and bounds begin.
   std::uint32_t first_tap, bound;
@@ -29,10 +31,18 @@ struct PixelWork {
   const float (*tap_phasors)[2]; // exp(j 2 pi k / N)
 };
 
+// What the returns of some pixels may be off by, as distance and as relative amplitude: the worst of those
+// within what was asked for, and of the others, where these are counted.
+struct PixelClaims {
+  float kept_m, kept_amplitude;
+  std::uint32_t returns_beyond;
+  float worst_m, worst_amplitude;
+};
+
 // Makes the channels of some rows, or of listed blocks, the last one excluded. One for each instruction set.
 struct PixelLoops {
-  void (*of_rows)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
-  void (*of_blocks)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
+  PixelClaims (*of_rows)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
+  PixelClaims (*of_blocks)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
 };
 
 } // namespace pmdsim
