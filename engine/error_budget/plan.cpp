@@ -19,6 +19,9 @@ namespace {
 // The share that the reduced set may take in each plan of what rounding leaves of the error asked for. The
 // rest is for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
+// The share that series of fewer terms may take in each plan; no more than is worth it.
+constexpr double share_of_series[frame_plans] = {0.1, 0.02, 0.0};
+constexpr double largest_tolerance = 0x1p-14;
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
 // error than rounding does, or this share.
 constexpr double least_share_of_reduction = 0.02;
@@ -90,21 +93,43 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double cond
                   accuracy.max_amplitude_error, bound.amplitude(1.0)));
 }
 
-SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision) {
+// What a plan lets series leave out of a sum in float.
+double tolerance_of(const LightFacts &view, Precision precision, const Accuracy &accuracy, double share) {
+  if (precision == Precision::fp64)
+    return 0.0;
+  const std::vector<double> wavenumbers = wavenumbers_rad_m(view.modulation);
+  const double angle_rad = 2.0 * *std::ranges::max_element(wavenumbers) * accuracy.max_error_m;
+  return std::min(share * std::min(angle_rad, accuracy.max_amplitude_error), largest_tolerance);
+}
+
+double growth_of(const SourceGroups &groups) {
+  return groups.near_polynomials ? groups.near_polynomials->growth : groups.polynomials.growth;
+}
+
+// In runs of at most so many blocks.
+SourceGroups in_runs_of(std::uint32_t most_blocks, const LightFacts &view,
+                        const std::vector<CameraIlluminator> &lights, Precision precision, double tolerance) {
   const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
-  const auto in_runs_of = [&](std::uint32_t most_blocks) {
-    SourceGroups groups = group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks);
-    if (precision == Precision::fp32 && view.modulation.by_moments())
-      choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed,
-                         view.on_host && view.sensor.samples == 1);
-    return groups;
-  };
-  SourceGroups groups = in_runs_of(usual_run_blocks);
+  SourceGroups groups =
+      group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks, tolerance);
+  if (precision == Precision::fp32 && view.modulation.by_moments())
+    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed,
+                       view.on_host && view.sensor.samples == 1);
+  return groups;
+}
+
+SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
+                       Precision precision, double tolerance = 0.0) {
+  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance);
+  // What series leave out counts as rounding does, which grows.
+  if (const double growth = growth_of(groups); growth > 1.0 && tolerance > 0.0) {
+    tolerance /= growth;
+    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance);
+  }
   // A window of shadows' bits holds no long run.
   const bool long_runs =
       view.on_host && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
-  return long_runs ? in_runs_of(long_run_blocks) : groups;
+  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance) : groups;
 }
 
 // All diodes as they are summed in a precision, and what rounding may do to that.
@@ -129,7 +154,8 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    SourceGroups groups = groups_of(view, view.lights, precision);
+    SourceGroups groups = groups_of(view, view.lights, precision,
+                                    tolerance_of(view, precision, accuracy, share_of_series[attempt]));
     const auto bound = bound_of(view, groups, precision, view.sensor.samples);
     // With one sample a pixel, near pixels may pass to a class in double; with several, that takes too long.
     // Where shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart,
@@ -174,8 +200,7 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
 double largest_growth(const FramePlan &plan) {
   double growth = 1.0;
   for (const SourceGroups *groups : {&plan.all, &plan.reduced, &plan.uniform_groups})
-    growth = std::max({growth, groups->polynomials.growth,
-                       groups->near_polynomials ? groups->near_polynomials->growth : 1.0});
+    growth = std::max(growth, growth_of(*groups));
   return growth;
 }
 
@@ -372,7 +397,8 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_reduction[attempt]);
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
-  plan.reduced = groups_of(view, light.illuminators, plan.precision);
+  plan.reduced = groups_of(view, light.illuminators, plan.precision,
+                           tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]));
   plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   const std::uint32_t samples = view.sensor.samples;

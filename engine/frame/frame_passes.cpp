@@ -69,7 +69,8 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
           .channels = ChannelLayout(modulation).channels(),
           .visibility_words = modulation.lit ? shader::bundles_per_window : 0,
-          .held_errors = modulation.keeps_terms ? modulation.frequencies() : 0};
+          .held_errors = modulation.keeps_terms ? modulation.frequencies() : 0,
+          .terms = modulation.keeps_terms && !path.keeps_depths_only()};
 }
 
 // The points of all samples, or those of `list`, for a sum of that precision.
@@ -218,14 +219,14 @@ void demodulate_records(const FrameBasis &on, const SourceGroups &groups, SumSco
   const bool settles = holds_pixels(on.modulation);
   if (on.path.direct) {
     if (settles && !on.path.host_pixels)
-      graph.add_to_window(claims_pass(on, errors_of_direct_pixels(on.buffers), scope.later));
+      graph.add_to_window(claims_pass(on, held_errors(on.buffers, HeldErrors::By::direct_pixels), scope.later));
     return;
   }
   if (on.plan.bound_beforehand)
     scope.bound = worse_of(*scope.bound, *on.plan.bound_beforehand);
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
   if (settles)
-    graph.add_after(claims_pass(on, errors_of_demodulation(on.buffers), scope.later));
+    graph.add_after(claims_pass(on, held_errors(on.buffers, HeldErrors::By::demodulated_depths), scope.later));
 }
 
 // A class of pixels, sample by sample: all of them, or those of a list.
@@ -252,6 +253,8 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
     graph.add_after(points_of(on, pixels->precision, list));
   add_sum(on, groups, of_windows, scope, graph);
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
+  if (leaves_errors(on.modulation, scope))
+    graph.add_after(claims_pass(on, held_errors(on.buffers, HeldErrors::By::demodulated_samples), later));
 }
 
 // Counts the work of the classes that follow, for which the last one has listed pixels.

@@ -162,25 +162,25 @@ Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uin
   return run;
 }
 
-// As good as float32's own rounding, and where a wavelength is long no more than 2^-18 of e.
+// As good as float32's own rounding, and where a wavelength is long no more than 2^-18 of e; or within a
+// tolerance.
 constexpr double largest_weight_error = 0x1p-23, largest_angle_error_rad = 0x1p-24;
-bool is_exact_enough(const Run &run, double phase_rad, double part = 1.0) {
-  return run.weight_error <= part * largest_weight_error &&
-         run.angle_error_rad <= part * std::min(largest_angle_error_rad, 0x1p-18 * phase_rad);
+bool is_exact_enough(const Run &run, double phase_rad, double tolerance, double part = 1.0) {
+  const double angle_rad = std::min(largest_angle_error_rad, 0x1p-18 * phase_rad);
+  return run.weight_error <= part * std::max(largest_weight_error, tolerance) &&
+         run.angle_error_rad <= part * std::max(angle_rad, tolerance);
 }
 constexpr double near_part = 0.25;
-static_assert(near_weight_error == near_part * largest_weight_error &&
-              near_angle_error_rad == near_part * largest_angle_error_rad);
 
 // With the fewest powers that are exact enough.
 std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach,
                                                           std::uint32_t inverse_powers, std::uint32_t moments,
-                                                          double wavenumber_rad_m) {
+                                                          double wavenumber_rad_m, double tolerance) {
   if (!std::isfinite(reach.most_stretch))
     return std::nullopt;
   for (std::uint32_t powers = 1; powers <= most_powers; ++powers) {
     const Run run = make_run(reach, inverse_powers, moments, powers, wavenumber_rad_m);
-    if (is_exact_enough(run, wavenumber_rad_m * reach.path_difference_m))
+    if (is_exact_enough(run, wavenumber_rad_m * reach.path_difference_m, tolerance))
       return std::pair(powers, run);
   }
   return std::nullopt;
@@ -199,6 +199,11 @@ bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32
 
 } // namespace
 
+double near_weight_error(double tolerance) { return near_part * std::max(largest_weight_error, tolerance); }
+double near_angle_error_rad(double tolerance) {
+  return near_part * std::max(largest_angle_error_rad, tolerance);
+}
+
 std::vector<std::uint32_t> near_powers(std::uint32_t of_frame) {
   std::vector<std::uint32_t> powers{4, 6, 8};
   if (of_frame == 0 || of_frame > powers.back())
@@ -208,7 +213,7 @@ std::vector<std::uint32_t> near_powers(std::uint32_t of_frame) {
 
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
-                                                    std::uint32_t powers) {
+                                                    std::uint32_t powers, double tolerance) {
   const double phase_rad = wavenumber_rad_m * reach.path_difference_m;
   std::optional<NearPolynomials> widest;
   constexpr int steps = 10;
@@ -216,7 +221,7 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
   for (int step = 0; step < steps; ++step) {
     const double u = 0.5 * (within + beyond);
     const Run run = fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m);
-    const bool is_enough = is_exact_enough(run, phase_rad, near_part);
+    const bool is_enough = is_exact_enough(run, phase_rad, tolerance, near_part);
     (is_enough ? within : beyond) = u;
     if (is_enough)
       widest = NearPolynomials{u, run.table};
@@ -226,14 +231,15 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
 
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
                                                         std::uint32_t inverse_powers, std::uint32_t moments,
-                                                        double wavenumber_rad_m) {
+                                                        double wavenumber_rad_m, double tolerance) {
   MomentPolynomials bound;
   for (const std::uint32_t powers : near_powers(0))
     for (std::size_t i = 0; i < reaches.size(); ++i) {
       const PathDifference &reach = reaches[i];
       if (i > 0 && reach == reaches[i - 1])
         continue;
-      const auto near = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers);
+      const auto near =
+          fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers, tolerance);
       if (!near)
         continue;
       std::vector<Coefficients> sizes;
@@ -245,13 +251,14 @@ std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDiff
     }
   if (bound.powers == 0)
     return std::nullopt;
-  bound.weight_error = near_weight_error;
-  bound.angle_error_rad = near_angle_error_rad;
+  bound.weight_error = near_weight_error(tolerance);
+  bound.angle_error_rad = near_angle_error_rad(tolerance);
   return bound;
 }
 
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
-                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity) {
+                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity,
+                                  double tolerance) {
   if (moments > shader::largest_moments)
     return {};
   MomentPolynomials sums;
@@ -260,7 +267,7 @@ MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::
       sums.tables.push_back(sums.tables.back());
       continue;
     }
-    const auto shortest = shortest_run(reach, inverse_powers, moments, wavenumber_rad_m);
+    const auto shortest = shortest_run(reach, inverse_powers, moments, wavenumber_rad_m, tolerance);
     if (!shortest)
       return {};
     const auto &[powers, run] = *shortest;

@@ -41,11 +41,12 @@ struct MomentPolynomials {
   double growth = 1.0, path_terms_m = 0.0;
 };
 
-// `reaches` are the runs'; `moments` and wavenumber_rad_m as in SourceGroups, `least_intensity` that of a
-// diode that shines, relative. No powers where the polynomials would be longer than is worth it, or where W
+// `reaches` are the runs'; `moments`, wavenumber_rad_m and `tolerance` as in SourceGroups, `least_intensity`
+// that of a diode that shines, relative. No powers where the polynomials would be longer than is worth it, or where W
 // could leave float's range.
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
-                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity);
+                                  std::uint32_t moments, double wavenumber_rad_m, double least_intensity,
+                                  double tolerance = 0.0);
 
 // Polynomials of so many powers for places where |u| is at most `largest_u`: the widest whose errors are at
 // most those below, and a quarter of what fit_polynomials allows, whose arguments these are.
@@ -56,15 +57,16 @@ struct NearPolynomials {
 // The numbers of powers that such tables have, the fewest first, beside a frame's polynomials of `of_frame`
 // powers; 0: it has none.
 std::vector<std::uint32_t> near_powers(std::uint32_t of_frame);
-inline constexpr double near_weight_error = 0x1p-25, near_angle_error_rad = 0x1p-26;
+double near_weight_error(double tolerance);
+double near_angle_error_rad(double tolerance);
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
-                                                    std::uint32_t powers);
+                                                    std::uint32_t powers, double tolerance);
 
 // The errors and the growth of all of these tables where a frame has no polynomials, and nearer places draw
 // roots; it has no tables. Nothing where there are none, either.
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
                                                         std::uint32_t inverse_powers, std::uint32_t moments,
-                                                        double wavenumber_rad_m);
+                                                        double wavenumber_rad_m, double tolerance);
 
 } // namespace pmdsim

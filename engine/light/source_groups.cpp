@@ -216,10 +216,10 @@ void add_runs(const Group &group, Precision precision, SourceGroups &result, Dia
 
 } // namespace
 
-std::uint32_t moments_needed(double phase_rad, double remainder) {
+std::uint32_t moments_needed(double phase_rad, double remainder, double tolerance) {
   std::uint32_t k = 1;
   double term = phase_rad; // (kappa e)^k / k!
-  while (term > largest_term(phase_rad, remainder))
+  while (term > std::max(largest_term(phase_rad, remainder), tolerance))
     term *= phase_rad / ++k;
   return k;
 }
@@ -229,11 +229,12 @@ namespace {
 // `run_blocks`: nothing where the cheapest are to be found, of `most_blocks` at most.
 SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
                      const std::vector<VisibleBox> &visible, double wavenumber_rad_m, Precision precision,
-                     std::uint32_t most_blocks, std::optional<std::uint32_t> run_blocks) {
+                     std::uint32_t most_blocks, std::optional<std::uint32_t> run_blocks, double tolerance) {
   std::vector<NumberedDiode> ordered = numbered(illuminators);
   std::span<NumberedDiode> left = ordered;
   Grouping grouping(visible, wavenumber_rad_m);
   SourceGroups result;
+  result.tolerance = tolerance;
   result.diode_count = static_cast<std::uint32_t>(ordered.size());
   for (const auto &[diodes, phase_rad] : illuminators) {
     const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);
@@ -250,7 +251,8 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
     result.radius_m = std::max(result.radius_m, group.reach.radius_m);
     result.radius_over_range = std::max(result.radius_over_range, group.reach.radius_over_range());
   }
-  result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision));
+  result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision),
+                                  tolerance);
   result.blocks_per_run = run_blocks ? *run_blocks : cheapest_run_blocks(grouping.groups(), most_blocks);
   Diagrams diagrams;
   for (const Group &group : grouping.groups())
@@ -263,15 +265,16 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
 
 SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                           const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                          Precision precision, std::uint32_t most_blocks) {
+                          Precision precision, std::uint32_t most_blocks, double tolerance) {
   return grouped(illuminators, visible, wavenumber_rad_m, precision,
-                 precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks, std::nullopt);
+                 precision == Precision::fp64 ? largest_precise_run_blocks : most_blocks, std::nullopt,
+                 tolerance);
 }
 
 SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
                             const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                             const SourceGroups &groups) {
-  return grouped(illuminators, visible, wavenumber_rad_m, Precision::fp64, 0, groups.blocks_per_run);
+  return grouped(illuminators, visible, wavenumber_rad_m, Precision::fp64, 0, groups.blocks_per_run, 0.0);
 }
 
 std::uint32_t shining_diodes(const SourceGroups &groups) {

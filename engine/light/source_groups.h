@@ -43,6 +43,9 @@ struct SourcePosition {
 
 struct SourceGroups {
   std::uint32_t moments = 1; // K, the same for every group
+  // What series may leave out of a sum beyond rounding: of the relative weights, and as an angle at the
+  // highest frequency, rad.
+  double tolerance = 0.0;
   std::uint32_t blocks_per_run =
       1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
   double largest_intensity_w_sr = 0; // what GroupSource::intensity is relative to
@@ -72,15 +75,15 @@ constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                           const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                           Precision precision = Precision::fp32,
-                          std::uint32_t most_blocks = usual_run_blocks);
+                          std::uint32_t most_blocks = usual_run_blocks, double tolerance = 0.0);
 
 // The same diodes as `groups` in the same order and runs, in fp64.
 SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,
                             const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
                             const SourceGroups &groups);
 
-// The smallest K whose remainder (kappa * e)^K / K! is at most that.
-std::uint32_t moments_needed(double phase_rad, double remainder);
+// The smallest K whose remainder (kappa * e)^K / K! is at most that, or within the tolerance.
+std::uint32_t moments_needed(double phase_rad, double remainder, double tolerance = 0.0);
 
 // The number of diodes that are no padding.
 std::uint32_t shining_diodes(const SourceGroups &groups);

@@ -51,11 +51,12 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
   const auto inverse = inverse_powers(model);
   if (!inverse || !allowed.polynomial_moments)
     return;
-  groups.polynomials =
-      fit_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m, least_intensity(groups));
+  groups.polynomials = fit_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m,
+                                       least_intensity(groups), groups.tolerance);
   if (groups.polynomials.powers == 0) {
     if (host_sums)
-      groups.near_polynomials = bound_near_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m);
+      groups.near_polynomials = bound_near_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m,
+                                                       groups.tolerance);
     return;
   }
   groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);

@@ -39,8 +39,9 @@ public:
 
 private:
   std::span<const glm::ivec2> errors_of(const shader::Strip &strip, std::uint32_t tone) const {
-    return {errors_.in.mapped_as<const glm::ivec2>() + std::size_t{tone} * errors_.plane(strip),
-            std::size_t{strip.columns} * strip.rows};
+    const auto *errors =
+        reinterpret_cast<const glm::ivec2 *>(errors_.in.mapped().data() + errors_.offset(strip));
+    return {errors + std::size_t{tone} * errors_.plane(strip), std::size_t{strip.columns} * strip.rows};
   }
 
   void settle_pixel(const shader::Strip &strip, std::uint32_t pixel, shader::BudgetViolations &words) const {
@@ -86,8 +87,11 @@ bool is_shared_with_host(const PassSetup &on, const HeldErrors &errors, const vu
 
 } // namespace
 
-HeldErrors errors_of_direct_pixels(const StripBuffers &buffers) { return {buffers.sum, sums, true}; }
-HeldErrors errors_of_demodulation(const StripBuffers &buffers) { return {buffers.terms, terms, false}; }
+HeldErrors held_errors(const StripBuffers &buffers, HeldErrors::By by) {
+  if (by == HeldErrors::By::direct_pixels)
+    return {buffers.sum, sums, by};
+  return {buffers.terms, terms, by};
+}
 
 Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later) {
   if (is_shared_with_host(on, errors, later))
@@ -103,7 +107,7 @@ Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Bu
           .record = [=, &buffers = on.buffers, tones = on.modulation.frequencies()](const Recording &at) {
             const shader::Strip &strip = at.of_strip();
             const std::uint32_t pixels = strip.columns * strip.rows;
-            const shader::ClaimsConstants constants{errors.in.words(),
+            const shader::ClaimsConstants constants{errors.in.words(errors.offset(strip)),
                                                     buffers.violations.words(),
                                                     address_of(later),
                                                     pixels,

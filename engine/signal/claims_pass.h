@@ -6,18 +6,21 @@
 
 namespace pmdsim {
 
-// Where those errors have been left: as ClaimsConstants::errors, in planes of samples or of pixels.
+// Where those errors have been left, as ClaimsConstants::errors: by direct_pixels.comp, by
+// demodulate_depths.comp, or by demodulate.comp, behind the terms of the samples.
 struct HeldErrors {
   const vulkan::Buffer &in;
   Resources resource;
-  bool of_samples;
+  enum class By { direct_pixels, demodulated_depths, demodulated_samples } by;
 
   std::uint32_t plane(const shader::Strip &strip) const {
-    return of_samples ? sample_count(strip) : strip.padded_pixels;
+    return by == By::direct_pixels ? sample_count(strip) : strip.padded_pixels;
+  }
+  vk::DeviceSize offset(const shader::Strip &strip) const {
+    return by == By::demodulated_samples ? 2 * sizeof(float) * vk::DeviceSize{sample_count(strip)} : 0;
   }
 };
-HeldErrors errors_of_direct_pixels(const StripBuffers &buffers);
-HeldErrors errors_of_demodulation(const StripBuffers &buffers);
+HeldErrors held_errors(const StripBuffers &buffers, HeldErrors::By by);
 
 // Goes behind the passes that leave them. Pixels that may be beyond what was asked for are listed in `later`,
 // or counted where there is none.

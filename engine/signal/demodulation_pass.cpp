@@ -2,6 +2,8 @@
 
 #include "engine/sampling/pixel_lists.h"
 #include "engine/signal/channel_layout.h"
+#include "engine/signal/claims_pass.h"
+#include "engine/signal/direct_pixels.h"
 #include "engine/vulkan/commands.h"
 #include "shaders/shared/constants.h"
 
@@ -26,6 +28,10 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
           {shader::constant_keeps_bounds, on.modulation.keeps_bounds},
           {shader::constant_reports_kept, on.modulation.keeps_terms && on.modulation.reports_kept},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};
+}
+
+bool leaves_errors(const Modulation &modulation, const SumScope &scope) {
+  return holds_pixels(modulation) && scope.list == nullptr;
 }
 
 namespace {
@@ -61,7 +67,7 @@ private:
   std::uint32_t frequencies_, at_once_;
   vk::DeviceSize sample_bytes_; // of the sum's planes of a frequency
   std::uint32_t lit_channel_, diodes_, side_;
-  bool single_run_, holds_;
+  bool single_run_, holds_, leaves_errors_;
   vulkan::Buffer records_, harmonics_; // shader::Frequency of each frequency; amplitudes
   vulkan::ComputePipeline first_;      // of the frequencies: stores the ground truth, too
   vulkan::ComputePipeline later_;      // all the others; empty where there are none
@@ -73,6 +79,7 @@ Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, cons
       at_once_(frequencies_at_once(on.modulation, scope)),
       lit_channel_(ChannelLayout(on.modulation).lit_channel()), diodes_(groups.diode_count),
       side_(on.sensor.samples), single_run_(groups.runs.size() == 1), holds_(on.modulation.keeps_terms),
+      leaves_errors_(leaves_errors(on.modulation, scope)),
       records_(vulkan::upload(on.device, frequency_records(on.modulation, groups.largest_intensity_w_sr,
                                                            scope.bound, groups.diode_count))),
       harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
@@ -90,6 +97,8 @@ vulkan::ComputePipeline Demodulation::make_pipeline(const PassSetup &on, bool fi
     return vulkan::shader_module(on.device, on.options.precision, name);
   };
   constants.set(shader::constant_lit_is_kept, first && on.modulation.lit);
+  if (!scope_.depth_records)
+    constants.set(shader::constant_holds_pixels, leaves_errors_);
   if (!scope_.depth_records)
     return {on.device, module("demodulate"), sizeof(shader::DemodulationConstants), constants};
   constants.merge({{shader::constant_surface_vectors, 0},
@@ -117,6 +126,9 @@ void Demodulation::record(const Recording &at) const {
 void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) const {
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
+  const HeldErrors errors = held_errors(buffers_, HeldErrors::By::demodulated_samples);
+  const vk::DeviceSize of_frequency = errors.offset(strip) + sizeof(shader::vec2) * frequency *
+                                                                 vk::DeviceSize{errors.plane(strip)};
   const shader::DemodulationConstants constants{buffers_.position.words(),
                                                 buffers_.sum.words(sample_bytes_ * plane * frequency),
                                                 buffers_.ids.words(),
@@ -126,7 +138,8 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
                                                 records_.words(frequency * sizeof(shader::Frequency)),
                                                 buffers_.lit.words(),
                                                 buffers_.terms.words(),
-                                                buffers_.violations.words(),
+                                                leaves_errors_ ? errors.in.words(of_frequency)
+                                                               : buffers_.violations.words(),
                                                 address_of(scope_.list),
                                                 address_of(scope_.later),
                                                 strip.columns,

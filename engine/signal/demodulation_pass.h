@@ -10,6 +10,9 @@ namespace pmdsim {
 Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                        bool leaves_truth = false);
 
+// Whether it leaves the errors that all pixels may have for claims_pass; else it settles its own.
+bool leaves_errors(const Modulation &modulation, const SumScope &scope);
+
 // The demodulation's specialization constants, for all shaders that do it; `first`: of the first frequency.
 vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScope &scope, bool first);
 

@@ -385,7 +385,7 @@ struct DemodulationConstants {
   uvec2 frequency;  // in: Frequency
   uvec2 lit;        // in: uint a sample, the diodes that reach it
   uvec2 terms;      // in, where terms are kept: sum of |terms| of each sample
-  uvec2 violations; // in and out, where terms are kept: BudgetViolations
+  uvec2 violations; // in and out, where terms are kept: BudgetViolations; or as ClaimsConstants::errors, of the frequency
   uvec2 list;       // in, where listed: PixelList and its pixels
   uvec2 later;      // out, where pixels pass on: PixelList of those that a later class sums again
   uint columns;     // of the strip

@@ -9,6 +9,7 @@ layout(push_constant, std430) uniform Constants { DemodulationConstants constant
 layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_depth_records) const uint depth_records = 0;
 layout(constant_id = constant_passes_on) const uint passes_on = 0;
+layout(constant_id = constant_holds_pixels) const uint holds_pixels = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
 vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
@@ -76,13 +77,15 @@ void pass_on(uint pixel) {
   append_pixel(PixelLists(constants.later), pixel);
 }
 
-// A return keeps what was asked for, or its pixel passes on, or the return is counted.
+// A return keeps what was asked for, or its pixel passes on, or the return is counted; for all pixels together by claims.comp.
 void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, float size) {
   vec2 terms = largest_amplitude(constants.harmonics) * sum.terms;
   float apart_m = sum.apart_m.y - sum.apart_m.x;
   Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0), apart_m);
   store_bound(to, frequency, pixel, size, errors);
-  if (is_kept(frequency, errors))
+  if (holds_pixels != 0)
+    store_words(constants.violations, pixel, floatBitsToUint(held(frequency, errors)));
+  else if (is_kept(frequency, errors))
     report_kept(constants.violations, errors);
   else if (passes_on != 0)
     pass_on(pixel);
