@@ -3,6 +3,7 @@
 // what can be promised of it; and whether that was kept.
 
 #include "engine/light/source_groups.h"
+#include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
 #include "engine/model/simulator_options.h"
@@ -24,6 +25,7 @@ struct LightFacts {
   bool on_host; // the device is the host's processor: its dispatches need not be short, and the host may sum
   PathForms allowed = {};
   bool painted = true; // some surface's backscatter is looked up
+  std::uint32_t window_bundles = shader::bundles_per_window; // of visibility bits that are there together
 };
 
 // The light's extent, for the uniform-pixel pass.

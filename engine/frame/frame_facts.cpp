@@ -42,6 +42,8 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   facts.paint = paint_use(facts.camera, request.scene);
   facts.has_doubles = vulkan::uses_fp64(device, options.precision);
   facts.host_is_device = device.is_cpu();
+  if (facts.host_is_device && options.allowed.host_sweep && facts.occluders.with_holes.empty())
+    facts.window_bundles = bundles_per_host_window;
   facts.largest_strip = largest_strip(device, facts.modulation, request.sensor);
   facts.projection = project_blocks(device, facts.camera, request.sensor, facts.largest_strip);
   return facts;

@@ -2,6 +2,7 @@
 // The frame as the host sees it before anything is planned or uploaded.
 
 #include "engine/light/camera_light.h"
+#include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
 #include "engine/light/tones.h"
 #include "engine/model/accuracy.h"
@@ -35,6 +36,7 @@ struct FrameFacts {
   std::uint32_t largest_strip; // samples
   bool has_doubles;            // the work done once a sample is done in them
   bool host_is_device;         // the device is the processor that the program runs on
+  std::uint32_t window_bundles = shader::bundles_per_window; // of visibility bits that are there together
 };
 
 FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, const FrameRequest &request);

@@ -48,9 +48,17 @@ TruthOfRecords truth_of_records(const vulkan::Device &device, const SimulatorOpt
   return truth;
 }
 
+// Of each sample.
+std::uint32_t visibility_words(const FrameFacts &facts, const std::vector<SourceWindow> &windows) {
+  std::uint32_t most = 0;
+  for (const SourceWindow &window : windows)
+    most = std::max(most, window.bundles);
+  return facts.modulation.lit ? most : 0;
+}
+
 // The layout of what a strip keeps of its samples.
 SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts, const FramePlan &plan,
-                       const FramePath &path) {
+                       const FramePath &path, std::uint32_t visibility_words) {
   const bool depth_only = path.keeps_depths_only();
   const Precision of_check =
       path.of(PixelsOf::precise) ? Precision::fp64 : path.check.value_or(plan.precision);
@@ -68,7 +76,7 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
           .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
           .channels = ChannelLayout(modulation).channels(),
-          .visibility_words = modulation.lit ? shader::bundles_per_window : 0,
+          .visibility_words = visibility_words,
           .held_errors = modulation.keeps_terms ? modulation.frequencies() : 0,
           .terms = modulation.keeps_terms && !path.keeps_depths_only()};
 }
@@ -382,21 +390,23 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
   FrameFacts facts = look(device, options, request);
   const FramePlan plan =
       plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation, facts.model,
-                  request.backscatter, device.is_cpu(), options.allowed, facts.paint.painted},
+                  request.backscatter, device.is_cpu(), options.allowed, facts.paint.painted, facts.window_bundles},
                  request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
   facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
   facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;
   const std::vector<SourceWindow> windows =
-      facts.modulation.lit ? plan_windows(plan.all) : std::vector{all_runs(plan.all)};
+      facts.modulation.lit ? plan_windows(plan.all, facts.window_bundles) : std::vector{all_runs(plan.all)};
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);
   const FramePath path = choose_path(facts, plan, request, windows.size(), backscatter, options.allowed);
+  const std::uint32_t words = visibility_words(facts, windows);
+  const std::uint32_t largest_strip = std::min(facts.largest_strip, samples_of_words(words));
   const std::vector<PlannedStrip> strips =
       plan_strips(request.sensor, facts.projection.blocks,
-                  options.max_strip_samples > 0 ? options.max_strip_samples : facts.largest_strip);
+                  options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip);
   auto memory = std::make_unique<FrameMemory>(FrameMemory{
-      make_strip_buffers(device, strips, facts.projection.blocks, layout_of(options, facts, plan, path),
+      make_strip_buffers(device, strips, facts.projection.blocks, layout_of(options, facts, plan, path, words),
                          options, std::move(spare.buffers)),
       {vulkan::upload(device, planes),
        upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),

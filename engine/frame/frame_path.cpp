@@ -27,14 +27,48 @@ Summation summation_of(const FrameFacts &facts, const SourceGroups &groups) {
                                          : Summation::moments;
 }
 
+// Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
+// of the pixel is filled.
+bool is_even(SampleGrid grid, const Sensor &sensor) {
+  return grid != SampleGrid::distorted && (sensor.samples == 1 || grid != SampleGrid::tiled);
+}
+
+// Where the host knows all of a pixel: it knows no paint.
+bool may_make_pixels_on_host(const FrameFacts &facts, const PathForms &allowed) {
+  return allowed.host_pixels && facts.host_is_device && facts.has_doubles && !facts.paint.painted;
+}
+
+// All but what the device would go on from.
+bool may_sum_on_host(const FramePath &path, const FrameFacts &facts, const SourceGroups &groups,
+                     const PathForms &allowed) {
+  return path.windows <= 1 && facts.host_is_device && allowed.host_sum &&
+         path.summation != Summation::per_diode && can_sum_on_host(groups);
+}
+
+// Pixels of the host may have any number of runs, those of the device one.
+bool fits_pixels(const FramePath &path, const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor,
+                 const PathForms &allowed) {
+  const Modulation &modulation = facts.modulation;
+  return allowed.direct_pixels && allowed.depth_records && sensor.samples == 1 &&
+         is_even(path.grid, sensor) && plan.precision == Precision::fp32 &&
+         modulation.waveform == shader::waveform_sine &&
+         modulation.frequencies() <= most_direct_frequencies &&
+         (path.single_run || (may_make_pixels_on_host(facts, allowed) &&
+                              may_sum_on_host(path, facts, plan.all, allowed)));
+}
+
 // Where it sums beforehand the device is as fast, so that only shaded samples go to the host.
-HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const SourceGroups &groups,
-                    const PathForms &allowed) {
-  if (path.windows > 1 || !facts.host_is_device || !allowed.host_sum ||
-      path.summation == Summation::per_diode || !can_sum_on_host(groups))
+HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                    const Sensor &sensor, const PathForms &allowed) {
+  if (!may_sum_on_host(path, facts, plan.all, allowed))
     return HostSum::none;
-  const bool beforehand = groups.polynomials.point_dimensions > 0 &&
-                          (facts.modulation.lit ? path.single_run : facts.model.all_facing);
+  const bool makes_pixels =
+      may_make_pixels_on_host(facts, allowed) && fits_pixels(path, facts, plan, sensor, allowed);
+  if (!makes_pixels && !keeps_few_moments(plan.all))
+    return HostSum::none;
+  const bool is_whole = path.single_run || makes_pixels;
+  const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
+                          (facts.modulation.lit ? is_whole : facts.model.all_facing);
   return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::partial : HostSum::none;
 }
 
@@ -126,30 +160,16 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
   return classes;
 }
 
-// Whether the samples are an even grid over the chip. A pixel's only sample lies in its middle, however much
-// of the pixel is filled.
-bool is_even(SampleGrid grid, const Sensor &sensor) {
-  return grid != SampleGrid::distorted && (sensor.samples == 1 || grid != SampleGrid::tiled);
-}
-
 bool can_sum_records(const FramePath &path, const FramePlan &plan, const Sensor &sensor,
                      const PathForms &allowed) {
-  const bool reads_depths = path.windows == 0 || path.single_run || path.host_sum == HostSum::all;
+  const bool reads_depths = path.windows == 0 || path.single_run || path.host_sum != HostSum::none;
   return allowed.depth_records && reads_depths && path.summation != Summation::per_diode &&
          plan.precision == Precision::fp32 && is_even(path.grid, sensor);
 }
 
 bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                    const Sensor &sensor, const PathForms &allowed) {
-  const Modulation &modulation = facts.modulation;
-  return allowed.direct_pixels && can_sum_records(path, plan, sensor, allowed) && sensor.samples == 1 &&
-         path.single_run && modulation.waveform == shader::waveform_sine &&
-         modulation.frequencies() <= most_direct_frequencies;
-}
-
-// Where the host knows all of a pixel: it knows no paint.
-bool may_make_pixels_on_host(const FrameFacts &facts, const PathForms &allowed) {
-  return allowed.host_pixels && facts.host_is_device && facts.has_doubles && !facts.paint.painted;
+  return can_sum_records(path, plan, sensor, allowed) && fits_pixels(path, facts, plan, sensor, allowed);
 }
 
 bool can_make_pixels_on_host(const FramePath &path, const FrameFacts &facts, const PathForms &allowed) {
@@ -188,8 +208,7 @@ void sum_facing_beforehand(const FrameFacts &facts, const FramePlan &plan, Frame
 bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
                         const PathForms &allowed) {
   const bool finds_facing = request.sensor.samples == 1 && allowed.direct_pixels && allowed.host_sum &&
-                            may_make_pixels_on_host(facts, allowed) && plan.all.runs.size() == 1 &&
-                            can_sum_on_host(plan.all);
+                            may_make_pixels_on_host(facts, allowed) && can_sum_on_host(plan.all);
   const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
                           (facts.modulation.lit || facts.model.all_facing || finds_facing);
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
@@ -300,7 +319,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.equal_weights = plan.all.polynomials.equal_weights;
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
-  path.host_sum = host_sum_of(path, facts, plan.all, allowed);
+  path.host_sum = host_sum_of(path, facts, plan, sensor, allowed);
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
   const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) &&

@@ -20,8 +20,19 @@ std::uint32_t bundles_per_run(const SourceGroups &groups);
 // One for all runs.
 SourceWindow all_runs(const SourceGroups &groups);
 
-// As many runs each as fit shader::bundles_per_window.
-std::vector<SourceWindow> plan_windows(const SourceGroups &groups);
+// The bundles of a window where the host decides visibility and sums.
+inline constexpr std::uint32_t bundles_per_host_window = 128;
+
+// As many runs each as fit so many bundles.
+std::vector<SourceWindow> plan_windows(const SourceGroups &groups,
+                                       std::uint32_t most_bundles = shader::bundles_per_window);
+
+// The parts of a window that fit shader::bundles_per_window, and the bundles before each.
+struct WindowPart {
+  SourceWindow runs;
+  std::uint32_t first_bundle;
+};
+std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups &groups);
 
 // The places of a bundle's diodes.
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,

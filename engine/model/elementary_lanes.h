@@ -9,6 +9,7 @@ struct Complex {
   Floats re, im;
 };
 
+inline Complex operator+(const Complex &a, const Complex &b) { return {a.re + b.re, a.im + b.im}; }
 inline Complex operator*(const Complex &a, const Complex &b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }

@@ -91,12 +91,19 @@ std::span<const shader::uvec4> records_for_host(const StripBuffers &buffers) {
   return {reinterpret_cast<const shader::uvec4 *>(all.data()), all.size() / sizeof(shader::uvec4)};
 }
 
+namespace {
+constexpr std::uint32_t buffer_bytes = 1u << 27; // of any, at most
+}
+
 std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, std::uint32_t channels,
                                  std::uint32_t samples_per_pixel) {
-  constexpr std::uint32_t buffer_bytes = 1u << 27;
   constexpr auto plane_bytes = static_cast<std::uint32_t>(sizeof(shader::vec4)), channel_bytes = 4u;
   return std::min({usual, buffer_bytes / (sum_planes * plane_bytes),
                    buffer_bytes / (channels * channel_bytes) * samples_per_pixel});
+}
+
+std::uint32_t samples_of_words(std::uint32_t visibility_words) {
+  return buffer_bytes / sizeof(std::uint32_t) / std::max(visibility_words, 1u);
 }
 
 shader::Strip sample_strip(const shader::Strip &strip, bool depth_records) {

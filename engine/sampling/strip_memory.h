@@ -77,6 +77,8 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
 // MiB.
 std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, std::uint32_t channels,
                                  std::uint32_t samples_per_pixel);
+// The same of so many words of visibility bits a sample.
+std::uint32_t samples_of_words(std::uint32_t visibility_words);
 
 inline std::uint32_t sample_count(const shader::Strip &strip) {
   return strip.padded_pixels * strip.samples * strip.samples;

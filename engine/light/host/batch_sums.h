@@ -11,8 +11,8 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
 // Which sources reach the samples, as visibility bits.
 struct Reach {
-  Ints words[shader::bundles_per_window];
-  std::uint32_t any[shader::bundles_per_window]; // those of all samples, by or
+  Ints words[most_visibility_words];
+  std::uint32_t any[most_visibility_words]; // those of all samples, by or
 
   Ints of(std::uint32_t bit) const {
     return words[bit / 32] & all(static_cast<std::int32_t>(1u << bit % 32));

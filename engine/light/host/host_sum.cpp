@@ -47,8 +47,11 @@ private:
 
 bool can_sum_on_host(const SourceGroups &groups) {
   return groups.moments <= shader::largest_moments &&
-         (groups.moments + 1) * groups.runs.size() <= most_moments &&
          std::ranges::all_of(groups.diodes, is_known_to_host);
+}
+
+bool keeps_few_moments(const SourceGroups &groups) {
+  return (groups.moments + 1) * groups.runs.size() <= most_moments;
 }
 
 Pass host_sum_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {

@@ -7,8 +7,10 @@
 
 namespace pmdsim {
 
-// Whether the host knows the laws of all sources, and keeps few sums a sample.
+// Whether the host knows the laws of all sources.
 bool can_sum_on_host(const SourceGroups &groups);
+// Whether what it leaves for the device is few sums a sample.
+bool keeps_few_moments(const SourceGroups &groups);
 
 // Sums depth records, by the bits of the only window where `scope` is shadowed. Leaves
 // StripBuffers::run_moments.

@@ -26,6 +26,8 @@ constexpr std::int32_t table_margin = 40;
 constexpr std::uint32_t most_host_sums = 12; // over the sources, of a sample
 static_assert(most_host_sums >= shader::largest_powers && most_host_sums >= shader::largest_moments);
 
+constexpr std::uint32_t most_visibility_words = 128; // of a sample
+
 // A source in its batch's frame, m, from the run's reference point.
 struct BatchSource {
   float x_m, y_m;

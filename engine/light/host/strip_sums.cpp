@@ -9,6 +9,7 @@ namespace pmdsim {
 namespace {
 
 constexpr std::uint32_t blocks_at_once = 32;
+static_assert(most_visibility_words == bundles_per_host_window);
 
 // Whether powers may stand for roots: where rounding is bounded as if they did, and something is summed so.
 bool takes_powers(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,

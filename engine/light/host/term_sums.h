@@ -15,6 +15,8 @@ struct Terms {
   Floats light, weights; // of the light, and of its weights' own errors
 };
 
+inline Terms operator+(const Terms &a, const Terms &b) { return {a.light + b.light, a.weights + b.weights}; }
+
 // The factor by which the terms of the weights' polynomial in u, all taken as positive, may exceed it.
 inline Floats growth_at(const RunForm &form, const PointView &view) {
   const Floats per_rho = inverse(view.rho), t = form.run->radius_m * per_rho;

@@ -113,41 +113,46 @@ struct HostSweep::State {
     SilhouetteTree edges, hidden;
     std::vector<EdgePlanes> planes;
   };
-  struct OfWindow {
-    std::vector<shader::Piercer> piercers;
-    std::unique_ptr<SilhouetteBoard> board;
+  // A part of a window, whose diodes are few enough to be swept at once.
+  struct Sweep {
+    std::size_t window;
+    WindowPart part;
+    std::vector<shader::Piercer> piercers = {};
+    std::unique_ptr<SilhouetteBoard> board = nullptr;
+    // Tiles whose words say already that every diode reaches all of their samples, in a strip of the extent
+    // below.
+    std::vector<std::uint8_t> filled = {};
   };
 
   const StripBuffers &buffers;
   HostSamples samples;
   bool all_facing, fills_all, clears_bits;
   std::uint32_t shining = 0; // diodes of all windows
-  // Tiles whose words say already that every diode reaches all of their samples, in a strip of that extent.
-  std::vector<std::uint8_t> filled = {};
   glm::uvec2 filled_extent = {};
   std::vector<std::uint8_t> block_kinds = {};
   std::size_t most_blocks = 1;
   DecideTile decide_tile;
   std::vector<std::unique_ptr<OnBoard>> boards;
-  std::vector<OfWindow> windows;
+  std::vector<Sweep> sweeps; // window by window
 
-  void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups,
-                 const std::vector<SourceWindow> &of_frame);
+  std::size_t window_count() const { return sweeps.back().window + 1; }
+  void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups);
   void begin_tiles(const shader::Strip &strip);
-  void store(const shader::Strip &strip, std::size_t window, std::uint32_t tile, const TileBits &bits);
-  void store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits);
+  void decide(const shader::Strip &strip, Sweep &sweep);
+  void store(const shader::Strip &strip, Sweep &sweep, std::uint32_t tile, const TileBits &bits);
+  void store_kinds(bool is_first, std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits);
 };
 
 void HostSweep::State::add_board(const PassSetup &on, const Board &board, const SweepItems &items,
-                                 const SourceGroups &groups, const std::vector<SourceWindow> &of_frame) {
+                                 const SourceGroups &groups) {
   auto on_board = std::make_unique<OnBoard>();
   on_board->edges = silhouette_tree(items.edges, items.rest_step);
   on_board->hidden = silhouette_tree(items.hidden, items.rest_step);
   std::ranges::transform(items.planes, std::back_inserter(on_board->planes), exact_planes);
   most_blocks = std::max({most_blocks, on_board->edges.items.size(), on_board->hidden.items.size()});
-  for (const std::size_t window : board.windows) {
-    OfWindow &of = windows[window];
-    const std::vector<glm::dvec3> places_m = places_of(of_frame[window], groups);
+  for (const std::size_t sweep : board.windows) {
+    Sweep &of = sweeps[sweep];
+    const std::vector<glm::dvec3> places_m = places_of(of.part.runs, groups);
     of.piercers = find_piercers(board, items.in_the_way, places_m);
     of.board = std::make_unique<SilhouetteBoard>();
     SilhouetteBoard &to = *of.board;
@@ -157,8 +162,8 @@ void HostSweep::State::add_board(const PassSetup &on, const Board &board, const 
     to.leaves_none = !items.in_the_way.empty();
     to.exact_only = !board.is_flat || to.leaves_none;
     to.all_facing = all_facing;
-    to.bundles = of_frame[window].bundles;
-    const std::vector<std::uint32_t> bits = diodes_of(of_frame[window], groups).bits;
+    to.bundles = of.part.runs.bundles;
+    const std::vector<std::uint32_t> bits = diodes_of(of.part.runs, groups).bits;
     std::ranges::copy(bits, to.shining);
     for (const std::uint32_t of_bundle : bits)
       shining += static_cast<std::uint32_t>(std::popcount(of_bundle));
@@ -174,32 +179,34 @@ void HostSweep::State::add_board(const PassSetup &on, const Board &board, const 
 // Other windows' words are in the same place, and shapes with holes take bits away.
 void HostSweep::State::begin_tiles(const shader::Strip &strip) {
   const glm::uvec2 extent(strip.columns, strip.rows);
-  if (windows.size() > 1 || clears_bits || filled_extent != extent)
-    filled.assign(tile_count(sample_strip(strip, samples.are_records())), 0);
+  if (window_count() > 1 || clears_bits || filled_extent != extent)
+    for (Sweep &sweep : sweeps)
+      sweep.filled.assign(tile_count(sample_strip(strip, samples.are_records())), 0);
   filled_extent = extent;
 }
 
-void HostSweep::State::store(const shader::Strip &strip, std::size_t window, std::uint32_t tile,
+void HostSweep::State::store(const shader::Strip &strip, Sweep &sweep, std::uint32_t tile,
                              const TileBits &bits) {
-  const SilhouetteBoard &board = *windows[window].board;
-  const std::size_t plane = sample_count(strip);
-  auto *const words = buffers.visibility.mapped_as<std::uint32_t>();
+  const std::size_t plane = sample_count(strip), first = sweep.part.first_bundle;
+  auto *const words = buffers.visibility.mapped_as<std::uint32_t>() + first * plane;
   auto *const lit = buffers.lit.mapped_as<std::uint32_t>();
-  const bool fills = bits.is_shaded || (fills_all && filled[tile] == 0);
-  filled[tile] = fills_all && !bits.is_shaded;
+  const bool fills = bits.is_shaded || (fills_all && sweep.filled[tile] == 0);
+  const bool is_first = &sweep == &sweeps.front();
+  sweep.filled[tile] = fills_all && !bits.is_shaded;
   for (std::size_t i = 0; i < shader::tile_samples; ++i) {
     if (!bits.is_there[i])
       continue;
     const std::size_t at = bits.index[i];
     if (fills)
-      for (std::size_t w = 0; w < board.bundles; ++w)
+      for (std::size_t w = 0; w < sweep.board->bundles; ++w)
         words[w * plane + at] = bits.words[i][w];
-    lit[at] = (window == 0 ? shining : lit[at]) - (bits.is_shaded ? bits.missing[i] : 0);
+    lit[at] = (is_first ? shining : lit[at]) - (bits.is_shaded ? bits.missing[i] : 0);
   }
 }
 
 // For depth records, whose blocks are a tile's rows.
-void HostSweep::State::store_kinds(std::uint32_t tile, std::uint32_t tiles_across, const TileBits &bits) {
+void HostSweep::State::store_kinds(bool is_first, std::uint32_t tile, std::uint32_t tiles_across,
+                                   const TileBits &bits) {
   static_assert(shader::block_samples == shader::tile_side);
   for (std::uint32_t row = 0; row < shader::tile_side; ++row) {
     const std::uint32_t first = row * shader::tile_side;
@@ -210,10 +217,12 @@ void HostSweep::State::store_kinds(std::uint32_t tile, std::uint32_t tiles_acros
       sees = sees || (bits.is_there[i] && bits.sees[i]);
       shaded = shaded || (bits.is_there[i] && bits.is_shaded && bits.missing[i] > 0);
     }
-    block_kinds[(tile / tiles_across * shader::tile_side + row) * tiles_across + tile % tiles_across] =
-        static_cast<std::uint8_t>(!sees    ? shader::blocks_empty
-                                  : shaded ? shader::blocks_shaded
-                                           : shader::blocks_lit);
+    std::uint8_t &kind =
+        block_kinds[(tile / tiles_across * shader::tile_side + row) * tiles_across + tile % tiles_across];
+    if (is_first || shaded)
+      kind = static_cast<std::uint8_t>(!sees    ? shader::blocks_empty
+                                       : shaded ? shader::blocks_shaded
+                                                : shader::blocks_lit);
   }
 }
 
@@ -229,43 +238,56 @@ HostSweep::HostSweep(const PassSetup &on, const Occluders &occluders, const Came
                                         .clears_bits = !occluders.with_holes.empty(),
                                         .decide_tile = widest_decide_silhouettes(on.options.host_vector_bits),
                                         .boards = {},
-                                        .windows = {}})) {
+                                        .sweeps = {}})) {
   if (!on.buffers.visibility.is_mapped() || !on.buffers.lit.is_mapped())
     throw std::logic_error("the host does not share the device's memory");
   State &state = *state_;
-  state.windows.resize(windows.size());
-  for (const Board &board : find_boards(groups, windows))
-    state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups, windows);
+  std::vector<SourceWindow> swept;
+  for (std::size_t window = 0; window < windows.size(); ++window)
+    for (const WindowPart &part : parts_of(windows[window], groups)) {
+      state.sweeps.push_back({.window = window, .part = part});
+      swept.push_back(part.runs);
+    }
+  // Where a part is shaded, the words of all are read.
+  state.fills_all = fills_all || swept.size() > windows.size();
+  for (const Board &board : find_boards(groups, swept))
+    state.add_board(on, board, sweep_items(board, occluders, camera, scene), groups);
 }
 
 HostSweep::~HostSweep() = default;
 
-void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
-  State &state = *state_;
-  state.begin_tiles(strip);
-  const SilhouetteBoard &board = *state.windows[window].board;
-  const SampleSource samples = state.samples.of(strip);
-  const std::uint32_t tiles = tile_count(samples.strip);
-  if (state.samples.are_records())
-    state.block_kinds.resize(std::size_t{tiles_across(samples.strip.columns)} * samples.strip.rows);
+void HostSweep::State::decide(const shader::Strip &strip, Sweep &sweep) {
+  const SampleSource source = samples.of(strip);
+  const bool is_first = &sweep == &sweeps.front() || (&sweep - 1)->window != sweep.window;
   struct Memory {
     std::vector<ListedBlock> edges, hidden, hidden_nearby;
     TileBits bits;
   };
   tbb::enumerable_thread_specific<Memory> memory([&] {
-    const std::vector<ListedBlock> all(state.most_blocks + 1);
+    const std::vector<ListedBlock> all(most_blocks + 1);
     return Memory{all, all, all, {}};
   });
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tiles, 4), [&](const auto &range) {
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tile_count(source.strip), 4), [&](const auto &range) {
     Memory &own = memory.local();
     for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
-      state.decide_tile(board, samples, tile, {own.edges.data(), own.hidden.data(), own.hidden_nearby.data()},
-                        own.bits);
-      state.store(strip, window, tile, own.bits);
-      if (state.samples.are_records())
-        state.store_kinds(tile, tiles_across(samples.strip.columns), own.bits);
+      decide_tile(*sweep.board, source, tile, {own.edges.data(), own.hidden.data(), own.hidden_nearby.data()},
+                  own.bits);
+      store(strip, sweep, tile, own.bits);
+      if (samples.are_records())
+        store_kinds(is_first, tile, tiles_across(source.strip.columns), own.bits);
     }
   });
+}
+
+void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {
+  State &state = *state_;
+  state.begin_tiles(strip);
+  const SampleSource source = state.samples.of(strip);
+  if (state.samples.are_records())
+    state.block_kinds.resize(std::size_t{tiles_across(source.strip.columns)} * source.strip.rows);
+  for (State::Sweep &sweep : state.sweeps)
+    if (sweep.window == window)
+      state.decide(strip, sweep);
 }
 
 std::span<const std::uint8_t> HostSweep::block_kinds() const { return state_->block_kinds; }

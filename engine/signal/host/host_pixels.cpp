@@ -26,6 +26,7 @@ namespace {
 
 // The loops store these in pairs.
 static_assert(row_of(&Return::amplitude).slot.index == 0 && row_of(&Return::phase_rad).slot.index == 1);
+static_assert(most_pixel_frequencies == most_direct_frequencies);
 static_assert(row_of(&Return::distance_m).slot.index == 2 && row_of(&Measurement::range_m).slot.index == 3);
 
 class PixelsOnHost {
@@ -36,14 +37,14 @@ public:
 
 private:
   void report(const PixelClaims &claims) const;
-  void add_coefficients(const SourceGroups &groups, const SumModel &model);
+  void add_coefficients(const SourceGroups &groups, const SumModel &model, const RunForm &form);
 
   const StripBuffers &buffers_;
   StripSums sums_;
-  shader::LightRun run_;
-  shader::PointPolynomials head_{};
-  std::vector<float> coefficients_;
-  RunForm form_;
+  std::vector<shader::LightRun> runs_;
+  std::vector<shader::PointPolynomials> heads_; // beside the runs, where they are summed beforehand
+  std::vector<std::vector<float>> coefficients_;
+  std::vector<RunForm> forms_;
   std::vector<shader::Tone> tones_;
   std::vector<shader::Frequency> frequencies_;
   std::optional<float> backscatter_;
@@ -79,8 +80,7 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
 
 PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
     : buffers_(on.buffers), sums_(on, groups, scope, true),
-      run_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand).front()),
-      form_(form_of(on, groups, scope)), tones_(on.modulation.all_tones()),
+      runs_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand)), tones_(on.modulation.all_tones()),
       frequencies_(
           frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
       backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
@@ -90,12 +90,20 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
       loops_(widest_pixel_loops(on.options.host_vector_bits)) {
-  if (groups.runs.size() != 1 || on.scene.paint.painted || !buffers_.channels.is_mapped())
+  if (frequencies_.size() > most_pixel_frequencies || on.scene.paint.painted || !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
-  form_.run = &run_;
-  form_.tests_facing = scope.tests_facing;
+  const RunForm form = form_of(on, groups, scope);
   if (scope.beforehand)
-    add_coefficients(groups, on.model);
+    add_coefficients(groups, on.model, form);
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    RunForm &of_run = forms_.emplace_back(form);
+    of_run.run = &runs_[i];
+    if (!scope.beforehand)
+      continue;
+    of_run.beforehand = &heads_[i];
+    of_run.coefficients = coefficients_[i].data();
+    of_run.dimensions = groups.polynomials.point_dimensions;
+  }
 }
 
 // The coefficients of a sum of powers in the order of Horner's rule: those of the highest powers first, of z,
@@ -111,27 +119,29 @@ void append_in_order(std::span<const float> of_degree, std::uint32_t degree, std
       }
 }
 
-void PixelsOnHost::add_coefficients(const SourceGroups &groups, const SumModel &model) {
+void PixelsOnHost::add_coefficients(const SourceGroups &groups, const SumModel &model, const RunForm &form) {
   const std::uint32_t dimensions = groups.polynomials.point_dimensions;
+  const std::size_t components = form.lambert ? dimensions + 1 : 1;
   const std::vector<float> words = point_polynomials(groups, model, dimensions);
-  std::memcpy(&head_, words.data(), sizeof(head_));
-  std::span<const float> left = std::span(words).subspan(sizeof(head_) / sizeof(float));
-  const std::size_t components = form_.lambert ? dimensions + 1 : 1;
-  for (std::uint32_t degree = 0; degree < form_.powers; ++degree) {
-    const std::size_t of_degree = polynomial_terms(degree, dimensions) * components;
-    append_in_order(left.first(of_degree), degree, dimensions, coefficients_);
-    left = left.subspan(of_degree);
+  const std::size_t of_run = words.size() / groups.runs.size(), of_head = sizeof(heads_[0]) / sizeof(float);
+  for (std::size_t run = 0; run < groups.runs.size(); ++run) {
+    std::span<const float> left = std::span(words).subspan(run * of_run);
+    std::memcpy(&heads_.emplace_back(), left.data(), sizeof(heads_[0]));
+    left = left.subspan(of_head);
+    coefficients_.emplace_back();
+    for (std::uint32_t degree = 0; degree < form.powers; ++degree) {
+      const std::size_t of_degree = polynomial_terms(degree, dimensions) * components;
+      append_in_order(left.first(of_degree), degree, dimensions, coefficients_.back());
+      left = left.subspan(of_degree);
+    }
   }
-  form_.beforehand = &head_;
-  form_.coefficients = coefficients_.data();
-  form_.dimensions = dimensions;
 }
 
 void PixelsOnHost::make(const shader::Strip &strip) const {
   const LawSums sums = sums_.of(strip);
   auto *later = later_ ? later_->mapped_as<shader::PixelList>() : nullptr;
   const PixelWork work{.sums = sums,
-                       .form = form_,
+                       .forms = forms_.data(),
                        .tones = tones_.data(),
                        .frequencies = frequencies_.data(),
                        .frequency_count = static_cast<std::uint32_t>(frequencies_.size()),

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
@@ -31,28 +32,45 @@ void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
   find_moments(form, view, total, light.moment, light.weights);
 }
 
-void sum_sources(const PixelWork &of, VectorSamples &samples, Light &light) {
-  std::fill_n(light.moment, of.form.moments + 1, Floats{});
-  find_surfaces(of.sums.samples, samples);
-  const bool asks_growth = of.holds && of.form.powers == 0;
-  VectorSum(of.sums, samples).sum(of.sums.runs[0], light.moment, asks_growth ? &light.growth : nullptr);
-  light.weights = light.moment[of.form.moments];
-}
+// A vector's samples as their sums take them: what they have in common is found once, where it is needed.
+class VectorSources {
+public:
+  VectorSources(const PixelWork &of, VectorSamples &samples) : of_(of), samples_(samples) {}
 
-void sum_light(const PixelWork &of, VectorSamples &samples, const PointView &view, Light &light) {
-  if (!of.form.beforehand)
-    return sum_sources(of, samples, light);
+  void sum(std::uint32_t run, Light &light) {
+    if (!sum_) {
+      find_surfaces(of_.sums.samples, samples_);
+      sum_.emplace(of_.sums, samples_);
+    }
+    const RunForm &form = of_.forms[run];
+    std::fill_n(light.moment, form.moments + 1, Floats{});
+    const bool asks_growth = of_.holds && form.powers == 0;
+    sum_->sum(of_.sums.runs[run], light.moment, asks_growth ? &light.growth : nullptr);
+    light.weights = light.moment[form.moments];
+  }
+
+private:
+  const PixelWork &of_;
+  VectorSamples &samples_;
+  std::optional<VectorSum> sum_;
+};
+
+void sum_light(const PixelWork &of, std::uint32_t run, const VectorSamples &samples, const PointView &view,
+               VectorSources &sources, Light &light) {
+  const RunForm &form = of.forms[run];
+  if (!form.beforehand)
+    return sources.sum(run, light);
   const Ints sees = load<Ints>(samples.sees) != 0,
-             faces = view.height > 1.001f * of.form.run->radius_m + 1e-6f * view.rho; // all sources
-  const Ints apart = of.form.tests_facing ? sees & ~faces : Ints{};
+             faces = view.height > 1.001f * form.run->radius_m + 1e-6f * view.rho; // all sources
+  const Ints apart = form.tests_facing ? sees & ~faces : Ints{};
   if (bits_of(apart) == 0)
-    return sum_beforehand(of.form, view, light);
-  sum_sources(of, samples, light);
+    return sum_beforehand(form, view, light);
+  sources.sum(run, light);
   if (bits_of(sees & faces) == 0)
     return;
   Light facing;
-  sum_beforehand(of.form, view, facing);
-  for (std::uint32_t k = 0; k < of.form.moments; ++k)
+  sum_beforehand(form, view, facing);
+  for (std::uint32_t k = 0; k < form.moments; ++k)
     light.moment[k] = apart != 0 ? light.moment[k] : facing.moment[k];
   light.weights = apart != 0 ? light.weights : facing.weights;
 }
@@ -183,24 +201,48 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
     store_lit(of, samples);
 }
 
-void store_pixels(const PixelWork &of, const VectorSamples &samples, const PointView &view,
-                  const Light &light, HeldPixels &held) {
+// Of all runs, over the surfaces' backscatter.
+struct Returns {
+  Complex z[most_pixel_frequencies]; // relative to twice the sample's own range
+  Terms terms;
+  Wide range;
+};
+
+Returns returns_of(const PixelWork &of, VectorSamples &samples) {
+  Returns returns;
+  std::fill_n(returns.z, of.frequency_count, Complex{});
+  returns.terms = Terms();
+  VectorSources sources(of, samples);
+  for (std::uint32_t run = 0; run < of.sums.run_count; ++run) {
+    const RunForm &form = of.forms[run];
+    const PointView view =
+        see_points(samples, of.sums.samples.planes, *form.run, form.lambert || form.tests_facing);
+    Light light;
+    sum_light(of, run, samples, view, sources, light);
+    for (std::uint32_t f = 0; f < of.frequency_count; ++f)
+      returns.z[f] = returns.z[f] + tone_return(form, light, view, of.tones[f]);
+    if (of.holds)
+      returns.terms = returns.terms + terms_of(form, view, light.weights, light.growth);
+    returns.range = view.range;
+  }
+  return returns;
+}
+
+void store_pixels(const PixelWork &of, const VectorSamples &samples, const Returns &returns,
+                  HeldPixels &held) {
   const Floats none = all(0.0f), backscatter = backscatter_of(of, samples);
   const Ints sees = load<Ints>(samples.sees) != 0;
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
-  const Floats range_m = sees ? narrow(view.range) : all(std::numeric_limits<float>::quiet_NaN());
-  Terms terms{};
-  if (of.holds) {
-    terms = terms_of(of.form, view, light.weights, light.growth);
-    terms = {shines ? backscatter * terms.light : none, shines ? backscatter * terms.weights : none};
-  }
+  const Floats range_m = sees ? narrow(returns.range) : all(std::numeric_limits<float>::quiet_NaN());
+  const Terms terms{shines ? backscatter * returns.terms.light : none,
+                    shines ? backscatter * returns.terms.weights : none};
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
     const shader::Frequency &frequency = of.frequencies[f];
-    Complex z = backscatter * tone_return(of.form, light, view, of.tones[f]);
+    Complex z = backscatter * returns.z[f];
     z = {shines ? z.re : none, shines ? z.im : none};
     const Floats size = magnitude(z);
     // The phase stays relative to the range, which makes it exact to the last bit of the output.
-    const Wide whole = view.range * of_pair(frequency.turns_per_m), of_range = whole - rounded(whole);
+    const Wide whole = returns.range * of_pair(frequency.turns_per_m), of_range = whole - rounded(whole);
     if (of.kept_taps > 0)
       store_taps(of, frequency, samples,
                  all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
@@ -219,11 +261,7 @@ void make_pixels(const PixelWork &of, VectorSamples &samples, HeldPixels &held) 
   if (seen == lanes)
     return store_nothing(of, samples, held);
   fill_gaps(samples, seen);
-  const PointView view =
-      see_points(samples, of.sums.samples.planes, *of.form.run, of.form.lambert || of.form.tests_facing);
-  Light light;
-  sum_light(of, samples, view, light);
-  store_pixels(of, samples, view, light, held);
+  store_pixels(of, samples, returns_of(of, samples), held);
   held.end_vector(samples);
 }
 

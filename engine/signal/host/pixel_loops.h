@@ -9,13 +9,15 @@
 
 namespace pmdsim {
 
-// What shaders/frame/direct_pixels.comp does, of one run of sources.
+constexpr std::uint32_t most_pixel_frequencies = 8;
+
+// What shaders/frame/direct_pixels.comp does, for any number of runs of sources.
 struct PixelWork {
-  LawSums sums; // the samples, and the sources where they are not summed beforehand
-  RunForm form;
+  LawSums sums;         // the samples, and the sources where they are not summed beforehand
+  const RunForm *forms; // of each run
   const shader::Tone *tones;
   const shader::Frequency *frequencies; // beside the tones
-  std::uint32_t frequency_count;
+  std::uint32_t frequency_count; // most_pixel_frequencies at most
   const float *backscatter; // of all that is seen; nullptr: looked up
   bool vignetting;
   const std::uint32_t *lit; // sources that reach a sample; nullptr where they are no channel
