@@ -44,18 +44,6 @@ void add_bundle(WindowDiodes &diodes, std::span<const SourcePosition> places) {
   diodes.bits.push_back(bits);
 }
 
-// Whole runs of a window, of `of_run` bundles each.
-std::vector<SourceWindow> parted(const SourceWindow &window, std::uint32_t of_run,
-                                 std::uint32_t most_bundles) {
-  const std::uint32_t runs_each = std::max(1u, most_bundles / of_run);
-  std::vector<SourceWindow> parts;
-  for (std::uint32_t first = window.first_run; first < window.last_run; first += runs_each) {
-    const std::uint32_t last = std::min(window.last_run, first + runs_each);
-    parts.push_back({first, last, (last - first) * of_run});
-  }
-  return parts;
-}
-
 } // namespace
 
 std::uint32_t bundles_per_run(const SourceGroups &groups) {
@@ -68,15 +56,14 @@ SourceWindow all_runs(const SourceGroups &groups) {
 }
 
 std::vector<SourceWindow> plan_windows(const SourceGroups &groups, std::uint32_t most_bundles) {
-  return parted(all_runs(groups), bundles_per_run(groups), most_bundles);
-}
-
-std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups &groups) {
-  const std::uint32_t of_run = bundles_per_run(groups);
-  std::vector<WindowPart> parts;
-  for (const SourceWindow &runs : parted(window, of_run, shader::bundles_per_window))
-    parts.push_back({runs, (runs.first_run - window.first_run) * of_run});
-  return parts;
+  const std::uint32_t runs_per_window = std::max(1u, most_bundles / bundles_per_run(groups));
+  const auto runs = static_cast<std::uint32_t>(groups.runs.size());
+  std::vector<SourceWindow> windows;
+  for (std::uint32_t first = 0; first < runs; first += runs_per_window) {
+    const std::uint32_t last = std::min(runs, first + runs_per_window);
+    windows.push_back({first, last, (last - first) * bundles_per_run(groups)});
+  }
+  return windows;
 }
 
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,

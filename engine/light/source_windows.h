@@ -27,13 +27,6 @@ inline constexpr std::uint32_t bundles_per_host_window = 128;
 std::vector<SourceWindow> plan_windows(const SourceGroups &groups,
                                        std::uint32_t most_bundles = shader::bundles_per_window);
 
-// The parts of a window that fit shader::bundles_per_window, and the bundles before each.
-struct WindowPart {
-  SourceWindow runs;
-  std::uint32_t first_bundle;
-};
-std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups &groups);
-
 // The places of a bundle's diodes.
 std::span<const SourcePosition> positions_of(const SourceWindow &window, std::uint32_t bundle,
                                              const SourceGroups &groups);

@@ -88,6 +88,30 @@ void add_to(Board &board, std::size_t window, std::span<const glm::dvec3> places
 
 } // namespace
 
+std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups &groups) {
+  const std::uint32_t of_run = bundles_per_run(groups);
+  const auto of_runs = [&](std::uint32_t first, std::uint32_t last) {
+    return SourceWindow{first, last, (last - first) * of_run};
+  };
+  const auto is_flat = [&](const SourceWindow &runs) { return plane_of(places_of(runs, groups)).has_value(); };
+  std::vector<WindowPart> parts;
+  bool last_is_flat = false;
+  for (std::uint32_t run = window.first_run; run < window.last_run; ++run) {
+    const SourceWindow alone = of_runs(run, run + 1);
+    const bool is_flat_alone = is_flat(alone);
+    if (!parts.empty() && last_is_flat == is_flat_alone) {
+      const SourceWindow joined = of_runs(parts.back().runs.first_run, run + 1);
+      if (joined.bundles <= shader::bundles_per_window && is_flat(joined) == is_flat_alone) {
+        parts.back().runs = joined;
+        continue;
+      }
+    }
+    parts.push_back({alone, (run - window.first_run) * of_run});
+    last_is_flat = is_flat_alone;
+  }
+  return parts;
+}
+
 std::vector<Board> find_boards(const SourceGroups &groups, const std::vector<SourceWindow> &windows) {
   std::vector<Board> boards;
   std::vector<std::optional<FlatPlane>> planes; // beside them

@@ -28,6 +28,14 @@ struct Board {
   glm::dvec3 in_frame(const glm::dvec3 &camera_m) const { return rotation * camera_m + translation_m; }
 };
 
+// Runs of a window that are swept at once: as many as fit shader::bundles_per_window, those that share a plane
+// together and apart from others. `first_bundle`: among the window's.
+struct WindowPart {
+  SourceWindow runs;
+  std::uint32_t first_bundle;
+};
+std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups &groups);
+
 // Every window is on one board.
 std::vector<Board> find_boards(const SourceGroups &groups, const std::vector<SourceWindow> &windows);
 
