@@ -40,7 +40,19 @@ struct PixelCase {
   double phase_rad = 0.0;
   double along_m = 0.0; // of every other diode, off the others' plane
   glm::dvec3 axis{0.0, 0.0, 1.0};
+  int diodes = 100;
+  // With a second board beside the first, of another phase and turned: runs of their own.
+  bool second_board = false;
+
+  bool is_one_run() const { return diodes == 100 && !second_board; }
 };
+
+PixelCase with_runs(const std::string &name, Shadows shadows, int diodes, bool second_board) {
+  PixelCase of{name, Backscatter::lambert, shadows};
+  of.diodes = diodes;
+  of.second_board = second_board;
+  return of;
+}
 
 std::vector<PixelCase> pixel_cases() {
   return {
@@ -60,6 +72,9 @@ std::vector<PixelCase> pixel_cases() {
          sensor.chip.rotation_rad = {0.05, -0.03, 0.2};
        }},
       {"two planes", Backscatter::lambert, Shadows::automatic, cosine(1.0), [](Sensor &) {}, 0.0, 0.01},
+      with_runs("two boards", Shadows::automatic, 100, true),
+      with_runs("two boards, light through all", Shadows::off, 100, true),
+      with_runs("600 diodes", Shadows::automatic, 600, false),
   };
 }
 
@@ -71,13 +86,20 @@ PixelCase beams_that_end_in_view() {
   return beams;
 }
 
-Illuminator light_of(const PixelCase &of) {
-  Illuminator light = light_at(ring(100, 0.12), of.phase_rad, of.pattern);
-  for (std::size_t i = 0; i < light.diodes.size(); i += 2)
-    light.diodes[i].position_m.z += of.along_m;
-  for (Diode &diode : light.diodes)
+std::vector<Illuminator> lights_of(const PixelCase &of) {
+  std::vector<Illuminator> lights{light_at(ring(of.diodes, 0.12), of.phase_rad, of.pattern)};
+  for (std::size_t i = 0; i < lights[0].diodes.size(); i += 2)
+    lights[0].diodes[i].position_m.z += of.along_m;
+  for (Diode &diode : lights[0].diodes)
     diode.axis = glm::normalize(of.axis);
-  return light;
+  if (of.second_board) {
+    lights.push_back(light_at(ring(60, 0.03), of.phase_rad + 0.7, cosine(1.0)));
+    for (Diode &diode : lights[1].diodes) {
+      diode.position_m = {0.25 + 0.9 * diode.position_m.x, diode.position_m.y, 0.3 * diode.position_m.x};
+      diode.axis = glm::normalize(glm::dvec3(-0.2, 0.0, 1.0));
+    }
+  }
+  return lights;
 }
 
 // Rows end within vectors and within blocks.
@@ -99,7 +121,7 @@ Measurement measured(const PixelCase &of, std::uint32_t bits, const Accuracy &ac
   options.allowed.host_pixels = bits > 0;
   Simulator simulator = make_simulator(options);
   const Scene scene = scene_of(); // which outlasts the frame
-  simulator.prepare(scene, sensor_of(of), {light_of(of)}, of.backscatter, of.shadows, accuracy);
+  simulator.prepare(scene, sensor_of(of), lights_of(of), of.backscatter, of.shadows, accuracy);
   const auto path = simulator.path();
   const auto record = std::ranges::find(path, "record", &std::pair<std::string, std::string>::first);
   REQUIRE(record != path.end());
@@ -149,8 +171,8 @@ TEST_CASE("the host makes pixels as the device does, and as the reference") {
     INFO(of.name);
     const Sensor sensor = sensor_of(of);
     const auto expected =
-        reference::simulate(scene_of(), sensor, {light_of(of)}, of.backscatter, {.shadows = of.shadows});
-    const Measurement device = measured(of, 0);
+        reference::simulate(scene_of(), sensor, lights_of(of), of.backscatter, {.shadows = of.shadows});
+    const Measurement device = measured(of, 0, {}, of.is_one_run());
     for (const std::uint32_t bits : {512u, 256u, 128u}) {
       INFO(bits << " bits");
       const Measurement host = measured(of, bits);
@@ -166,20 +188,23 @@ TEST_CASE("the host makes pixels as the device does, and as the reference") {
 
 namespace {
 
-// `tolerance`: relative.
-void check_bounds(const Measurement &host, const Measurement &device, double tolerance) {
-  CHECK(host.accuracy.unpromised == device.accuracy.unpromised);
-  CHECK(host.accuracy.claimed_m.value() == Approx(device.accuracy.claimed_m.value()).epsilon(tolerance));
-  CHECK(host.accuracy.claimed_amplitude.value() ==
-        Approx(device.accuracy.claimed_amplitude.value()).epsilon(tolerance));
+// `tolerance`: relative. Where tables stand for roots, the host's bounds may be `growth` times the device's.
+void check_bounds(const Measurement &host, const Measurement &device, double tolerance, double growth) {
+  if (growth == 1.0) {
+    CHECK(host.accuracy.unpromised == device.accuracy.unpromised);
+    CHECK(host.accuracy.claimed_m.value() == Approx(device.accuracy.claimed_m.value()).epsilon(tolerance));
+    CHECK(host.accuracy.claimed_amplitude.value() ==
+          Approx(device.accuracy.claimed_amplitude.value()).epsilon(tolerance));
+  }
   for (std::size_t f = 0; f < host.returns.size(); ++f) {
     const auto &of_host = host.returns[f].error_bound_m, &of_device = device.returns[f].error_bound_m;
     REQUIRE(of_host.size() == of_device.size());
     for (std::size_t i = 0; i < of_host.size(); ++i) {
       INFO(i << ": " << of_host[i] << " and " << of_device[i]);
       REQUIRE(std::isnan(of_host[i]) == std::isnan(of_device[i]));
+      const double ratio = static_cast<double>(of_host[i]) / static_cast<double>(of_device[i]);
       REQUIRE((std::isnan(of_host[i]) || of_host[i] == of_device[i] ||
-               of_host[i] == Approx(of_device[i]).epsilon(tolerance)));
+               (ratio >= 1.0 - tolerance && ratio <= growth * (1.0 + tolerance))));
     }
   }
 }
@@ -207,16 +232,20 @@ TEST_CASE("the host bounds a pixel's error as the device does") {
   cases.push_back(beams_that_end_in_view());
   for (const PixelCase &of : cases) {
     // On the device pixels that turn away from some source, and boards in space, are sorted into classes.
-    const bool sorts = of.shadows == Shadows::off;
+    const bool sorts = of.shadows == Shadows::off || !of.is_one_run();
     if (of.along_m != 0.0)
       continue;
+    // So little that no set of few diodes does for the runs, whose pixels would be sorted then.
+    within.max_error_m = of.is_one_run() ? 100e-6 : 15e-6;
     const Measurement exact = measured(of, 0, precise, false), device = measured(of, 0, within, !sorts);
     for (const std::uint32_t bits : {512u, 128u}) {
       INFO(of.name << ", " << bits << " bits");
       const Measurement host = measured(of, bits, within);
       check_within_bounds(host, exact);
-      if (!sorts)
-        check_bounds(host, device, of.pattern.order > 3.0 ? 2e-2 : 1e-3); // as far as light is known
+      if (!sorts && of.pattern.order > 3.0)
+        check_bounds(host, device, 2e-2, 5.0); // as far as light is known
+      else if (!sorts)
+        check_bounds(host, device, 1e-3, 1.0);
     }
   }
 }

@@ -10,6 +10,7 @@ namespace pmdsim {
 
 struct RunForm {
   const shader::LightRun *run;
+  float path_difference_m; // at most, between a source's way and the reference point's
   std::uint32_t powers, moments;
   bool lambert;          // a weight has the cosine of the surface
   std::uint32_t cosines; // of each source's axis, in a weight

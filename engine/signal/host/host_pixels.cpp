@@ -75,6 +75,7 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
   form.phased = groups.phased;
   form.diagrams = pattern == shader::pattern_axial || pattern == shader::pattern_any;
   form.beam_edges = has_beam_edges(on.model, scope.bound);
+  form.tests_facing = scope.tests_facing;
   return form;
 }
 
@@ -98,6 +99,7 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     RunForm &of_run = forms_.emplace_back(form);
     of_run.run = &runs_[i];
+    of_run.path_difference_m = static_cast<float>(groups.runs[i].reach.path_difference_m);
     if (!scope.beforehand)
       continue;
     of_run.beforehand = &heads_[i];

@@ -18,11 +18,13 @@ struct Errors {
 constexpr float at_least = 1.000002f;
 constexpr float smallest = 1e-37f; // that has an inverse
 
-// Of weights, as distance (weights_error_m there). `turning`: sqrt(condition^2 - 1), at the most.
+// Of weights, as distance (weights_error_m there). `turning`: sqrt(condition^2 - 1), at the most. `turned`:
+// the errors of each run times how far they turn the return at the most, over its size.
 inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, const Floats &condition,
-                              const Floats &turning, const Floats &weights) {
-  const Floats common_m = smaller(per_weight_m * condition, frequency.any_weight_m * turning);
-  return frequency.weight_error * common_m + per_weight_m * weights;
+                              const Floats &turning, const Floats &weights, const Terms &turned) {
+  const float any_m = frequency.any_weight_m;
+  const Floats common_m = smaller(smaller(per_weight_m * condition, any_m * turning), any_m * turned.light);
+  return frequency.weight_error * common_m + smaller(per_weight_m * weights, any_m * turned.weights);
 }
 
 // A pixel's only sample is at one range, for which the bound is mostly the tighter one.
@@ -32,8 +34,10 @@ inline bool is_tighter_at_one_range(const shader::Frequency &frequency) {
          frequency.near_per_weight_m <= frequency.per_weight_m;
 }
 
-// `size`: of the return, as `terms` are.
-inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, const Floats &size) {
+// `size`: of the return, as `terms` are, and `turned` (weights_error_m), which are infinite where they are not
+// known.
+inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, const Floats &size,
+                        const Terms &turned) {
   const Floats none = all(0.0f), infinite = all(std::numeric_limits<float>::infinity());
   const Floats inverse_size = size > smallest ? at_least * inverse(size) : infinite;
   const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
@@ -43,9 +47,11 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   // As large as has a square: what grows without end is unbounded by `grown` itself.
   const Floats largest = smaller(condition * (1.0f + relative + 1e-6f) * grown, all(1e18f)),
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
+  const Terms over_size{turned.light * inverse_size, turned.weights * inverse_size};
   const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
     const Floats growing_m =
-        per_condition_m * condition + weights_error_m(frequency, per_weight_m, condition, turning, weights);
+        per_condition_m * condition +
+        weights_error_m(frequency, per_weight_m, condition, turning, weights, over_size);
     return fixed_m + growing_m * grown;
   };
   Floats distance_m = bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,

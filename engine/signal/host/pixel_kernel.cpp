@@ -158,8 +158,8 @@ void store_phase(const PixelWork &of, const shader::Frequency &frequency, const 
 
 // What the pixels' returns may be off by.
 void hold(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-          const Terms &terms, const Floats &size, HeldPixels &held) {
-  const Errors errors = errors_of(frequency, terms, size);
+          const Terms &terms, const Floats &size, const Terms &turned, HeldPixels &held) {
+  const Errors errors = errors_of(frequency, terms, size, turned);
   if (of.keeps_bounds)
     store_channels(of, frequency.first_channel + of.bound, samples,
                    size > 0.0f ? errors.distance_m : all(std::numeric_limits<float>::quiet_NaN()), all(0.0f));
@@ -195,18 +195,25 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
     store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
     store_taps(of, of.frequencies[f], samples, Complex());
     if (of.holds)
-      hold(of, of.frequencies[f], samples, {none, none}, none, held);
+      hold(of, of.frequencies[f], samples, {none, none}, none, {none, none}, held);
   }
   if (of.lit)
     store_lit(of, samples);
 }
 
-// Of all runs, over the surfaces' backscatter.
+// Of all runs, over the surfaces' backscatter. Those of each run are kept where they are few.
+constexpr std::uint32_t most_kept_runs = 4;
 struct Returns {
   Complex z[most_pixel_frequencies]; // relative to twice the sample's own range
   Terms terms;
   Wide range;
+  Complex of_run[most_kept_runs][most_pixel_frequencies];
+  Terms terms_of_run[most_kept_runs];
 };
+
+bool keeps_runs(const PixelWork &of) {
+  return of.holds && of.sums.run_count > 1 && of.sums.run_count <= most_kept_runs;
+}
 
 Returns returns_of(const PixelWork &of, VectorSamples &samples) {
   Returns returns;
@@ -219,13 +226,44 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples) {
         see_points(samples, of.sums.samples.planes, *form.run, form.lambert || form.tests_facing);
     Light light;
     sum_light(of, run, samples, view, sources, light);
-    for (std::uint32_t f = 0; f < of.frequency_count; ++f)
-      returns.z[f] = returns.z[f] + tone_return(form, light, view, of.tones[f]);
-    if (of.holds)
-      returns.terms = returns.terms + terms_of(form, view, light.weights, light.growth);
+    for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
+      const Complex z = tone_return(form, light, view, of.tones[f]);
+      returns.z[f] = returns.z[f] + z;
+      if (keeps_runs(of))
+        returns.of_run[run][f] = z;
+    }
+    if (of.holds) {
+      const Terms terms = terms_of(form, view, light.weights, light.growth);
+      returns.terms = returns.terms + terms;
+      if (keeps_runs(of))
+        returns.terms_of_run[run] = terms;
+    }
     returns.range = view.range;
   }
   return returns;
+}
+
+Terms scaled(const Floats &factor, const Terms &terms) {
+  return {factor * terms.light, factor * terms.weights};
+}
+
+// Each run's terms times a bound of |sin| of the angle between them and the return: their own phases differ by
+// twice the run's path difference at the most, and the run's return lies among them.
+Terms turned_terms(const PixelWork &of, const Returns &returns, std::uint32_t f) {
+  const Floats infinite = all(std::numeric_limits<float>::infinity());
+  if (!keeps_runs(of))
+    return {infinite, infinite};
+  constexpr float rounding = 1e-4f; // of both returns' angles
+  const Complex &z = returns.z[f];
+  Terms turned{};
+  for (std::uint32_t run = 0; run < of.sums.run_count; ++run) {
+    const Complex &part = returns.of_run[run][f];
+    const Floats across = absolute(part.im * z.re - part.re * z.im), sizes = magnitude(part) * magnitude(z);
+    const float spread = 2.0f * of.tones[f].wavenumber * of.forms[run].path_difference_m + rounding;
+    const Floats sine = sizes > smallest ? smaller(across / sizes, all(1.0f)) + spread : all(1.0f);
+    turned = turned + scaled(sine, returns.terms_of_run[run]);
+  }
+  return turned;
 }
 
 void store_pixels(const PixelWork &of, const VectorSamples &samples, const Returns &returns,
@@ -234,8 +272,8 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
   const Ints sees = load<Ints>(samples.sees) != 0;
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
   const Floats range_m = sees ? narrow(returns.range) : all(std::numeric_limits<float>::quiet_NaN());
-  const Terms terms{shines ? backscatter * returns.terms.light : none,
-                    shines ? backscatter * returns.terms.weights : none};
+  const Terms lit = scaled(backscatter, returns.terms);
+  const Terms terms{shines ? lit.light : none, shines ? lit.weights : none};
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
     const shader::Frequency &frequency = of.frequencies[f];
     Complex z = backscatter * returns.z[f];
@@ -249,7 +287,7 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
     store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)),
                 range_m);
     if (of.holds)
-      hold(of, frequency, samples, terms, size, held);
+      hold(of, frequency, samples, terms, size, scaled(backscatter, turned_terms(of, returns, f)), held);
   }
   if (of.lit)
     store_lit(of, samples);
