@@ -308,7 +308,8 @@ double largest_m(const FramePlan &plan, double condition) {
 // order of the plan's sources.
 void plan_precise_pixels(const LightFacts &view, const Accuracy &accuracy, FramePlan &plan) {
   if (plan.surely_kept || plan.precision == Precision::fp64 || accuracy.precision ||
-      view.sensor.has_distortion() || (view.modulation.lit && plan_windows(plan.all, view.window_bundles).size() > 1))
+      view.sensor.has_distortion() ||
+      (view.modulation.lit && plan_windows(plan.all, view.window_bundles).size() > 1))
     return;
   SourceGroups groups =
       precise_groups(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m(), plan.all);

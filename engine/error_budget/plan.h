@@ -24,7 +24,7 @@ struct LightFacts {
   Backscatter backscatter;
   bool on_host; // the device is the host's processor: its dispatches need not be short, and the host may sum
   PathForms allowed = {};
-  bool painted = true; // some surface's backscatter is looked up
+  bool painted = true;                                       // some surface's backscatter is looked up
   std::uint32_t window_bundles = shader::bundles_per_window; // of visibility bits that are there together
 };
 

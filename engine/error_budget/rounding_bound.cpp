@@ -212,13 +212,15 @@ private:
       left_out *= phase_rad / k;
     const MomentPolynomials &powers = groups_.polynomials;
     const bool by_powers = powers.powers > 0; // or, on the host, by others
-    TermError error{weight_ + summation() * growth + 3.0 * u_ +
-                        (by_powers ? std::max(powers.weight_error, near_weight_error(groups_.tolerance)) : 0.0),
-                    0.0};
-    error.path_m = growth * u_ * (excess_error_m(groups_, scope_) + 11.0 * groups_.path_difference_m) +
-                   growth * (summation() * path_terms_m() + left_out / wavenumber_rad_m) +
-                   (by_powers ? std::max(powers.angle_error_rad, near_angle_error_rad(groups_.tolerance)) : 0.0) /
-                       modulation_.largest_wavenumber_rad_m();
+    TermError error{
+        weight_ + summation() * growth + 3.0 * u_ +
+            (by_powers ? std::max(powers.weight_error, near_weight_error(groups_.tolerance)) : 0.0),
+        0.0};
+    error.path_m =
+        growth * u_ * (excess_error_m(groups_, scope_) + 11.0 * groups_.path_difference_m) +
+        growth * (summation() * path_terms_m() + left_out / wavenumber_rad_m) +
+        (by_powers ? std::max(powers.angle_error_rad, near_angle_error_rad(groups_.tolerance)) : 0.0) /
+            modulation_.largest_wavenumber_rad_m();
     const double turned_m = lengths_.detour_m + groups_.path_difference_m;
     error.path_m += phasor * u_ * std::min(turned_m, 1.0 / wavenumber_rad_m);
     if (scope_.samples > 1) // turned again, to the pixel's first

@@ -227,14 +227,16 @@ void demodulate_records(const FrameBasis &on, const SourceGroups &groups, SumSco
   const bool settles = holds_pixels(on.modulation);
   if (on.path.direct) {
     if (settles && !on.path.host_pixels)
-      graph.add_to_window(claims_pass(on, held_errors(on.buffers, HeldErrors::By::direct_pixels), scope.later));
+      graph.add_to_window(
+          claims_pass(on, held_errors(on.buffers, HeldErrors::By::direct_pixels), scope.later));
     return;
   }
   if (on.plan.bound_beforehand)
     scope.bound = worse_of(*scope.bound, *on.plan.bound_beforehand);
   graph.add_after(demodulation_pass(on, groups, scope, on.path.host_reads_truth));
   if (settles)
-    graph.add_after(claims_pass(on, held_errors(on.buffers, HeldErrors::By::demodulated_depths), scope.later));
+    graph.add_after(
+        claims_pass(on, held_errors(on.buffers, HeldErrors::By::demodulated_depths), scope.later));
 }
 
 // A class of pixels, sample by sample: all of them, or those of a list.
@@ -388,10 +390,10 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                         const FrameRequest &request, std::uint32_t attempt, TextureCache &textures,
                         SpareMemory &&spare) {
   FrameFacts facts = look(device, options, request);
-  const FramePlan plan =
-      plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation, facts.model,
-                  request.backscatter, device.is_cpu(), options.allowed, facts.paint.painted, facts.window_bundles},
-                 request.accuracy, attempt);
+  const FramePlan plan = plan_frame({facts.lights, facts.projection.visible, request.sensor, facts.modulation,
+                                     facts.model, request.backscatter, device.is_cpu(), options.allowed,
+                                     facts.paint.painted, facts.window_bundles},
+                                    request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
   facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
   facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;
@@ -406,8 +408,8 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
       plan_strips(request.sensor, facts.projection.blocks,
                   options.max_strip_samples > 0 ? options.max_strip_samples : largest_strip);
   auto memory = std::make_unique<FrameMemory>(FrameMemory{
-      make_strip_buffers(device, strips, facts.projection.blocks, layout_of(options, facts, plan, path, words),
-                         options, std::move(spare.buffers)),
+      make_strip_buffers(device, strips, facts.projection.blocks,
+                         layout_of(options, facts, plan, path, words), options, std::move(spare.buffers)),
       {vulkan::upload(device, planes),
        upload_paint(device, facts.paint, facts.camera, request.scene, request.backscatter, textures),
        path.one_backscatter ? backscatter : std::nullopt, facts.camera.world_rounding_m}});

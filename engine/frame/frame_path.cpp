@@ -53,8 +53,8 @@ bool fits_pixels(const FramePath &path, const FrameFacts &facts, const FramePlan
          is_even(path.grid, sensor) && plan.precision == Precision::fp32 &&
          modulation.waveform == shader::waveform_sine &&
          modulation.frequencies() <= most_direct_frequencies &&
-         (path.single_run || (may_make_pixels_on_host(facts, allowed) &&
-                              may_sum_on_host(path, facts, plan.all, allowed)));
+         (path.single_run ||
+          (may_make_pixels_on_host(facts, allowed) && may_sum_on_host(path, facts, plan.all, allowed)));
 }
 
 // Where it sums beforehand the device is as fast, so that only shaded samples go to the host.
@@ -67,8 +67,8 @@ HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const FrameP
   if (!makes_pixels && !keeps_few_moments(plan.all))
     return HostSum::none;
   const bool is_whole = path.single_run || makes_pixels;
-  const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
-                          (facts.modulation.lit ? is_whole : facts.model.all_facing);
+  const bool beforehand =
+      plan.all.polynomials.point_dimensions > 0 && (facts.modulation.lit ? is_whole : facts.model.all_facing);
   return !beforehand ? HostSum::all : path.windows == 1 ? HostSum::partial : HostSum::none;
 }
 
@@ -202,18 +202,24 @@ void sum_facing_beforehand(const FrameFacts &facts, const FramePlan &plan, Frame
     path.host_sum = HostSum::partial;
 }
 
+// What sorting pixels into classes costs, in sources that the host would sum meanwhile: it makes pixels at
+// once.
+constexpr std::size_t sorting_sources = 256;
+
 // Within an error, sorting pixels and reducing the sources costs more than it saves where sums beforehand do
 // not depend on the number of sources, or where the reduced set saves less than half of them. With several
 // samples a pixel this holds only where no point stands in for them, or where shadows may fall.
-bool is_better_unsorted(const FrameFacts &facts, const FramePlan &plan, const FrameRequest &request,
-                        const PathForms &allowed) {
-  const bool finds_facing = request.sensor.samples == 1 && allowed.direct_pixels && allowed.host_sum &&
-                            may_make_pixels_on_host(facts, allowed) && can_sum_on_host(plan.all);
+bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                        const FrameRequest &request, const PathForms &allowed) {
+  const bool on_host = may_make_pixels_on_host(facts, allowed) &&
+                       fits_pixels(path, facts, plan, request.sensor, allowed) &&
+                       may_sum_on_host(path, facts, plan.all, allowed);
   const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
-                          (facts.modulation.lit || facts.model.all_facing || finds_facing);
+                          (facts.modulation.lit || facts.model.all_facing || on_host);
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
                          uniform_points(facts, plan, request, allowed).has_value();
-  return !thins_out && (beforehand || 2 * plan.reduced.diodes.size() > plan.all.diodes.size());
+  const std::size_t all = plan.all.diodes.size(), reduced = plan.reduced.diodes.size();
+  return !thins_out && (beforehand || 2 * reduced > all || (on_host && all <= reduced + sorting_sources));
 }
 
 // Whether the sums of records can be held against what was asked for.
@@ -323,7 +329,7 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
   const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) &&
-                     can_sort(facts, windows) && is_better_unsorted(facts, plan, request, allowed) &&
+                     can_sort(facts, windows) && is_better_unsorted(path, facts, plan, request, allowed) &&
                      can_sum_records(path, plan, sensor, allowed);
   const bool direct = can_be_direct(path, facts, plan, sensor, allowed) && (!reports || holds);
   path.classes = classes_of(facts, plan, request, windows, direct || holds, allowed);

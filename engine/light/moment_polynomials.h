@@ -42,8 +42,8 @@ struct MomentPolynomials {
 };
 
 // `reaches` are the runs'; `moments`, wavenumber_rad_m and `tolerance` as in SourceGroups, `least_intensity`
-// that of a diode that shines, relative. No powers where the polynomials would be longer than is worth it, or where W
-// could leave float's range.
+// that of a diode that shines, relative. No powers where the polynomials would be longer than is worth it, or
+// where W could leave float's range.
 MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity,
                                   double tolerance = 0.0);

@@ -251,8 +251,8 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
     result.radius_m = std::max(result.radius_m, group.reach.radius_m);
     result.radius_over_range = std::max(result.radius_over_range, group.reach.radius_over_range());
   }
-  result.moments = moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision),
-                                  tolerance);
+  result.moments =
+      moments_needed(wavenumber_rad_m * result.path_difference_m, largest_remainder(precision), tolerance);
   result.blocks_per_run = run_blocks ? *run_blocks : cheapest_run_blocks(grouping.groups(), most_blocks);
   Diagrams diagrams;
   for (const Group &group : grouping.groups())

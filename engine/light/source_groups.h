@@ -74,8 +74,8 @@ constexpr std::uint32_t usual_run_blocks = 16, long_run_blocks = 64;
 // that they light; wavenumber = 2 pi f / c, rad/m. Throws Error: input where intensities are too far apart.
 SourceGroups group_diodes(const std::vector<CameraIlluminator> &illuminators,
                           const std::vector<VisibleBox> &visible, double wavenumber_rad_m,
-                          Precision precision = Precision::fp32,
-                          std::uint32_t most_blocks = usual_run_blocks, double tolerance = 0.0);
+                          Precision precision = Precision::fp32, std::uint32_t most_blocks = usual_run_blocks,
+                          double tolerance = 0.0);
 
 // The same diodes as `groups` in the same order and runs, in fp64.
 SourceGroups precise_groups(const std::vector<CameraIlluminator> &illuminators,

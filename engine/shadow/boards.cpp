@@ -93,7 +93,9 @@ std::vector<WindowPart> parts_of(const SourceWindow &window, const SourceGroups 
   const auto of_runs = [&](std::uint32_t first, std::uint32_t last) {
     return SourceWindow{first, last, (last - first) * of_run};
   };
-  const auto is_flat = [&](const SourceWindow &runs) { return plane_of(places_of(runs, groups)).has_value(); };
+  const auto is_flat = [&](const SourceWindow &runs) {
+    return plane_of(places_of(runs, groups)).has_value();
+  };
   std::vector<WindowPart> parts;
   bool last_is_flat = false;
   for (std::uint32_t run = window.first_run; run < window.last_run; ++run) {

@@ -28,8 +28,8 @@ struct Board {
   glm::dvec3 in_frame(const glm::dvec3 &camera_m) const { return rotation * camera_m + translation_m; }
 };
 
-// Runs of a window that are swept at once: as many as fit shader::bundles_per_window, those that share a plane
-// together and apart from others. `first_bundle`: among the window's.
+// Runs of a window that are swept at once: as many as fit shader::bundles_per_window, those that share a
+// plane together and apart from others. `first_bundle`: among the window's.
 struct WindowPart {
   SourceWindow runs;
   std::uint32_t first_bundle;

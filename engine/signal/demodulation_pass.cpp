@@ -127,8 +127,8 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
   const shader::Strip &strip = at.of_strip();
   const std::uint32_t plane = sample_count(strip);
   const HeldErrors errors = held_errors(buffers_, HeldErrors::By::demodulated_samples);
-  const vk::DeviceSize of_frequency = errors.offset(strip) + sizeof(shader::vec2) * frequency *
-                                                                 vk::DeviceSize{errors.plane(strip)};
+  const vk::DeviceSize of_frequency =
+      errors.offset(strip) + sizeof(shader::vec2) * frequency * vk::DeviceSize{errors.plane(strip)};
   const shader::DemodulationConstants constants{buffers_.position.words(),
                                                 buffers_.sum.words(sample_bytes_ * plane * frequency),
                                                 buffers_.ids.words(),

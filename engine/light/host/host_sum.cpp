@@ -46,8 +46,7 @@ private:
 } // namespace
 
 bool can_sum_on_host(const SourceGroups &groups) {
-  return groups.moments <= shader::largest_moments &&
-         std::ranges::all_of(groups.diodes, is_known_to_host);
+  return groups.moments <= shader::largest_moments && std::ranges::all_of(groups.diodes, is_known_to_host);
 }
 
 bool keeps_few_moments(const SourceGroups &groups) {

@@ -136,7 +136,8 @@ struct HostSweep::State {
   std::vector<Sweep> sweeps; // window by window
 
   std::size_t window_count() const { return sweeps.back().window + 1; }
-  void add_board(const PassSetup &on, const Board &board, const SweepItems &items, const SourceGroups &groups);
+  void add_board(const PassSetup &on, const Board &board, const SweepItems &items,
+                 const SourceGroups &groups);
   void begin_tiles(const shader::Strip &strip);
   void decide(const shader::Strip &strip, Sweep &sweep);
   void store(const shader::Strip &strip, Sweep &sweep, std::uint32_t tile, const TileBits &bits);
@@ -267,16 +268,17 @@ void HostSweep::State::decide(const shader::Strip &strip, Sweep &sweep) {
     const std::vector<ListedBlock> all(most_blocks + 1);
     return Memory{all, all, all, {}};
   });
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, tile_count(source.strip), 4), [&](const auto &range) {
-    Memory &own = memory.local();
-    for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
-      decide_tile(*sweep.board, source, tile, {own.edges.data(), own.hidden.data(), own.hidden_nearby.data()},
-                  own.bits);
-      store(strip, sweep, tile, own.bits);
-      if (samples.are_records())
-        store_kinds(is_first, tile, tiles_across(source.strip.columns), own.bits);
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::uint32_t>(0, tile_count(source.strip), 4), [&](const auto &range) {
+        Memory &own = memory.local();
+        for (std::uint32_t tile = range.begin(); tile < range.end(); ++tile) {
+          decide_tile(*sweep.board, source, tile,
+                      {own.edges.data(), own.hidden.data(), own.hidden_nearby.data()}, own.bits);
+          store(strip, sweep, tile, own.bits);
+          if (samples.are_records())
+            store_kinds(is_first, tile, tiles_across(source.strip.columns), own.bits);
+        }
+      });
 }
 
 void HostSweep::decide(const shader::Strip &strip, std::size_t window) const {

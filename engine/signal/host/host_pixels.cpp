@@ -81,17 +81,20 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
 
 PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, const SumScope &scope)
     : buffers_(on.buffers), sums_(on, groups, scope, true),
-      runs_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand)), tones_(on.modulation.all_tones()),
+      runs_(light_runs(groups, scope.bound.value_or(ErrorBound{}), scope.beforehand)),
+      tones_(on.modulation.all_tones()),
       frequencies_(
           frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
       backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
       lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
-      reports_kept_(on.modulation.reports_kept), later_(scope.later), first_tap_(row_of(&Return::taps).slot.index),
+      reports_kept_(on.modulation.reports_kept), later_(scope.later),
+      first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
       loops_(widest_pixel_loops(on.options.host_vector_bits)) {
-  if (frequencies_.size() > most_pixel_frequencies || on.scene.paint.painted || !buffers_.channels.is_mapped())
+  if (frequencies_.size() > most_pixel_frequencies || on.scene.paint.painted ||
+      !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
   const RunForm form = form_of(on, groups, scope);
   if (scope.beforehand)

@@ -34,8 +34,8 @@ inline bool is_tighter_at_one_range(const shader::Frequency &frequency) {
          frequency.near_per_weight_m <= frequency.per_weight_m;
 }
 
-// `size`: of the return, as `terms` are, and `turned` (weights_error_m), which are infinite where they are not
-// known.
+// `size`: of the return, as `terms` are, and `turned` (weights_error_m), which are infinite where they are
+// not known.
 inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, const Floats &size,
                         const Terms &turned) {
   const Floats none = all(0.0f), infinite = all(std::numeric_limits<float>::infinity());
@@ -49,9 +49,8 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
   const Terms over_size{turned.light * inverse_size, turned.weights * inverse_size};
   const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
-    const Floats growing_m =
-        per_condition_m * condition +
-        weights_error_m(frequency, per_weight_m, condition, turning, weights, over_size);
+    const Floats growing_m = per_condition_m * condition +
+                             weights_error_m(frequency, per_weight_m, condition, turning, weights, over_size);
     return fixed_m + growing_m * grown;
   };
   Floats distance_m = bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,

@@ -247,8 +247,8 @@ Terms scaled(const Floats &factor, const Terms &terms) {
   return {factor * terms.light, factor * terms.weights};
 }
 
-// Each run's terms times a bound of |sin| of the angle between them and the return: their own phases differ by
-// twice the run's path difference at the most, and the run's return lies among them.
+// Each run's terms times a bound of |sin| of the angle between them and the return: their own phases differ
+// by twice the run's path difference at the most, and the run's return lies among them.
 Terms turned_terms(const PixelWork &of, const Returns &returns, std::uint32_t f) {
   const Floats infinite = all(std::numeric_limits<float>::infinity());
   if (!keeps_runs(of))
