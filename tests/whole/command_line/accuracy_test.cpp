@@ -46,9 +46,9 @@ struct SmallWall {
 TEST_CASE(
     "a frame of which some pixels cannot be promised tells which, or is refused where that is asked for") {
   const Workspace work;
-  std::vector<std::string> arguments{"render",      PMDSIM_SCENES "/light.json",
+  std::vector<std::string> arguments{"render",      PMDSIM_SCENES "/signal.json",
                                      "-o",          work / "out",
-                                     "--max-error", "10um",
+                                     "--max-error", "5.4um",
                                      "--precision", "fp32",
                                      "--format",    "npy",
                                      "--json"};
@@ -60,7 +60,7 @@ TEST_CASE(
   CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
   CHECK(std::ifstream(work / "out/pmd_0000.error_bound_m.npy").good());
   arguments.emplace_back("--strict");
-  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.01 mm"});
+  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.0054 mm"});
 }
 
 TEST_CASE("what cannot be asked for is refused before anything is read") {
