@@ -58,7 +58,7 @@ TEST_CASE(
   CHECK(std::ranges::count(told.errors, '\n') == 1);
   CHECK(told.errors.starts_with("pmdsim: warning: pmd, frame 0: "));
   CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
-  CHECK(std::ifstream(work / "out/pmd_0000.error_bound_m.npy").good());
+  CHECK(std::ifstream(work / "out/pmd_0000.f0.error_bound_m.npy").good());
   arguments.emplace_back("--strict");
   check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.0054 mm"});
 }
