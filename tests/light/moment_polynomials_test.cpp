@@ -101,6 +101,53 @@ TEST_CASE("The nearer the light's points, the more powers; none where roots are 
   CHECK(powers_at(0.17) == 0);
 }
 
+TEST_CASE("A tolerance takes fewer powers, whose errors it bounds") {
+  const Light light = ring_before_a_wall(0.166, 0.9);
+  const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
+  std::uint32_t last = shader::largest_powers;
+  for (const double tolerance : {0.0, 0x1p-17, 0x1p-12}) {
+    const MomentPolynomials sums =
+        fit_polynomials(reaches, 3, moments, wavenumber_20mhz_rad_m, 1.0, tolerance);
+    INFO("tolerance " << tolerance << ", powers " << sums.powers);
+    REQUIRE(sums.powers > 0);
+    CHECK(sums.powers < last);
+    CHECK(sums.weight_error <= std::max(tolerance, 0x1p-23));
+    CHECK(sums.angle_error_rad <= std::max(tolerance, 0x1p-24));
+    last = sums.powers;
+  }
+}
+
+TEST_CASE("Tables for places that are not near keep their errors, and their terms the growth that is told") {
+  const Light light = ring_before_a_wall(0.166, 0.2);
+  const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
+  const std::uint32_t p = 3;
+  for (const double tolerance : {0.0, 0x1p-18}) {
+    const auto bound = bound_near_polynomials(reaches, p, moments, wavenumber_20mhz_rad_m, tolerance);
+    REQUIRE(bound);
+    double largest = 0.0;
+    for (const std::uint32_t powers : near_powers(0)) {
+      const auto near =
+          fit_near_polynomials(reaches[0], p, moments, wavenumber_20mhz_rad_m, powers, tolerance);
+      if (!near)
+        continue;
+      REQUIRE(near->largest_u > largest); // the longer, the farther it reaches
+      largest = near->largest_u;
+      for (const double u : {-largest, -0.5 * largest, 0.3 * largest, largest}) {
+        double sum = 0.0, terms = 0.0;
+        for (std::uint32_t i = 0; i < powers; ++i) {
+          const auto a = static_cast<double>(near->table[i / 4][static_cast<int>(i % 4)]);
+          sum += a * std::pow(u, i);
+          terms += std::abs(a * std::pow(u, i));
+        }
+        CHECK(std::abs(sum * std::pow(1.0 + u, 0.5 * p) - 1.0) <= bound->weight_error);
+        CHECK(terms <= bound->growth * (1.0 + 1e-9));
+      }
+    }
+    CHECK(largest > 0.2);
+    CHECK(bound->growth > 1.2);
+  }
+}
+
 TEST_CASE("A diode in the reference point needs no power of q") {
   Light light = ring_before_a_wall(0.1, 2.0);
   light.diodes_m = {glm::dvec3(0.0)};

@@ -129,6 +129,42 @@ TEST_CASE("every kind of board agrees with the reference, more samples", "[long]
     check_boards(seed, 96);
 }
 
+TEST_CASE("a window is swept in parts, plane by plane") {
+  const auto light_of = [](double x_m, double z_m, int diodes) {
+    CameraIlluminator light;
+    for (int i = 0; i < diodes; ++i) {
+      Diode diode;
+      diode.position_m = {x_m + 1e-3 * (i % 20), 1e-3 * (i / 20), z_m};
+      light.diodes.push_back(diode);
+    }
+    return light;
+  };
+  VisibleBox box;
+  box.add({-1.0, -1.0, 1.0});
+  box.add({1.0, 1.0, 3.0});
+  // Two boards in one plane, whose runs come together, a board behind them, and one of too many diodes.
+  const SourceGroups groups = group_diodes(
+      {light_of(-0.2, 0.0, 60), light_of(0.2, 0.0, 60), light_of(0.0, -0.1, 60), light_of(0.0, 0.2, 700)},
+      {box}, 0.4);
+  const auto windows = plan_windows(groups, bundles_per_host_window);
+  REQUIRE(windows.size() == 1);
+  std::uint32_t next_run = 0, next_bundle = 0;
+  std::vector<SourceWindow> swept;
+  for (const WindowPart &part : parts_of(windows[0], groups)) {
+    CHECK(part.runs.first_run == next_run);
+    CHECK(part.first_bundle == next_bundle);
+    CHECK(part.runs.bundles <= shader::bundles_per_window);
+    next_run = part.runs.last_run;
+    next_bundle += part.runs.bundles;
+    swept.push_back(part.runs);
+  }
+  CHECK(next_run == groups.runs.size());
+  CHECK(next_bundle == windows[0].bundles);
+  const std::vector<Board> boards = find_boards(groups, swept);
+  CHECK(boards.size() == 3);
+  CHECK(std::ranges::all_of(boards, &Board::is_flat));
+}
+
 TEST_CASE("vectors of every width leave the same bits") {
   const BoardScene on = board_scene(47, 24);
   const std::vector<BoardCase> cases = board_cases();
