@@ -196,6 +196,7 @@ void check_bounds(const Measurement &host, const Measurement &device, double tol
     CHECK(host.accuracy.claimed_amplitude.value() ==
           Approx(device.accuracy.claimed_amplitude.value()).epsilon(tolerance));
   }
+  double most = 1.0;
   for (std::size_t f = 0; f < host.returns.size(); ++f) {
     const auto &of_host = host.returns[f].error_bound_m, &of_device = device.returns[f].error_bound_m;
     REQUIRE(of_host.size() == of_device.size());
@@ -205,8 +206,10 @@ void check_bounds(const Measurement &host, const Measurement &device, double tol
       const double ratio = static_cast<double>(of_host[i]) / static_cast<double>(of_device[i]);
       REQUIRE((std::isnan(of_host[i]) || of_host[i] == of_device[i] ||
                (ratio >= 1.0 - tolerance && ratio <= growth * (1.0 + tolerance))));
+      most = std::isnan(ratio) ? most : std::max(most, ratio);
     }
   }
+  CHECK((growth == 1.0 || most > 1.5));
 }
 
 // `exact`: in double.
