@@ -20,7 +20,7 @@ namespace {
 // rest is for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 // The share that series of fewer terms may take in each plan; no more than is worth it.
-constexpr double share_of_series[frame_plans] = {0.1, 0.02, 0.0};
+constexpr double share_of_series[frame_plans] = {0.03, 0.006, 0.0};
 constexpr double largest_tolerance = 0x1p-14;
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
 // error than rounding does, or this share.
