@@ -1,5 +1,6 @@
 #include "engine/error_budget/plan.h"
 
+#include "engine/error_budget/planned_groups.h"
 #include "engine/error_budget/rounding_bound.h"
 #include "engine/light/radiation_laws.h"
 #include "engine/light/source_windows.h"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 
 namespace pmdsim {
 namespace {
@@ -19,9 +19,8 @@ namespace {
 // The share that the reduced set may take in each plan of what rounding leaves of the error asked for. The
 // rest is for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
-// The share that series of fewer terms may take in each plan; no more than is worth it.
+// The share that series of fewer terms may take in each plan.
 constexpr double share_of_series[frame_plans] = {0.03, 0.006, 0.0};
-constexpr double largest_tolerance = 0x1p-14;
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
 // error than rounding does, or this share.
 constexpr double least_share_of_reduction = 0.02;
@@ -32,13 +31,6 @@ constexpr double largest_bound_in_float = 2.0;
 
 // Relative errors: one rounding; those of paint, texture and vignetting.
 constexpr double plain_backscatter_error = 0x1p-24, painted_backscatter_error = 0x1p-21;
-
-std::vector<double> wavenumbers_rad_m(const Modulation &modulation) {
-  std::vector<double> result;
-  for (const double modulation_hz : modulation.modulation_hz)
-    result.push_back(2.0 * std::numbers::pi * modulation_hz / speed_of_light_m_s);
-  return result;
-}
 
 // An upper bound of a pixel's angle, seen from the lens.
 double pixel_rad(const Sensor &sensor) {
@@ -91,45 +83,6 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double cond
       fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
                   "come to {:.3g}",
                   accuracy.max_amplitude_error, bound.amplitude(1.0)));
-}
-
-// What a plan lets series leave out of a sum in float.
-double tolerance_of(const LightFacts &view, Precision precision, const Accuracy &accuracy, double share) {
-  if (precision == Precision::fp64)
-    return 0.0;
-  const std::vector<double> wavenumbers = wavenumbers_rad_m(view.modulation);
-  const double angle_rad = 2.0 * *std::ranges::max_element(wavenumbers) * accuracy.max_error_m;
-  return std::min(share * std::min(angle_rad, accuracy.max_amplitude_error), largest_tolerance);
-}
-
-double growth_of(const SourceGroups &groups) {
-  return groups.near_polynomials ? groups.near_polynomials->growth : groups.polynomials.growth;
-}
-
-// In runs of at most so many blocks.
-SourceGroups in_runs_of(std::uint32_t most_blocks, const LightFacts &view,
-                        const std::vector<CameraIlluminator> &lights, Precision precision, double tolerance) {
-  const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
-  SourceGroups groups =
-      group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks, tolerance);
-  if (precision == Precision::fp32 && view.modulation.by_moments())
-    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed,
-                       view.on_host && view.sensor.samples == 1);
-  return groups;
-}
-
-SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision, double tolerance = 0.0) {
-  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance);
-  // What series leave out counts as rounding does, which grows.
-  if (const double growth = growth_of(groups); growth > 1.0 && tolerance > 0.0) {
-    tolerance /= growth;
-    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance);
-  }
-  // A window of shadows' bits holds no long run.
-  const bool long_runs =
-      view.on_host && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
-  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance) : groups;
 }
 
 // All diodes as they are summed in a precision, and what rounding may do to that.

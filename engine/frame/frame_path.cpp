@@ -45,16 +45,20 @@ bool may_sum_on_host(const FramePath &path, const FrameFacts &facts, const Sourc
          path.summation != Summation::per_diode && can_sum_on_host(groups);
 }
 
-// Pixels of the host may have any number of runs, those of the device one.
-bool fits_pixels(const FramePath &path, const FrameFacts &facts, const FramePlan &plan, const Sensor &sensor,
-                 const PathForms &allowed) {
+// Whether pixels of one sample go to channels at once, if their sources can be summed so.
+bool fits_channels(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                   const Sensor &sensor, const PathForms &allowed) {
   const Modulation &modulation = facts.modulation;
   return allowed.direct_pixels && allowed.depth_records && sensor.samples == 1 &&
          is_even(path.grid, sensor) && plan.precision == Precision::fp32 &&
-         modulation.waveform == shader::waveform_sine &&
-         modulation.frequencies() <= most_direct_frequencies &&
-         (path.single_run ||
-          (may_make_pixels_on_host(facts, allowed) && may_sum_on_host(path, facts, plan.all, allowed)));
+         modulation.waveform == shader::waveform_sine && modulation.frequencies() <= most_direct_frequencies;
+}
+
+// For any number of runs; the device makes pixels of one.
+bool fits_host_pixels(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
+                      const Sensor &sensor, const PathForms &allowed) {
+  return fits_channels(path, facts, plan, sensor, allowed) && may_make_pixels_on_host(facts, allowed) &&
+         may_sum_on_host(path, facts, plan.all, allowed);
 }
 
 // Where it sums beforehand the device is as fast, so that only shaded samples go to the host.
@@ -62,8 +66,7 @@ HostSum host_sum_of(const FramePath &path, const FrameFacts &facts, const FrameP
                     const Sensor &sensor, const PathForms &allowed) {
   if (!may_sum_on_host(path, facts, plan.all, allowed))
     return HostSum::none;
-  const bool makes_pixels =
-      may_make_pixels_on_host(facts, allowed) && fits_pixels(path, facts, plan, sensor, allowed);
+  const bool makes_pixels = fits_host_pixels(path, facts, plan, sensor, allowed);
   if (!makes_pixels && !keeps_few_moments(plan.all))
     return HostSum::none;
   const bool is_whole = path.single_run || makes_pixels;
@@ -169,7 +172,9 @@ bool can_sum_records(const FramePath &path, const FramePlan &plan, const Sensor 
 
 bool can_be_direct(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                    const Sensor &sensor, const PathForms &allowed) {
-  return can_sum_records(path, plan, sensor, allowed) && fits_pixels(path, facts, plan, sensor, allowed);
+  return can_sum_records(path, plan, sensor, allowed) &&
+         (path.single_run ? fits_channels(path, facts, plan, sensor, allowed)
+                          : fits_host_pixels(path, facts, plan, sensor, allowed));
 }
 
 bool can_make_pixels_on_host(const FramePath &path, const FrameFacts &facts, const PathForms &allowed) {
@@ -211,9 +216,7 @@ constexpr std::size_t sorting_sources = 256;
 // samples a pixel this holds only where no point stands in for them, or where shadows may fall.
 bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                         const FrameRequest &request, const PathForms &allowed) {
-  const bool on_host = may_make_pixels_on_host(facts, allowed) &&
-                       fits_pixels(path, facts, plan, request.sensor, allowed) &&
-                       may_sum_on_host(path, facts, plan.all, allowed);
+  const bool on_host = fits_host_pixels(path, facts, plan, request.sensor, allowed);
   const bool beforehand = plan.all.polynomials.point_dimensions > 0 &&
                           (facts.modulation.lit || facts.model.all_facing || on_host);
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
