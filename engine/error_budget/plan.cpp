@@ -140,6 +140,7 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
   bound.weight_error = rounding.weight_error;
   bound.per_weight_m = rounding.per_weight_m;
   bound.any_weight_m = rounding.any_weight_m;
+  bound.even_part = std::max(rounding.even_part, at_one_range ? at_one_range->even_part : 0.0);
   bound.amplitude_per_weight = rounding.amplitude_per_weight;
   if (at_one_range && std::isfinite(rounding.per_apart))
     bound.at_one_range = {at_one_range->fixed_m, at_one_range->per_condition_m + light.error_per_condition_m,
@@ -183,7 +184,8 @@ std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bo
   const double relative = bound.amplitude_per_condition * *condition;
   if (!(relative < 1.0))
     return std::nullopt;
-  const double per_condition_m = bound.per_condition_m + bound.weight_error * bound.per_weight_m;
+  const double per_condition_m =
+      bound.per_condition_m + bound.weight_error * bound.even_part * bound.per_weight_m;
   return SureBound{bound.fixed_m + per_condition_m * *condition / (1.0 - relative),
                    bound.amplitude_fixed + relative};
 }
@@ -332,7 +334,7 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
        {&ErrorBound::fixed_m, &ErrorBound::per_condition_m, &ErrorBound::amplitude_fixed,
         &ErrorBound::amplitude_per_condition, &ErrorBound::terms_per_weight_error,
         &ErrorBound::terms_of_beam_edges, &ErrorBound::weight_error, &ErrorBound::per_weight_m,
-        &ErrorBound::any_weight_m, &ErrorBound::amplitude_per_weight})
+        &ErrorBound::any_weight_m, &ErrorBound::amplitude_per_weight, &ErrorBound::even_part})
     a.*part = std::max(a.*part, b.*part);
   using Near = ErrorBound::AtOneRange;
   if (!b.at_one_range)

@@ -12,9 +12,11 @@
 // The sum is z = sum_m w_m exp(j phi_m). An error of each weight, w_m (1 + a_m), turns z by sum w_m a_m
 // sin(phi_m - arg z) / |z|, at most
 //   condition * a * min(kappa * spread, 1)       spread: of the paths, m
-// since arg z lies among the phi_m; an error of each path by b_m metres turns it by condition * kappa * b.
-// Half of the angle over kappa is distance. Below, a and b are counted operation by operation in units of u
-// (engine/light/rounding_units.h).
+// since arg z lies among the phi_m. Errors of all weights by the same part have about half of that effect,
+// since w sin(phi - arg z) sums to 0, so that the mean of |sin| is at most half of the sines' range; where a
+// run's sum is off as a whole, its reference point counts as its phase. An error of each path by b_m metres
+// turns it by condition * kappa * b. Half of the angle over kappa is distance. Below, a and b are counted
+// operation by operation in units of u (engine/light/rounding_units.h).
 
 namespace pmdsim {
 namespace {
@@ -32,6 +34,7 @@ struct Lengths {
   double range_m = 0.0;  // at most, of what is visible
   double detour_m = 0.0; // at most, |rho - range| over all groups' reference points
   double spread_m = 0.0; // at most, of the paths to all diodes and reference points
+  double among_m = 0.0;  // at most, of the paths to all diodes
   double sample_spread_m = 0.0;
 };
 
@@ -71,7 +74,8 @@ Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &vi
       path_difference_of(0.5 * (box.low_m + box.high_m), places_m, visible).path_difference_m;
   const double about_lens_m = path_difference_of(glm::dvec3(0.0), places_m, visible).path_difference_m;
   const double across_m = scope.samples > 1 ? scope.pixel_rad * result.range_m : 0.0;
-  result.spread_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m) + groups.path_difference_m;
+  result.among_m = std::min(2.0 * about_middle_m + across_m, 2.0 * about_lens_m);
+  result.spread_m = result.among_m + groups.path_difference_m;
   if (scope.samples > 1)
     result.sample_spread_m = scope.sample_spread_m.value_or(std::max(0.0, result.range_m - nearest));
   return result;
@@ -108,7 +112,8 @@ double power_weight_error(const SourceGroups &groups, const SumModel &model, con
                  polynomial_error(groups, scope) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
   if (model.pattern == shader::pattern_power)
-    error += model.order * (along_error_u(t) / least_cosine + 1.0);
+    error += model.order * (along_error_u(t) / least_cosine + 1.0) +
+             fraction_error_u(model.order, t, least_cosine);
   else
     error += law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
@@ -120,7 +125,7 @@ double power_weight_error(const SourceGroups &groups, const SumModel &model, con
 double weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
   const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
   if (groups.polynomials.powers > 0)
-    return power_weight_error(groups, model, scope, inverse_powers(model).value());
+    return power_weight_error(groups, model, scope, inverse_powers(model));
   const double inverse_square_u = std::max(division_u + 4.0, 2.0 * (host_root_u + 1.0) + 6.0);
   double error = r2 + inverse_square_u + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
   if (model.backscatter == shader::backscatter_lambert)
@@ -194,6 +199,16 @@ private:
     const auto other = [&](const SourceRun &run) { return run.phase_turns != groups_.runs[0].phase_turns; };
     return std::ranges::any_of(groups_.runs, other) ? std::numeric_limits<double>::infinity()
                                                     : lengths_.spread_m + 2.0 * lengths_.sample_spread_m;
+  }
+
+  // How much of an error's effect one has that is the same for all weights. Runs may be off as a whole, too:
+  // the only one by no more than its own paths differ, several by that and as their terms are.
+  double even_part(double wavenumber_rad_m) const {
+    const bool is_one = groups_.runs.size() == 1 && scope_.samples == 1;
+    const double half_m = 0.5 * lengths_.among_m + lengths_.sample_spread_m;
+    const double even_m =
+        is_one ? std::max(half_m, groups_.path_difference_m) : half_m + groups_.path_difference_m;
+    return wavenumber_rad_m * spread_m() < 1.0 && spread_m() > 0.0 ? std::min(even_m / spread_m(), 1.0) : 1.0;
   }
 
   // z's own angle, over kappa: relative to twice a range for a sine without a phase.
@@ -270,6 +285,7 @@ private:
     // Ranges count there and back, where a term is turned and where the sum's angle is taken.
     bound.per_apart = is_sine ? (phasor + angle) * u_ : unknown;
     bound.weight_error = fundamental.weight;
+    bound.even_part = is_sine ? even_part(wavenumber_rad_m) : 1.0;
     bound.per_condition_m = 0.5 * (angle_rad - fundamental.weight * turning) / wavenumber_rad_m;
     bound.amplitude_per_condition = amplitude;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
@@ -297,6 +313,7 @@ private:
     bound.per_condition_m = 0.5 * z / wavenumber_rad_m;
     bound.amplitude_per_condition = z + summation() + 2.0 * weight_;
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
+    bound.even_part = 1.0;
     bound.any_weight_m = unknown;
     bound.amplitude_per_weight = 2.0;
     return bound;
@@ -319,7 +336,7 @@ void raise_to(RoundingBound &largest, const Bound &bound, const Modulation &modu
     for (const auto part :
          {&Part::fixed_m, &Part::per_condition_m, &Part::amplitude_fixed, &Part::amplitude_per_condition,
           &Part::weight_error, &Part::per_weight_m, &Part::amplitude_per_weight, &Part::any_weight_m,
-          &Part::beam_edge_error, &Part::per_apart})
+          &Part::beam_edge_error, &Part::per_apart, &Part::even_part})
       largest.*part = std::max(largest.*part, of_frequency.*part);
   }
 }

@@ -19,10 +19,11 @@ namespace pmdsim {
 struct RoundingBound {
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
-  // The relative error of every weight, which per_condition_m leaves out, and the effect of such an error,
-  // over it and the condition. It turns the sum only as far as the terms' angles differ, so that it has no
-  // more effect than `any_weight_m` times sqrt(condition^2 - 1); infinite where that does not hold.
-  double weight_error, per_weight_m, any_weight_m, amplitude_per_weight;
+  // The relative error of every weight, which per_condition_m leaves out, and the effect of errors of single
+  // weights, over them and the condition. An error turns the sum only as far as the terms' angles differ. One
+  // that all weights have has this part of the effect, and no more than `any_weight_m` times sqrt(condition^2
+  // - 1); infinite where that does not hold.
+  double weight_error, per_weight_m, even_part, any_weight_m, amplitude_per_weight;
   // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
   double beam_edge_error;
@@ -32,7 +33,7 @@ struct RoundingBound {
   double per_apart;
 
   double distance_m(double condition) const {
-    return fixed_m + (per_condition_m + weight_error * per_weight_m) * condition;
+    return fixed_m + (per_condition_m + weight_error * even_part * per_weight_m) * condition;
   }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
 };

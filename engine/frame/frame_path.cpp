@@ -255,7 +255,7 @@ Precision check_precision(const FrameFacts &facts, const FramePlan &plan, const 
 constexpr std::array pixels_names{"all", "uniform", "uniform_refined", "unshadowed", "rest", "precise"};
 constexpr std::array grid_names{"nominal", "posed", "tiled", "distorted"};
 constexpr std::array surface_names{"constant, all facing", "constant, tested", "lambert"};
-constexpr std::array pattern_names{"isotropic", "whole power of the cosine", "power of the cosine",
+constexpr std::array pattern_names{"isotropic", "one power of the cosine", "powers of the cosine",
                                    "diagram around the axis", "any"};
 std::string host_sum_text(const FramePath &path) {
   return path.host_sum == HostSum::all       ? ", on the host"

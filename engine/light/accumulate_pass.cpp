@@ -2,12 +2,14 @@
 
 #include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
+#include "engine/model/exponent.h"
 #include "engine/sampling/pixel_lists.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/float_pair.h"
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -73,6 +75,7 @@ vulkan::Buffer upload_diodes(const vulkan::Device &device, const SourceGroups &g
 }
 
 vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &groups, const SumScope &scope) {
+  const Exponent order = exponent_of(on.model.order);
   return {
       {shader::constant_straight, !scope.looped && is_straight(on.device, on.options, scope.precision)},
       {shader::constant_blocks_per_run, groups.blocks_per_run},
@@ -84,7 +87,8 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
       {shader::constant_summed_by_host, scope.by_host},
       {shader::constant_backscatter_model, on.model.backscatter},
       {shader::constant_pattern_model, on.model.pattern},
-      {shader::constant_cosine_order, on.model.order},
+      {shader::constant_cosine_order, order.whole},
+      {shader::constant_cosine_fraction, std::bit_cast<std::uint32_t>(order.rest)},
       {shader::constant_phased, groups.phased},
       {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
       {shader::constant_shadowed, scope.shadowed},

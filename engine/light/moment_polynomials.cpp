@@ -31,7 +31,7 @@ Interval interval_of(const PathDifference &reach) {
   return {reach.least_stretch - rounding, reach.most_stretch + rounding};
 }
 
-double moment_factor(double u, std::uint32_t inverse_powers, std::uint32_t k) {
+double moment_factor(double u, double inverse_powers, std::uint32_t k) {
   return std::pow(1.0 + u, -0.5 * inverse_powers) * std::pow(std::sqrt(1.0 + u) - 1.0, k);
 }
 
@@ -45,7 +45,7 @@ double value(const Coefficients &a, double u) {
 }
 
 // Newton's divided differences, multiplied out; the coefficients as the shader has them, rounded to float.
-Coefficients interpolate(const Interval &interval, std::uint32_t inverse_powers, std::uint32_t k,
+Coefficients interpolate(const Interval &interval, double inverse_powers, std::uint32_t k,
                          std::uint32_t powers) {
   std::array<double, most_powers> nodes{}, differences{};
   for (std::uint32_t j = 0; j < powers; ++j) {
@@ -73,8 +73,7 @@ void raise(double &so_far, double value) {
 }
 
 // The polynomial's largest error over the interval, relative to the weight.
-double error_of(const Coefficients &a, const Interval &interval, std::uint32_t inverse_powers,
-                std::uint32_t k) {
+double error_of(const Coefficients &a, const Interval &interval, double inverse_powers, std::uint32_t k) {
   double error = 0.0;
   for (std::uint32_t i = 0; i < probes; ++i) {
     const double u = interval.at(std::cos(std::numbers::pi * i / (probes - 1)));
@@ -134,7 +133,7 @@ struct Run {
 };
 
 // Over an interval, at places up to farthest_m; `sizes`: where given, of the coefficients of each moment.
-Run fit_run(const Interval &interval, double farthest_m, std::uint32_t inverse_powers, std::uint32_t moments,
+Run fit_run(const Interval &interval, double farthest_m, double inverse_powers, std::uint32_t moments,
             std::uint32_t powers, double wavenumber_rad_m, std::vector<Coefficients> *sizes = nullptr) {
   Run run;
   double phase_power = 1.0; // (kappa rho)^k / k!
@@ -151,8 +150,8 @@ Run fit_run(const Interval &interval, double farthest_m, std::uint32_t inverse_p
   return run;
 }
 
-Run make_run(const PathDifference &reach, std::uint32_t inverse_powers, std::uint32_t moments,
-             std::uint32_t powers, double wavenumber_rad_m) {
+Run make_run(const PathDifference &reach, double inverse_powers, std::uint32_t moments, std::uint32_t powers,
+             double wavenumber_rad_m) {
   const Interval interval = interval_of(reach);
   std::vector<Coefficients> sizes;
   Run run = fit_run(interval, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m, &sizes);
@@ -171,11 +170,12 @@ bool is_exact_enough(const Run &run, double phase_rad, double tolerance, double 
          run.angle_error_rad <= part * std::max(angle_rad, tolerance);
 }
 constexpr double near_part = 0.25;
+constexpr double largest_near_growth = 4.0; // of rounding: beyond it roots are the more exact
 
 // With the fewest powers that are exact enough.
-std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach,
-                                                          std::uint32_t inverse_powers, std::uint32_t moments,
-                                                          double wavenumber_rad_m, double tolerance) {
+std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach, double inverse_powers,
+                                                          std::uint32_t moments, double wavenumber_rad_m,
+                                                          double tolerance) {
   if (!std::isfinite(reach.most_stretch))
     return std::nullopt;
   for (std::uint32_t powers = 1; powers <= most_powers; ++powers) {
@@ -187,8 +187,7 @@ std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &
 }
 
 // W is a product of an intensity and lengths, each a range times a cosine; q = u rho^2.
-bool fits_floats(const PathDifference &reach, std::uint32_t lengths, std::uint32_t powers,
-                 double least_intensity) {
+bool fits_floats(const PathDifference &reach, double lengths, std::uint32_t powers, double least_intensity) {
   const double near_m = std::min(1.0, reach.range_m - reach.radius_m);
   const double far_m = std::max(1.0, reach.farthest_m + reach.radius_m);
   const double of_q = std::max(2.0 * (powers - 1.0), 2.0);
@@ -211,7 +210,7 @@ std::vector<std::uint32_t> near_powers(std::uint32_t of_frame) {
   return powers;
 }
 
-std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
+std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, double inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
                                                     std::uint32_t powers, double tolerance) {
   const double phase_rad = wavenumber_rad_m * reach.path_difference_m;
@@ -220,8 +219,11 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
   double within = 0.0, beyond = 1.0; // they are exact enough for the one, and not for the other
   for (int step = 0; step < steps; ++step) {
     const double u = 0.5 * (within + beyond);
-    const Run run = fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m);
-    const bool is_enough = is_exact_enough(run, phase_rad, tolerance, near_part);
+    std::vector<Coefficients> sizes;
+    const Run run =
+        fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m, &sizes);
+    const bool is_enough =
+        is_exact_enough(run, phase_rad, tolerance, near_part) && value(sizes[0], u) <= largest_near_growth;
     (is_enough ? within : beyond) = u;
     if (is_enough)
       widest = NearPolynomials{u, run.table};
@@ -230,7 +232,7 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
 }
 
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
-                                                        std::uint32_t inverse_powers, std::uint32_t moments,
+                                                        double inverse_powers, std::uint32_t moments,
                                                         double wavenumber_rad_m, double tolerance) {
   MomentPolynomials bound;
   for (const std::uint32_t powers : near_powers(0))
@@ -256,7 +258,7 @@ std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDiff
   return bound;
 }
 
-MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, double inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity,
                                   double tolerance) {
   if (moments > shader::largest_moments)
@@ -279,7 +281,7 @@ MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::
     sums.path_terms_m = std::max(sums.path_terms_m, run.path_terms_m);
   }
   const bool fits = std::ranges::all_of(reaches, [&](const PathDifference &reach) {
-    return fits_floats(reach, inverse_powers - 2, sums.powers, least_intensity);
+    return fits_floats(reach, inverse_powers - 2.0, sums.powers, least_intensity);
   });
   return fits ? sums : MomentPolynomials{};
 }

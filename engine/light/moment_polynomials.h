@@ -44,12 +44,13 @@ struct MomentPolynomials {
 // `reaches` are the runs'; `moments`, wavenumber_rad_m and `tolerance` as in SourceGroups, `least_intensity`
 // that of a diode that shines, relative. No powers where the polynomials would be longer than is worth it, or
 // where W could leave float's range.
-MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, std::uint32_t inverse_powers,
+MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, double inverse_powers,
                                   std::uint32_t moments, double wavenumber_rad_m, double least_intensity,
                                   double tolerance = 0.0);
 
 // Polynomials of so many powers for places where |u| is at most `largest_u`: the widest whose errors are at
-// most those below, and a quarter of what fit_polynomials allows, whose arguments these are.
+// most those below, and a quarter of what fit_polynomials allows, whose arguments these are, and whose growth
+// is moderate.
 struct NearPolynomials {
   double largest_u;
   MomentPolynomials::Table table;
@@ -59,14 +60,14 @@ struct NearPolynomials {
 std::vector<std::uint32_t> near_powers(std::uint32_t of_frame);
 double near_weight_error(double tolerance);
 double near_angle_error_rad(double tolerance);
-std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, std::uint32_t inverse_powers,
+std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, double inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
                                                     std::uint32_t powers, double tolerance);
 
 // The errors and the growth of all of these tables where a frame has no polynomials, and nearer places draw
 // roots; it has no tables. Nothing where there are none, either.
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
-                                                        std::uint32_t inverse_powers, std::uint32_t moments,
+                                                        double inverse_powers, std::uint32_t moments,
                                                         double wavenumber_rad_m, double tolerance);
 
 } // namespace pmdsim

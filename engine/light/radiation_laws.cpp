@@ -17,12 +17,13 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // Isotropic: J = 1.
 
-LawForm isotropic_form(const Pattern &) { return {shader::pattern_isotropic, 0}; }
+LawForm isotropic_form(const Pattern &) { return {shader::pattern_isotropic}; }
 
 // A cosine to a power: J = max(0, cos theta)^n.
 
-// Up to here a whole power is multiplied out; the general form is as exact and faster beyond.
-constexpr double largest_whole_power = 8.0;
+// Diodes of one order up to here share a form that takes cosines as lengths. The general form is as exact and
+// faster beyond, as near the axis, where narrow beams shine, it knows the sine of the angle.
+constexpr double largest_shared_order = 24.0;
 constexpr double largest_exponent = 87.0; // of e that float holds
 
 void describe_cosine(const Diode &diode, DiagramTables &, shader::GroupSource &record) {
@@ -31,9 +32,9 @@ void describe_cosine(const Diode &diode, DiagramTables &, shader::GroupSource &r
 
 LawForm cosine_form(const Pattern &pattern) {
   const double order = pattern.order;
-  if (order >= 1.0 && order <= largest_whole_power && order == std::floor(order))
-    return {shader::pattern_power, static_cast<std::uint32_t>(order)};
-  return {shader::pattern_general, {}};
+  if (order > 0.0 && order <= largest_shared_order)
+    return {shader::pattern_power, order};
+  return {shader::pattern_general};
 }
 
 // The largest tangent of the angle to the diode's axis over a box; a cone is convex, so it is at a corner.
@@ -79,14 +80,17 @@ double real_power_rounding_u(double order, double t, double cosine) {
 double cosine_rounding_u(float order, const LawRounding &sum) {
   const double t = sum.radius_over_range;
   const double cosine = along_error_u(t) / sum.least_cosine;
-  const double whole =
-      static_cast<double>(order) * (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0);
-  if (sum.pattern == shader::pattern_power)
-    return whole;
+  const double shared =
+      static_cast<double>(order) * (cosine + 0.5 * squared_range_error_u(t) + root_u + division_u + 5.0) +
+      fraction_error_u(static_cast<double>(order), t, sum.least_cosine);
+  const bool is_whole = order == std::floor(order);
+  if (sum.pattern == shader::pattern_power && is_whole)
+    return shared;
   const double real = real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
-  // Beside other laws the host may multiply it out.
-  const bool is_multiplied = order <= largest_whole_power;
-  return is_multiplied ? std::max(real, whole) : real;
+  // Sums in double take fractions by the other form; beside other laws the host may multiply a power out.
+  const bool is_either =
+      sum.pattern == shader::pattern_power || order <= static_cast<float>(largest_multiplied_power);
+  return is_either ? std::max(real, shared) : real;
 }
 
 // The steepness of cos^n is n. For n below 1 it is the most that n cos^(n - 1) comes to down to cos = 10^-3,
@@ -99,9 +103,9 @@ std::optional<BeamEdge> cosine_edge(float order) {
 }
 
 // A power's error grows by that of the cosine and, in an exponential, by 14 -ln cos <= 14 / (e cos).
-double cosine_edge_rounding_u(const LawRounding &sum) {
-  return along_error_u(sum.radius_over_range) +
-         (sum.pattern == shader::pattern_power ? 0.0 : 14.0 / std::numbers::e);
+double cosine_edge_rounding_u(float order, const LawRounding &sum) {
+  const bool is_multiplied = sum.pattern == shader::pattern_power && order == std::floor(order);
+  return along_error_u(sum.radius_over_range) + (is_multiplied ? 0.0 : 14.0 / std::numbers::e);
 }
 
 // A measured diagram: J from a table.
@@ -131,7 +135,7 @@ void describe_diagram_precisely(const Diode &diode, PreciseDiagrams &diagrams,
 }
 
 LawForm diagram_form(const Pattern &pattern) {
-  return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any, 0};
+  return {pattern.diagram->phi_rad.size() == 1 ? shader::pattern_axial : shader::pattern_any};
 }
 
 // The rounding of the interpolation; that of the direction is in the table's error.
@@ -241,7 +245,7 @@ LawForm form_of(const std::vector<CameraIlluminator> &illuminators) {
     }
   if (alike)
     return all.value();
-  return {beside_others, beside_others == shader::pattern_any ? std::optional(0u) : std::nullopt};
+  return {beside_others};
 }
 
 double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
@@ -261,7 +265,7 @@ double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRoun
 
 double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
   return largest_of(diodes, &RadiationLaw::beam_edge_rounding_u,
-                    [&](auto rounding_u, float) { return rounding_u(sum); });
+                    [&](auto rounding_u, float order) { return rounding_u(order, sum); });
 }
 
 } // namespace pmdsim

@@ -14,13 +14,14 @@
 
 namespace pmdsim {
 
+// Up to here the host multiplies a whole power out, beside other laws.
+inline constexpr std::uint32_t largest_multiplied_power = 8;
+
 // A form of the sum, by what it knows of J.
 struct LawForm {
   std::uint32_t pattern = shader::pattern_any; // shader::pattern_*
-  // n where J is a factor of its own and (1 / r)^n: the n-th power of a cosine is one of a length, a diagram
-  // or J = 1 have none. Polynomials can then sum the weights (moment_polynomials.h). Nothing: by the moments
-  // themselves.
-  std::optional<std::uint32_t> range_powers;
+  // n where J is taken as a factor of its own and (1 / r)^n, as a power of a cosine is one of lengths.
+  double range_powers = 0.0;
 
   bool operator==(const LawForm &) const = default;
 };
@@ -73,7 +74,7 @@ struct RadiationLaw {
   // Where beams have a rim: how steep it is, for GroupSource::order, nothing where it is an edge; and J's own
   // rounding there, over the order and times the cosine, u.
   std::optional<BeamEdge> (*edge)(float order) = nullptr;
-  double (*beam_edge_rounding_u)(const LawRounding &) = nullptr;
+  double (*beam_edge_rounding_u)(float order, const LawRounding &) = nullptr;
   std::optional<LawSeries> (*series)(const Pattern &) = nullptr;
 };
 

@@ -4,6 +4,7 @@
 // its range, so that r >= (1 - t) rho.
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace pmdsim {
@@ -23,6 +24,14 @@ constexpr double cosine_error_u(double count, double t) { return count / (1.0 - 
 
 // The rounding of the cosine to a diode's axis.
 constexpr double along_error_u(double t) { return cosine_error_u(6.0 + 2.0 * t, t); }
+
+// The fractional part of a power of a cosine, which are those of an axial distance over rho and of rho over r
+// by logarithms: beside what the errors of these ratios become, the two logarithms' and the exponentials'.
+inline double fraction_error_u(double power, double t, double least_cosine) {
+  const double fraction = power - std::floor(power);
+  const double logarithms = std::max(-std::log(least_cosine), t) - std::log(1.0 - t);
+  return fraction > 0.0 ? fraction * (14.0 * logarithms + division_u + 2.0) + 12.0 : 0.0;
+}
 
 // The way from a source to a sample, over its length: the sample's place, the source's, their difference.
 constexpr double way_error_u(double t) { return (2.0 + 2.0 * t) / (1.0 - t); }

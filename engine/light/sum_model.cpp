@@ -10,16 +10,13 @@ namespace pmdsim {
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,
                    bool all_face_the_light) {
   const LawForm form = form_of(illuminators);
-  SumModel model{shader::backscatter_lambert, form.pattern, form.range_powers.value_or(0),
-                 form.range_powers.has_value(), all_face_the_light};
+  SumModel model{shader::backscatter_lambert, form.pattern, form.range_powers, all_face_the_light};
   if (backscatter == Backscatter::constant)
     model.backscatter = all_face_the_light ? shader::backscatter_flat : shader::backscatter_facing;
   return model;
 }
 
-std::optional<std::uint32_t> inverse_powers(const SumModel &model) {
-  if (!model.of_lengths)
-    return std::nullopt;
+double inverse_powers(const SumModel &model) {
   return 2 + (model.backscatter == shader::backscatter_lambert ? 1 : 0) + model.order;
 }
 
@@ -48,15 +45,15 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
   std::vector<PathDifference> reaches;
   for (const SourceRun &run : groups.runs)
     reaches.push_back(run.reach);
-  const auto inverse = inverse_powers(model);
-  if (!inverse || !allowed.polynomial_moments)
+  const double inverse = inverse_powers(model);
+  if (!allowed.polynomial_moments)
     return;
-  groups.polynomials = fit_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m,
+  groups.polynomials = fit_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,
                                        least_intensity(groups), groups.tolerance);
   if (groups.polynomials.powers == 0) {
     if (host_sums)
       groups.near_polynomials =
-          bound_near_polynomials(reaches, *inverse, groups.moments, wavenumber_rad_m, groups.tolerance);
+          bound_near_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m, groups.tolerance);
     return;
   }
   groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);

@@ -9,7 +9,6 @@
 #include "engine/model/simulator_options.h"
 #include "shaders/shared/interface.h"
 
-#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -18,8 +17,7 @@ namespace pmdsim {
 struct SumModel {
   std::uint32_t backscatter; // shader::backscatter_*
   std::uint32_t pattern;     // shader::pattern_*
-  std::uint32_t order;       // of shader::pattern_power
-  bool of_lengths = true;    // a diode's weight is a product of factors and of a power of 1 / r
+  double order;              // of shader::pattern_power
   bool all_facing = false;   // every surface faces every diode
 
   // The vectors of normals and heights a sample: none, one, or, in double precision, two.
@@ -28,8 +26,8 @@ struct SumModel {
   }
 };
 
-// The powers of 1 / r in a diode's weight; nothing where it is not SumModel::of_lengths.
-std::optional<std::uint32_t> inverse_powers(const SumModel &model);
+// The powers of 1 / r in a diode's weight, beside factors of its own.
+double inverse_powers(const SumModel &model);
 
 // Has the moments of `groups` summed by powers where the model allows and it is worth it
 // (moment_polynomials.h). `host_sums`: else the host may have them so, place by place.

@@ -63,6 +63,7 @@ struct ErrorBound {
   // The effects of weights' errors, for each unit of those over |sum|: on distance, on distance for the
   // common error over sqrt(condition^2 - 1), and on amplitude (RoundingBound).
   double per_weight_m = 0.0, any_weight_m = 0.0, amplitude_per_weight = 0.0;
+  double even_part = 1.0; // of the first, which the common error has
   // The same for distance where a pixel's samples are at one range. For each metre between the ranges fixed_m
   // and per_condition_m together grow by per_apart at most, and per_weight_m by amplitude_per_weight; nothing
   // where that is not known.
@@ -77,7 +78,8 @@ struct ErrorBound {
   // Of samples at one range, where no weight is off by itself.
   double nearest_m(double condition) const {
     const AtOneRange near = nearest();
-    return near.fixed_m + (near.per_condition_m + weight_error * near.per_weight_m) * condition;
+    const double of_weights_m = weight_error * even_part * near.per_weight_m;
+    return near.fixed_m + (near.per_condition_m + of_weights_m) * condition;
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Elementary functions of vectors, in turns: those of shaders/shared/elementary.glsl, with their polynomials.
+// Elementary functions of vectors, angles in turns: those of shaders/shared/elementary.glsl, with their
+// polynomials.
 
 #include "engine/model/wide_lanes.h"
 
@@ -51,6 +52,47 @@ inline Floats angle_turns(const Complex &z) {
   angle = y > x ? 0.25f - angle : angle;
   angle = z.re < 0.0f ? 0.5f - angle : angle;
   return z.im < 0.0f ? -angle : angle;
+}
+
+// Natural logarithm of x = 1 - s, given both so that neither end loses digits; x in [1e-37, 2.3].
+inline Floats log_of(const Floats &x, const Floats &s) {
+  const Ints near_one = x > 0.5f;
+  const Ints biased = reinterpret_cast<Ints>(x * 1.4142135f) >> 23;
+  const Ints exponent = near_one ? all(0) : biased - 127; // x / 2^exponent in [0.71, 1.42)
+  const Floats m = reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) - (exponent << 23));
+  const Floats y = (near_one ? -s : m - 1.0f) / (m + 1.0f), u = y * y;
+  const Floats log_m =
+      y * (2.0f + u * (0.6666667903f +
+                       u * (0.3999871125f + u * (0.2862020741f + u * (0.2139856051f + u * 0.2439390808f)))));
+  return log_m + __builtin_convertvector(exponent, Floats) * 0.69314718f;
+}
+
+// e^x for x <= 87; 0 below 2^-126.
+inline Floats exp_of(const Floats &x) {
+  const Floats limited = larger(x, all(-128.0f)), k = larger(rounded(limited * 1.44269504f), all(-127.0f));
+  const Floats f = (limited - k * 0.693359375f) + k * 2.12194440e-4f; // x - k ln 2, ln 2 in two parts
+  const Floats p =
+      1.0f + f * (1.0f + f * (0.5f + f * (0.1666641551f + f * (0.0416663529f + f * (0.008375126398f +
+                                                                                    f * 0.001394110843f)))));
+  const Ints scale = (__builtin_convertvector(k, Ints) + 127) << 23;
+  return k < -126.0f ? all(0.0f) : p * reinterpret_cast<Floats>(scale);
+}
+
+// By squaring.
+inline Floats whole_power(Floats x, std::uint32_t power) {
+  Floats result = all(1.0f);
+  for (; power > 0; power /= 2, x *= x)
+    if (power % 2 == 1)
+      result *= x;
+  return result;
+}
+
+// x to a power below 1, x in [0, 2.3].
+inline Floats fraction_of_power(const Floats &x, float power) {
+  if (power == 0.0f)
+    return all(1.0f);
+  const Floats limited = larger(x, all(1e-37f)), result = exp_of(power * log_of(limited, 1.0f - limited));
+  return x > 0.0f ? result : all(0.0f);
 }
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

@@ -161,6 +161,7 @@ void find_in_block(const CameraScene &camera, const Scene &scene, const Sensor &
     }
   std::stable_sort(to.begin() + first, to.end(),
                    [&](const shader::EdgeSample &a, const shader::EdgeSample &b) {
+                     // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a pixel has a sample
                      return a.row / sensor.samples < b.row / sensor.samples;
                    });
 }

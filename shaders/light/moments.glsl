@@ -76,7 +76,7 @@ float growth_at(Point point, LightRun run) {
 // polynomials (moment_polynomials.h): one step a sample in place of a root and a division for each diode.
 // `unit_m2`: of the sums, by their power of q.
 void find_moments(float total[sums], float unit_m2, Point point, LightRun run, out float moment[moments], out Weights weights) {
-  // The cosines in a weight, beside its intensity.
+  // The lengths in a weight, beside its intensity.
   const uint lengths = (backscatter_model == backscatter_lambert ? 1 : 0) + (pattern_model == pattern_power ? cosine_order : 0);
   float scale = 1.0 / (point.rho * point.rho), inverse_rho2 = unit_m2 * scale;
   if (powers > 0)
@@ -136,7 +136,7 @@ void sum_beforehand(Point point, uvec2 polynomials, out float total[sums], out f
   unit_m2 = head.unit_m2;
   float shared_cosines = 1.0;
   if (pattern_model == pattern_power)
-    shared_cosines = whole_power(max(0.0, dot(head.axis.xyz, point.position) - head.axis.w));
+    shared_cosines = power_of_lengths(max(0.0, dot(head.axis.xyz, point.position) - head.axis.w), point.rho);
   vec3 at = head.per_metre * point.position;
   [[unroll]] for (uint i = 0; i < sums; ++i) {
     uint before = point_dimensions == 3 ? i * (i + 1) * (i + 2) * (i + 3) / 24 : tetrahedral(i);

@@ -15,13 +15,29 @@ Real half_of(Real a) { return multiply(a, real(0.5)); }
 Real at_least_zero(Real a) { return high(a) > 0.0 ? a : real(0.0); }
 #endif
 
-// A cosine to a whole power.
+// A cosine to the power that all diodes share.
 
+// x to the whole part of it.
 float whole_power(float x) {
   float result = 1.0;
   [[unroll]] for (uint n = 0; n < cosine_order; ++n)
     result *= x;
   return result;
+}
+
+// x to what is left of it; x from 0 to 2.
+float fraction_of_power(float x) {
+  float limited = max(x, 1e-37);
+  float power = exp_of(cosine_fraction * log_of(limited, 1.0 - limited));
+  return cosine_fraction > 0.0 ? (x > 0.0 ? power : 0.0) : 1.0;
+}
+
+float shared_power(float cosine) { return whole_power(cosine) * fraction_of_power(cosine); }
+
+// The same of lengths: a cosine's r is left out of the whole part, and rho stands for it in the fraction.
+float power_of_lengths(float along_m, float rho_m) {
+  float fraction = cosine_fraction > 0.0 ? fraction_of_power(along_m / rho_m) : 1.0;
+  return whole_power(along_m) * fraction;
 }
 
 #ifdef SUM_IN_REAL
@@ -33,7 +49,7 @@ Real whole_power(Real x) {
 }
 #endif
 
-// A cosine to any power.
+// A cosine to a power of its diode.
 
 // cos^n = exp(n/2 * log(1 - sin^2)): near the axis, where a narrow beam's light is, the sine of the angle keeps its
 // digits and the cosine does not.
@@ -159,7 +175,7 @@ float law_of_table(Way way, GroupSource diode) {
 float radiation(Point point, GroupSource diode, float r, float inverse_r, float inverse_r2) {
   float along_m = dot(diode.axis.xyz, point.position) - diode.axis.w;
   if (pattern_model == pattern_power)
-    return whole_power(max(0.0, along_m * inverse_r));
+    return shared_power(max(0.0, along_m * inverse_r));
   if (pattern_model == pattern_axial)
     return law_of_table(way_from(diode, point, along_m, r), diode);
   float j = diode.order < 0.0 ? 1.0 : real_power(point, diode, along_m, inverse_r2);
@@ -173,7 +189,7 @@ float radiation(Point point, GroupSource diode, float r, float inverse_r, float 
 Real radiation(Real3 from_reference, Real3 way, PreciseSource diode, Real r, Real r2) {
   Real3 axis = real3(diode.rounded.axis.xyz, diode.axis_rest.xyz);
   Real along_m = add(dot3(axis, from_reference), negate(real(diode.rounded.axis.w, diode.axis_rest.w)));
-  if (pattern_model == pattern_power)
+  if (pattern_model == pattern_power && cosine_fraction == 0.0)
     return whole_power(at_least_zero(divide(along_m, r)));
   if (pattern_model == pattern_axial)
     return precise_diagram(way, axis, diode, along_m);

@@ -13,6 +13,7 @@ layout(constant_id = constant_straight) const uint straight = 1;
 layout(constant_id = constant_backscatter_model) const uint backscatter_model = backscatter_flat;
 layout(constant_id = constant_pattern_model) const uint pattern_model = pattern_isotropic;
 layout(constant_id = constant_cosine_order) const uint cosine_order = 1;
+layout(constant_id = constant_cosine_fraction) const float cosine_fraction = 0.0;
 layout(constant_id = constant_blocks_per_run) const uint blocks_per_run = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
 layout(constant_id = constant_beam_edges) const uint beam_edges = 1;
@@ -65,7 +66,7 @@ vec2 strength_and_detour(Point point, GroupSource diode, bool reached) {
     strength *= backscatter_model == backscatter_lambert ? max(0.0, height) : (height > 0.0 ? 1.0 : 0.0);
   }
   if (pattern_model == pattern_power)
-    strength *= whole_power(max(0.0, dot(diode.axis.xyz, point.position) - diode.axis.w));
+    strength *= power_of_lengths(max(0.0, dot(diode.axis.xyz, point.position) - diode.axis.w), point.rho);
   else if (pattern_model != pattern_isotropic) {
     float r2 = point.rho * point.rho + q, inverse_r2 = 1.0 / r2, r = sqrt(r2);
     strength *= radiation(point, diode, r, r * inverse_r2, inverse_r2);

@@ -18,7 +18,7 @@ PMDSIM_CONSTANT constant_equal_weights = 5; // by powers: 1: every diode has the
 PMDSIM_CONSTANT constant_coplanar = 6; // by powers: 1: all diodes of a run lie in the reference's plane across the view
 PMDSIM_CONSTANT constant_backscatter_model = 7; // one of backscatter_*
 PMDSIM_CONSTANT constant_pattern_model = 8; // one of pattern_*
-PMDSIM_CONSTANT constant_cosine_order = 9; // of pattern_power
+PMDSIM_CONSTANT constant_cosine_order = 9; // of pattern_power, its whole part
 PMDSIM_CONSTANT constant_phased = 10; // 1: an illuminator has a modulation phase
 PMDSIM_CONSTANT constant_shadowed = 11; // 1: not every diode reaches every sample
 PMDSIM_CONSTANT constant_tones = 12; // that one dispatch sums
@@ -64,6 +64,7 @@ PMDSIM_CONSTANT constant_beam_edges = 50; // 1: what rounding does where beams e
 PMDSIM_CONSTANT constant_holds_pixels = 51; // 1: what each pixel may be off by is held against what was asked for
 PMDSIM_CONSTANT constant_summed_by_host = 52; // a run's moments, at each sample
 PMDSIM_CONSTANT constant_bits_by_row = 53; // 1: a sample's bits lie where its record does, not sub-sample by sub-sample
+PMDSIM_CONSTANT constant_cosine_fraction = 54; // float; of pattern_power, what is left of its order
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

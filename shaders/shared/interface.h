@@ -35,7 +35,7 @@ PMDSIM_CONSTANT backscatter_flat = 0;    // rho, every diode is in front of ever
 PMDSIM_CONSTANT backscatter_facing = 1;  // rho where the diode is in front of the surface
 PMDSIM_CONSTANT backscatter_lambert = 2; // rho / pi * cosine
 PMDSIM_CONSTANT pattern_isotropic = 0;   // of every diode
-PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same whole n for every diode
+PMDSIM_CONSTANT pattern_power = 1;       // max(0, cos)^n, the same n for every diode
 PMDSIM_CONSTANT pattern_general = 2;     // an order of its own for every diode, any real
 PMDSIM_CONSTANT pattern_axial = 3;       // a diagram for every diode, the same all around its axis
 PMDSIM_CONSTANT pattern_any = 4;         // a diagram of any kind or an order of its own for every diode
@@ -371,8 +371,10 @@ struct Frequency {
   // The errors of weights that are off, in units of engine/model/accuracy.h: as distance, as distance of
   // samples at one range, and as amplitude, which is also what the second grows by a metre.
   float per_weight_m, near_per_weight_m, per_weight;
-  // What all weights are off by, in the same units, and what that does as distance over sqrt(condition^2 - 1).
-  float weight_error, any_weight_m;
+  // What all weights are off by, in the same units; the part of the first that this has, and what it does as distance over
+  // sqrt(condition^2 - 1).
+  float weight_error, even_part, any_weight_m;
+  float padding;
 };
 
 struct DemodulationConstants {

@@ -250,11 +250,12 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
   store_pair(to, channel_triangle_id, pixel, ids.x != 0u ? uvec2(ids.y, object) : uvec2(no_triangle));
 }
 
-// Errors of weights as distance. One that all weights have turns the sum by sum w |sin| / |sum| times it, and as (sum w |sin|)^2 <=
+// Errors of weights as distance. One that all weights have turns the sum by sum w |sin| / |sum| times it, which even_part bounds
+// (engine/error_budget/rounding_bound.cpp), and as (sum w |sin|)^2 <=
 // sum w * sum w sin^2 <= (sum w)^2 - |sum|^2 that is at most sqrt(condition^2 - 1). `largest`: of the condition, which is off itself.
 float weights_error_m(Frequency frequency, float per_weight_m, float condition, float largest, float weights) {
   float root = sqrt(max(largest * largest - 1.0, 0.0));
-  float common_m = min(per_weight_m * condition, frequency.any_weight_m * root);
+  float common_m = min(frequency.even_part * per_weight_m * condition, frequency.any_weight_m * root);
   return frequency.weight_error * common_m + per_weight_m * weights;
 }
 

@@ -66,6 +66,7 @@ TEST_CASE("a pair of diodes by hand") {
   CHECK(bound.per_condition_m == Approx(0.5 * float_rounding * 0.725).epsilon(1e-3));
   CHECK(bound.any_weight_m == Approx(0.5 / signal_wavenumber_rad_m));
   CHECK(bound.per_weight_m == Approx(0.5 * 3 * 0.01 / 3.9).epsilon(1e-3));
+  CHECK(bound.even_part == Approx(1.0 / 3.0)); // all weights off alike: e, not 3 e
   CHECK(bound.amplitude_per_weight == 1.0);
   const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;
   CHECK(bound.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9) + angle_m).epsilon(1e-3));
@@ -154,8 +155,10 @@ TEST_CASE("the worst of several frequencies, and lights that differ in phase") {
 
   std::vector<CameraIlluminator> lights{diodes_at({pair[0]})[0], diodes_at({pair[1]})[0]};
   const double alike_m = bound_of({lights})->per_weight_m;
+  CHECK(bound_of({lights})->even_part == Approx(0.5)); // two runs of a diode each, exactly in their places
   lights[1].modulation_phase_rad = std::numbers::pi;
   CHECK(bound_of({lights})->per_weight_m > 10.0 * alike_m);
+  CHECK(bound_of({lights})->even_part == 1.0);
   CHECK(bound_of({lights})->per_weight_m == Approx(bound_of({lights})->any_weight_m));
 }
 

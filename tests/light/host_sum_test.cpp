@@ -92,6 +92,12 @@ std::vector<HostCase> cosine_cases() {
       {"cosines across the view", {turned(narrow, {1.0, 0.2, 0.5})}},
       {"a dome of cosines", {dome(narrow)}},
       {"cosines of two powers", {joined(narrow, light_at(ring(9, 0.05), 0.0, cosine(1.0)))}},
+      {"cos^1.7", {light_at(places, 0.0, cosine(1.7))}},
+      {"cos^0.6 across the view", {turned(light_at(places, 0.0, cosine(0.6)), {1.0, 0.2, 0.5})}},
+      {"a dome of cos^4.8", {dome(light_at(places, 0.0, cosine(4.8)))}},
+      {"cos^20", {light_at(places, 0.0, cosine(20.0))}},
+      {"cos^2.5 and cos^40",
+       {joined(light_at(places, 0.0, cosine(2.5)), light_at(ring(9, 0.05), 0.0, cosine(40.0)))}},
   };
 }
 

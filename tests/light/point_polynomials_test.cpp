@@ -77,7 +77,7 @@ double beforehand(const std::vector<float> &words, std::uint32_t dimensions, con
 TEST_CASE("Polynomials of the point are the sums over the diodes") {
   Random random(11);
   for (const bool flat : {true, false}) {
-    const SumModel model{shader::backscatter_lambert, shader::pattern_isotropic, 0, true, true};
+    const SumModel model{shader::backscatter_lambert, shader::pattern_isotropic, 0.0, true};
     const SourceGroups groups = groups_of(board(flat, {}, random), model);
     const std::uint32_t dimensions = groups.polynomials.point_dimensions;
     REQUIRE(dimensions == (flat ? 2u : 3u));
@@ -101,7 +101,7 @@ TEST_CASE("Polynomials of the point are the sums over the diodes") {
 TEST_CASE("Cosines that differ from diode to diode are left to the loop") {
   Random random(12);
   const Pattern cubed{Pattern::Kind::cosine, 3.0};
-  const SumModel model{shader::backscatter_lambert, shader::pattern_power, 3, true, true};
+  const SumModel model{shader::backscatter_lambert, shader::pattern_power, 3.0, true};
   std::vector<CameraIlluminator> lights = board(true, cubed, random);
   CHECK(groups_of(lights, model).polynomials.point_dimensions == 2);
   SECTION("by their axis") { lights[0].diodes[7].axis = glm::normalize(glm::dvec3(0.1, 0.0, 1.0)); }
@@ -113,7 +113,7 @@ TEST_CASE("Cosines that differ from diode to diode are left to the loop") {
 }
 
 TEST_CASE("Few diodes are looped over") {
-  const SumModel model{shader::backscatter_lambert, shader::pattern_isotropic, 0, true, true};
+  const SumModel model{shader::backscatter_lambert, shader::pattern_isotropic, 0.0, true};
   Random random(13);
   std::vector<CameraIlluminator> lights = board(true, {}, random);
   lights[0].diodes.resize(4);

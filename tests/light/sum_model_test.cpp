@@ -29,10 +29,12 @@ SumModel model_of(const std::vector<Pattern> &patterns) {
 TEST_CASE("the sum knows the plainest pattern that serves all diodes") {
   const Pattern isotropic, axial = table({0}), other_axial = table({0}), around = table({0, 1});
   CHECK(model_of({isotropic}).pattern == shader::pattern_isotropic);
-  CHECK(model_of({cosine(3)}).pattern == shader::pattern_power);
-  CHECK(model_of({cosine(3)}).order == 3);
+  for (const double order : {0.6, 3.0, 4.8, 20.0}) {
+    CHECK(model_of({cosine(order)}).pattern == shader::pattern_power);
+    CHECK(model_of({cosine(order)}).order == order);
+  }
   for (const auto &patterns :
-       {std::vector{cosine(3.5)}, {cosine(9)}, {cosine(0)}, {cosine(2), cosine(3)}, {isotropic, cosine(3)}})
+       {std::vector{cosine(100)}, {cosine(0)}, {cosine(2), cosine(3)}, {isotropic, cosine(3)}})
     CHECK(model_of(patterns).pattern == shader::pattern_general);
   CHECK(model_of({axial}).pattern == shader::pattern_axial);
   CHECK(model_of({axial, other_axial}).pattern == shader::pattern_axial);

@@ -32,12 +32,13 @@ struct ByPowers {
 
 // Terms of moments: w = W (1 + u)^(-p / 2), e = sqrt(1 + u) - 1.
 struct ByRoots {
-  std::uint32_t inverse_powers;
+  Exponent inverse_powers;
 
   Parts operator()(Floats weight, const Floats &u) const {
     const Floats stretch2 = larger(1.0f + u, all(tiny)), inverse = inverse_root(stretch2);
-    for (std::uint32_t i = 0; i < inverse_powers; ++i)
-      weight *= inverse;
+    weight *= whole_power(inverse, inverse_powers.whole);
+    if (inverse_powers.rest > 0.0f)
+      weight *= exp_of(-0.5f * inverse_powers.rest * log_of(stretch2, -u));
     return {weight, u / (1.0f + stretch2 * inverse)};
   }
 };
@@ -127,9 +128,9 @@ void add_by_table(const LawTable &table, const SourceBatch &batch, const BatchVi
 template <std::size_t sums, bool lambert, bool shadowed, class By>
 void add_alike(const SourceBatch &batch, const BatchView &at, const By &by, const Reach &reach,
                Floats *total) {
-  Floats own[sums] = {}, shared = all(1.0f);
-  for (std::uint32_t i = 0; i < batch.power; ++i)
-    shared *= at.along;
+  Floats own[sums] = {};
+  const Floats shared =
+      whole_power(at.along, batch.power.whole) * fraction_of_power(at.along, batch.power.rest);
   add_sources<sums, lambert, shadowed>(batch, at, SharedByAll(), by, reach, own);
   for (std::size_t k = 0; k < sums; ++k)
     total[k] += shared * own[k];
@@ -147,10 +148,12 @@ void add_batch(const SourceBatch &batch, const BatchView &at, const By &by, cons
   };
   if (batch.table)
     add_by_table(*batch.table, batch, at, add);
-  else if (batch.of_lengths || batch.power == 0)
+  else if (batch.of_lengths || (batch.power.whole == 0 && batch.power.rest == 0.0f))
     add_alike<sums, lambert, shadowed>(batch, at, by, reach, total);
+  else if (batch.is_multiplied)
+    add(WholePower(batch.power.whole, at.along_m));
   else
-    add(WholePower(batch.power, at.along_m));
+    add(RealPower(static_cast<float>(batch.power.whole) + batch.power.rest, at.along_m));
 }
 
 template <class By>

@@ -2,6 +2,7 @@
 // The data of the host's sums over the sources, as plain arrays: its loops are compiled once for each
 // instruction set, so they share no code with the rest of the program.
 
+#include "engine/model/exponent.h"
 #include "engine/sampling/host/sample_source.h"
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct LawTable {
 };
 constexpr std::int32_t table_margin = 40;
 
-constexpr std::uint32_t most_host_sums = 12; // over the sources, of a sample
-static_assert(most_host_sums >= shader::largest_powers && most_host_sums >= shader::largest_moments);
+constexpr std::uint32_t most_host_sums = 12; // over the sources, of a sample; or moments and their weights
+static_assert(most_host_sums >= shader::largest_powers && most_host_sums > shader::largest_moments);
 
 constexpr std::uint32_t most_visibility_words = 128; // of a sample
 
@@ -38,8 +39,9 @@ struct BatchSource {
 // Sources of one law that look along one axis and stand in one plane across it.
 struct SourceBatch {
   const LawTable *table; // nullptr: J = cos^power
-  std::uint32_t power;   // 0: J = 1
-  bool of_lengths;       // W has J r^power, the power of a length
+  Exponent power;        // 0: J = 1
+  bool of_lengths;       // W has J r^power, the power of lengths
+  bool is_multiplied;    // else a power is taken by its logarithm
   double rotation[3][3]; // batch_from_camera: where phi is 0, where it is 90 degrees, the axis
   double along_m;        // the plane's distance along the axis from the reference point
   float radius_m;        // of the sources about the reference point, across the axis
@@ -62,7 +64,7 @@ struct RunOfBatches {
   std::uint32_t count;
   const PowerTable *tables; // the shortest first; for places that are nearer, roots are drawn
   std::uint32_t table_count;
-  std::uint32_t inverse_powers; // p of W r^-p (moment_polynomials.h)
+  Exponent inverse_powers; // p of W r^-p (moment_polynomials.h)
 };
 
 // The moments of each run at each sample (shaders/light/moments.glsl).

@@ -3,7 +3,7 @@
 // vector and a batch; `x` and `y` lead from the source to the samples across the batch's axis, m.
 
 #include "engine/light/host/law_sums.h"
-#include "engine/model/lanes.h"
+#include "engine/model/elementary_lanes.h"
 
 #include <cmath>
 #include <cstdint>
@@ -169,7 +169,7 @@ private:
   float phi_steps_per_rad_;
 };
 
-// J = cos^n, or with r^n the power of a length, which all sources of a batch share.
+// J = cos^n, or with r^n the power of lengths, which all sources of a batch share.
 struct SharedByAll {
   Floats operator()(const Floats &, const Floats &) const { return all(1.0f); }
 };
@@ -179,14 +179,30 @@ public:
 
   Floats operator()(const Floats &x, const Floats &y) const {
     const Floats cosine = larger(along_, all(0.0f)) * inverse_root(x * x + y * y + along_ * along_);
-    Floats j = all(1.0f);
-    for (std::uint32_t i = 0; i < power_; ++i)
-      j *= cosine;
-    return j;
+    return whole_power(cosine, power_);
   }
 
 private:
   std::uint32_t power_;
+  Floats along_;
+};
+
+// As real_power of shaders/light/radiation_laws.glsl.
+class RealPower {
+public:
+  RealPower(float power, const Floats &along) : half_power_(0.5f * power), along_(along) {}
+
+  Floats operator()(const Floats &x, const Floats &y) const {
+    const Floats along2 = along_ * along_, across2 = x * x + y * y;
+    const Floats inverse_r2 = inverse(along2 + across2), sine2 = smaller(across2 * inverse_r2, all(1.0f));
+    const Floats cosine2 = sine2 < 0.5f ? 1.0f - sine2 : along2 * inverse_r2;
+    const Floats limited = smaller(larger(cosine2, all(1e-37f)), all(1.0f));
+    const Floats j = exp_of(half_power_ * log_of(limited, sine2));
+    return along_ > 0.0f ? j : all(0.0f);
+  }
+
+private:
+  float half_power_;
   Floats along_;
 };
 

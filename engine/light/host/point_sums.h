@@ -5,6 +5,7 @@
 #include "engine/light/host/law_sums.h"
 #include "engine/light/host/point_view.h"
 #include "engine/light/host/run_form.h"
+#include "engine/model/elementary_lanes.h"
 
 #include <cstddef>
 
@@ -33,14 +34,11 @@ template <bool lambert, int dimensions>
 void sum_beforehand(const RunForm &form, const PointView &view, Floats *total) {
   constexpr std::size_t components = lambert ? dimensions + 1 : 1;
   const shader::PointPolynomials &head = *form.beforehand;
-  Floats cosines = all(1.0f);
-  if (form.cosines > 0) {
-    const Floats along = larger(head.axis[0] * view.position[0] + head.axis[1] * view.position[1] +
-                                    head.axis[2] * view.position[2] - head.axis[3],
-                                all(0.0f));
-    for (std::uint32_t i = 0; i < form.cosines; ++i)
-      cosines *= along;
-  }
+  const Floats along = larger(head.axis[0] * view.position[0] + head.axis[1] * view.position[1] +
+                                  head.axis[2] * view.position[2] - head.axis[3],
+                              all(0.0f));
+  const Floats cosines = whole_power(along, form.cosines.whole) *
+                         fraction_of_power(along * (1.0f / view.rho), form.cosines.rest);
   const Floats at[3] = {head.per_metre * view.position[0], head.per_metre * view.position[1],
                         head.per_metre * view.position[2]};
   const float *from = form.coefficients;
@@ -67,7 +65,7 @@ inline void find_moments(const RunForm &form, const PointView &view, const Float
   const Floats per_rho = 1.0f / view.rho;
   Floats scale = per_rho * per_rho;
   const Floats inverse_rho2 = form.beforehand->unit_m2 * scale;
-  for (std::uint32_t i = 0; i < form.cosines + (form.lambert ? 1 : 0); ++i)
+  for (std::uint32_t i = 0; i < form.cosines.whole + (form.lambert ? 1 : 0); ++i)
     scale *= per_rho;
   weights = scale * total[0];
   for (std::uint32_t k = 0; k < form.moments; ++k) {

@@ -11,15 +11,14 @@ namespace pmdsim {
 namespace {
 
 constexpr float most_cells = 0x1p20f; // of a table
-constexpr float most_power = 8.0f;    // of a cosine
 // How much the distances of a batch's sources along its axis may differ, over their distance from the
 // reference point: the rounding of such a distance to float.
 constexpr double same_distance = 0x1p-24;
 
 bool has_diagram(const shader::GroupSource &source) { return law_of(source).kind == Pattern::Kind::diagram; }
 
-std::uint32_t power_of(const shader::GroupSource &source) {
-  return static_cast<std::uint32_t>(std::max(source.order, 0.0f));
+Exponent power_of(const shader::GroupSource &source) {
+  return exponent_of(static_cast<double>(std::max(source.order, 0.0f)));
 }
 
 bool differs_about_axis(const shader::GroupSource &source) {
@@ -103,7 +102,7 @@ bool are_alike(const shader::GroupSource &a, const shader::GroupSource &b, doubl
 
 // Tables, each for more places than the one before it.
 std::vector<PowerTable> tables_of(const SourceGroups &groups, const PathDifference &reach,
-                                  std::uint32_t inverse_powers, double wavenumber_rad_m) {
+                                  double inverse_powers, double wavenumber_rad_m) {
   const std::uint32_t moments = groups.moments;
   std::vector<PowerTable> tables;
   for (const std::uint32_t powers : near_powers(groups.polynomials.powers)) {
@@ -128,7 +127,7 @@ bool is_known_to_host(const shader::GroupSource &source) {
   case Pattern::Kind::isotropic:
     return true;
   case Pattern::Kind::cosine:
-    return source.order >= 1.0f && source.order <= most_power && source.order == std::floor(source.order);
+    return source.order > 0.0f;
   case Pattern::Kind::diagram: {
     const float rows = source.row_length > 0 ? source.across.w + 1.0f : 1.0f;
     return (source.theta_steps + 1.0f) * rows <= most_cells;
@@ -139,11 +138,7 @@ bool is_known_to_host(const shader::GroupSource &source) {
 
 SourceBatches::SourceBatches(const SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
                              bool with_tables)
-    : of_lengths_(model.pattern == shader::pattern_power), inverse_powers_(2) {
-  if (model.backscatter == shader::backscatter_lambert)
-    inverse_powers_ += 1;
-  if (of_lengths_)
-    inverse_powers_ += model.order;
+    : of_lengths_(model.pattern == shader::pattern_power), inverse_powers_(inverse_powers(model)) {
   const std::uint32_t run_bits = bundles_per_run(groups) * shader::diodes_per_bundle;
   for (const SourceRun &run : groups.runs)
     add_run(groups, run, static_cast<std::uint32_t>(runs_.size()) * run_bits);
@@ -189,7 +184,7 @@ void SourceBatches::add_run(const SourceGroups &groups, const SourceRun &run, st
                    static_cast<std::uint32_t>(views.size()),
                    nullptr,
                    0,
-                   inverse_powers_});
+                   exponent_of(inverse_powers_)});
 }
 
 SourceBatch SourceBatches::view_of(const Batch &batch) const {
@@ -199,6 +194,7 @@ SourceBatch SourceBatches::view_of(const Batch &batch) const {
   else
     view.power = power_of(batch.like);
   view.of_lengths = of_lengths_;
+  view.is_multiplied = view.power.rest == 0.0f && view.power.whole <= largest_multiplied_power;
   const glm::dmat3 frame = frame_of(batch.like);
   for (glm::length_t row = 0; row < 3; ++row)
     for (glm::length_t k = 0; k < 3; ++k)

@@ -42,7 +42,7 @@ private:
   SourceBatch view_of(const Batch &batch) const;
 
   bool of_lengths_; // all are cosines of one power, which are lengths' powers then
-  std::uint32_t inverse_powers_;
+  double inverse_powers_;
   std::map<std::uint32_t, Table> tables_; // by GroupSource::diagram
   std::deque<std::deque<Batch>> batches_; // of each run
   std::deque<std::vector<SourceBatch>> views_;

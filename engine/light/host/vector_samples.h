@@ -86,7 +86,7 @@ private:
   }
 
   const Sum &sum_;
-  VectorSamples samples_;
+  VectorSamples samples_{};
   int count_ = 0;
 };
 

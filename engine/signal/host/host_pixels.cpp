@@ -70,7 +70,7 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
   form.powers = groups.polynomials.powers;
   form.moments = groups.moments;
   form.lambert = on.model.backscatter == shader::backscatter_lambert;
-  form.cosines = pattern == shader::pattern_power ? on.model.order : 0;
+  form.cosines = exponent_of(pattern == shader::pattern_power ? on.model.order : 0.0);
   form.coplanar = groups.polynomials.coplanar;
   form.phased = groups.phased;
   form.diagrams = pattern == shader::pattern_axial || pattern == shader::pattern_any;

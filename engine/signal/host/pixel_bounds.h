@@ -23,7 +23,9 @@ constexpr float smallest = 1e-37f; // that has an inverse
 inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, const Floats &condition,
                               const Floats &turning, const Floats &weights, const Terms &turned) {
   const float any_m = frequency.any_weight_m;
-  const Floats common_m = smaller(smaller(per_weight_m * condition, any_m * turning), any_m * turned.light);
+  const float common_per_weight_m = frequency.even_part * per_weight_m;
+  const Floats common_m =
+      smaller(smaller(common_per_weight_m * condition, any_m * turning), any_m * turned.light);
   return frequency.weight_error * common_m + smaller(per_weight_m * weights, any_m * turned.weights);
 }
 

@@ -43,7 +43,7 @@ public:
       sum_.emplace(of_.sums, samples_);
     }
     const RunForm &form = of_.forms[run];
-    std::fill_n(light.moment, form.moments + 1, Floats{});
+    std::ranges::fill(light.moment, Floats{});
     const bool asks_growth = of_.holds && form.powers == 0;
     sum_->sum(of_.sums.runs[run], light.moment, asks_growth ? &light.growth : nullptr);
     light.weights = light.moment[form.moments];
