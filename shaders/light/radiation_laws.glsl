@@ -36,8 +36,7 @@ float shared_power(float cosine) { return whole_power(cosine) * fraction_of_powe
 
 // The same of lengths: a cosine's r is left out of the whole part, and rho stands for it in the fraction.
 float power_of_lengths(float along_m, float rho_m) {
-  float fraction = cosine_fraction > 0.0 ? fraction_of_power(along_m / rho_m) : 1.0;
-  return whole_power(along_m) * fraction;
+  return whole_power(along_m) * fraction_of_power(along_m / rho_m);
 }
 
 #ifdef SUM_IN_REAL

@@ -118,10 +118,11 @@ TEST_CASE("every frequency carries what was promised, or nothing") {
   bound.per_weight_m = 0x1p24;
   bound.any_weight_m = 0x1p25;
   bound.weight_error = 0x1p-20;
+  bound.even_part = 0.375;
   const auto alike = frequency_records(signal_with_taps(), 1.0, bound, 240);
   CHECK((alike[0].near_per_condition_m == 3e-7f && alike[0].near_per_weight_m == 1.0f &&
          alike[0].per_apart == 0.0f));
-  CHECK((alike[0].weight_error == 16.0f && alike[0].any_weight_m == 2.0f));
+  CHECK((alike[0].weight_error == 16.0f && alike[0].any_weight_m == 2.0f && alike[0].even_part == 0.375f));
   bound.at_one_range = {1e-6, 1e-7, 0x1p23, 4e-8};
   for (const shader::Frequency &record : frequency_records(signal_with_taps(), 1.0, bound, 240)) {
     CHECK(record.limit_m == 1e-5f);

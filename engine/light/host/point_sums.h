@@ -30,15 +30,22 @@ void add_polynomial(std::uint32_t degree, const Floats (&at)[3], const float *&f
   }
 }
 
+// As power_of_lengths of shaders/light/radiation_laws.glsl.
+inline Floats shared_cosines(const RunForm &form, const PointView &view) {
+  if (form.cosines.whole == 0 && form.cosines.rest == 0.0f)
+    return all(1.0f);
+  const shader::vec4 &axis = form.beforehand->axis;
+  const Floats along =
+      larger(axis[0] * view.position[0] + axis[1] * view.position[1] + axis[2] * view.position[2] - axis[3],
+             all(0.0f));
+  return whole_power(along, form.cosines.whole) * fraction_of_power(along / view.rho, form.cosines.rest);
+}
+
 template <bool lambert, int dimensions>
 void sum_beforehand(const RunForm &form, const PointView &view, Floats *total) {
   constexpr std::size_t components = lambert ? dimensions + 1 : 1;
   const shader::PointPolynomials &head = *form.beforehand;
-  const Floats along = larger(head.axis[0] * view.position[0] + head.axis[1] * view.position[1] +
-                                  head.axis[2] * view.position[2] - head.axis[3],
-                              all(0.0f));
-  const Floats cosines = whole_power(along, form.cosines.whole) *
-                         fraction_of_power(along * (1.0f / view.rho), form.cosines.rest);
+  const Floats cosines = shared_cosines(form, view);
   const Floats at[3] = {head.per_metre * view.position[0], head.per_metre * view.position[1],
                         head.per_metre * view.position[2]};
   const float *from = form.coefficients;
