@@ -2,6 +2,7 @@
 
 #include "engine/error_budget/planned_groups.h"
 #include "engine/error_budget/rounding_bound.h"
+#include "engine/error_budget/typical_condition.h"
 #include "engine/light/radiation_laws.h"
 #include "engine/light/source_windows.h"
 #include "engine/model/error.h"
@@ -70,6 +71,12 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double cond
          bound.amplitude(condition) < accuracy.max_amplitude_error;
 }
 
+// Where pixels have that condition themselves.
+bool is_mostly_within(const RoundingBound &bound, const Accuracy &accuracy, double condition) {
+  return bound.distance_m_at(condition) < accuracy.max_error_m &&
+         bound.amplitude(condition) < accuracy.max_amplitude_error;
+}
+
 [[noreturn]] void refuse(const Accuracy &accuracy, const std::string &why) {
   throw Error(ExitCode::accuracy, fmt::format("a distance error of at most {:.6g} mm cannot be promised: {}",
                                               1e3 * accuracy.max_error_m, why));
@@ -105,6 +112,8 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
 RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
+  const double typical =
+      typical_condition(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m());
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     SourceGroups groups = groups_of(view, view.lights, precision,
@@ -117,7 +126,8 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, st
     const auto usual =
         several && view.modulation.lit ? at_one_range(view, groups, precision, view.sensor.samples) : bound;
     const double condition = several ? groups.polynomials.growth : 1.0;
-    if (bound && is_within(usual.value_or(*bound), accuracy, condition))
+    if (bound && (is_within(usual.value_or(*bound), accuracy, condition) ||
+                  is_mostly_within(usual.value_or(*bound), accuracy, condition * typical)))
       return {precision, std::move(groups), *bound};
     last = bound;
   }
@@ -216,6 +226,8 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
   if (share == 0.0 || view.modulation.waveform != shader::waveform_sine)
     return whole_light(view.lights);
   const double rounding_m = rounding.distance_m(1.0);
+  if (rounding_m >= accuracy.max_error_m) // in pixels whose terms differ most
+    return whole_light(view.lights);
   return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
                        std::min(share * (accuracy.max_error_m - rounding_m),
                                 std::max(least_share_of_reduction * accuracy.max_error_m, rounding_m)),

@@ -6,6 +6,8 @@
 #include "engine/model/accuracy.h"
 #include "engine/view/camera_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -34,6 +36,14 @@ struct RoundingBound {
 
   double distance_m(double condition) const {
     return fixed_m + (per_condition_m + weight_error * even_part * per_weight_m) * condition;
+  }
+  // The same where the condition is a pixel's own, which says more of the error that all weights have; it is
+  // off as the amplitude is.
+  double distance_m_at(double condition) const {
+    const double largest = condition * (1.0 + 2.0 * amplitude(condition));
+    const double any_m = any_weight_m * std::sqrt(std::max(largest * largest - 1.0, 0.0));
+    const double even_m = even_part * per_weight_m * condition;
+    return fixed_m + per_condition_m * condition + weight_error * (any_m < even_m ? any_m : even_m);
   }
   double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
 };

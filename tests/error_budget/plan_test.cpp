@@ -186,6 +186,17 @@ TEST_CASE("each plan is more exact than the one before, the last one has every d
   CHECK(diodes == 240);
 }
 
+TEST_CASE("lamps of different phases are summed in float where few pixels' returns cancel") {
+  PlannedSetup phased;
+  phased.lights.push_back(phased.lights[0]);
+  const auto precision_of = [&](double phase_rad) {
+    phased.lights[1].modulation_phase_rad = phase_rad;
+    return plan(phased, automatic(3e-6)).precision;
+  };
+  CHECK(precision_of(0.5) == Precision::fp32);
+  CHECK(precision_of(3.1) == Precision::fp64);
+}
+
 TEST_CASE("a precision that was asked for is taken") {
   Accuracy accuracy = automatic(1e-6);
   accuracy.precision = Precision::fp64;

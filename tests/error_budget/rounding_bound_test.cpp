@@ -72,6 +72,19 @@ TEST_CASE("a pair of diodes by hand") {
   CHECK(bound.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9) + angle_m).epsilon(1e-3));
 }
 
+TEST_CASE("weights that are off turn a sum the less, the less its terms cancel") {
+  std::vector<CameraIlluminator> lights = diodes_at({{-0.1, 0.0, 0.0}});
+  lights.push_back(diodes_at({{0.1, 0.0, 0.0}}).front());
+  lights.back().modulation_phase_rad = 1.0;
+  const RoundingBound bound = bound_of({lights}).value();
+  CHECK(bound.distance_m_at(1.0) < 0.5 * bound.distance_m(1.0));
+  CHECK(bound.distance_m_at(1.0) > bound.fixed_m + bound.per_condition_m);
+  CHECK(bound.distance_m_at(3.0) == Approx(bound.distance_m(3.0)).epsilon(0.1));
+  RoundingBound unknown = bound;
+  unknown.any_weight_m = std::numeric_limits<double>::infinity();
+  CHECK(unknown.distance_m_at(1.0) == bound.distance_m(1.0));
+}
+
 TEST_CASE("in double only the output is rounded") {
   const RoundingBound in_float = bound_of({diodes_at(pair)}).value();
   const RoundingBound in_double = bound_of({diodes_at(pair)}, {.precision = Precision::fp64}).value();
