@@ -22,6 +22,8 @@ namespace {
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 // The share that series of fewer terms may take in each plan.
 constexpr double share_of_series[frame_plans] = {0.03, 0.006, 0.0};
+// The share that rounding may take where high powers are taken by tables.
+constexpr double share_of_tables = 0.25;
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
 // error than rounding does, or this share.
 constexpr double least_share_of_reduction = 0.02;
@@ -108,10 +110,32 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
+// In float, high powers by tables; nothing where there are none, or where rounding might then take much of
+// the error.
+std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &accuracy,
+                                        std::uint32_t attempt) {
+  constexpr Precision precision = Precision::fp32;
+  if (!has_high_powers(view) || accuracy.precision.value_or(precision) != precision)
+    return std::nullopt;
+  SourceGroups groups =
+      groups_of(view, view.lights, precision,
+                tolerance_of(view, precision, accuracy, share_of_series[attempt]), HighPowers::by_tables);
+  const auto bound = bound_of(view, groups, precision, view.sensor.samples);
+  Accuracy part = accuracy;
+  part.max_error_m *= share_of_tables;
+  part.max_amplitude_error *= share_of_tables;
+  if (!groups.near_polynomials || !bound || !is_within(*bound, part, growth_of(groups)))
+    return std::nullopt;
+  return RoundedSum{precision, std::move(groups), *bound};
+}
+
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
 RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
+  if (attempt == 0)
+    if (auto sum = sum_by_tables(view, accuracy, attempt))
+      return std::move(*sum);
   const double typical =
       typical_condition(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m());
   for (const Precision precision :
@@ -366,7 +390,8 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
   plan.reduced = groups_of(view, light.illuminators, plan.precision,
-                           tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]));
+                           tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]),
+                           plan.all.near_polynomials ? HighPowers::by_tables : HighPowers::by_roots);
   plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   const std::uint32_t samples = view.sensor.samples;

@@ -31,6 +31,12 @@ Interval interval_of(const PathDifference &reach) {
   return {reach.least_stretch - rounding, reach.most_stretch + rounding};
 }
 
+// The largest |u|.
+double largest_stretch(const PathDifference &reach) {
+  const Interval interval = interval_of(reach);
+  return std::max(interval.high, -interval.low);
+}
+
 double moment_factor(double u, double inverse_powers, std::uint32_t k) {
   return std::pow(1.0 + u, -0.5 * inverse_powers) * std::pow(std::sqrt(1.0 + u) - 1.0, k);
 }
@@ -247,7 +253,7 @@ std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDiff
       std::vector<Coefficients> sizes;
       fit_run({-near->largest_u, near->largest_u}, reach.farthest_m, inverse_powers, moments, powers,
               wavenumber_rad_m, &sizes);
-      raise(bound.growth, value(sizes[0], near->largest_u));
+      raise(bound.growth, value(sizes[0], std::min(near->largest_u, largest_stretch(reach))));
       raise(bound.path_terms_m, path_terms_m(sizes, reach, wavenumber_rad_m, near->largest_u));
       bound.powers = std::max(bound.powers, powers);
     }

@@ -38,10 +38,6 @@ double least_intensity(const SourceGroups &groups) {
   return least;
 }
 
-// Polynomials let rounding grow, and more so where weights fall fast. Weights of general laws and of high
-// powers are off by so much that claims are held by roots instead.
-constexpr double most_claimed_powers = 12.0;
-
 } // namespace
 
 void choose_polynomials(SourceGroups &groups, const SumModel &model, double wavenumber_rad_m,
@@ -55,7 +51,7 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
   groups.polynomials = fit_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,
                                        least_intensity(groups), groups.tolerance);
   if (groups.polynomials.powers == 0) {
-    if (host_sums && inverse <= most_claimed_powers)
+    if (host_sums)
       groups.near_polynomials =
           bound_near_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m, groups.tolerance);
     return;

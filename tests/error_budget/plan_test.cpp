@@ -197,6 +197,17 @@ TEST_CASE("lamps of different phases are summed in float where few pixels' retur
   CHECK(precision_of(3.1) == Precision::fp64);
 }
 
+TEST_CASE("high powers are taken by tables where the error asked for leaves room") {
+  PlannedSetup beams;
+  for (Diode &diode : beams.lights[0].diodes)
+    diode.pattern = {Pattern::Kind::cosine, 20.0, nullptr};
+  CHECK(plan(beams, automatic(1e-4)).all.near_polynomials);
+  CHECK_FALSE(plan(beams, automatic(1e-6)).all.near_polynomials);
+  CHECK_FALSE(plan(beams, {}).all.near_polynomials);
+  beams.sensor.samples = 2;
+  CHECK_FALSE(plan(beams, automatic(1e-4)).all.near_polynomials);
+}
+
 TEST_CASE("a precision that was asked for is taken") {
   Accuracy accuracy = automatic(1e-6);
   accuracy.precision = Precision::fp64;

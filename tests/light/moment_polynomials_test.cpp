@@ -117,6 +117,23 @@ TEST_CASE("A tolerance takes fewer powers, whose errors it bounds") {
   }
 }
 
+TEST_CASE("Tables grow no more than at the nearest place in view") {
+  const std::uint32_t p = 23;
+  double last = 1.0;
+  for (const double range_m : {40.0, 4.0, 2.0}) {
+    const Light light = ring_before_a_wall(0.166, range_m);
+    const PathDifference reach = path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box});
+    const auto bound = bound_near_polynomials({{reach}}, p, moments, wavenumber_20mhz_rad_m, 0.0);
+    REQUIRE(bound);
+    INFO("at " << range_m << " m: " << bound->growth);
+    CHECK(bound->growth > last);
+    // The series of (1 - u)^(-p / 2), all of whose terms are positive, and the interpolation's own.
+    const double u = std::max(reach.most_stretch, -reach.least_stretch);
+    CHECK(bound->growth < 1.1 * std::pow(1.0 - u, -0.5 * p));
+    last = bound->growth;
+  }
+}
+
 TEST_CASE("Tables for places that are not near keep their errors, and their terms the growth that is told") {
   const Light light = ring_before_a_wall(0.166, 0.2);
   const std::vector<PathDifference> reaches{path_difference_of(glm::dvec3(0.0), light.diodes_m, {light.box})};
