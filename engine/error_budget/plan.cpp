@@ -130,14 +130,13 @@ std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &
 }
 
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
-RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, std::uint32_t attempt) {
+RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, double typical,
+                            std::uint32_t attempt) {
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   if (attempt == 0)
     if (auto sum = sum_by_tables(view, accuracy, attempt))
       return std::move(*sum);
-  const double typical =
-      typical_condition(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m());
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
     SourceGroups groups = groups_of(view, view.lights, precision,
@@ -246,11 +245,11 @@ std::optional<ErrorBound> bound_beforehand(const LightFacts &view, const Accurac
 }
 
 ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
-                          double share) {
+                          double typical, double share) {
   if (share == 0.0 || view.modulation.waveform != shader::waveform_sine)
     return whole_light(view.lights);
-  const double rounding_m = rounding.distance_m(1.0);
-  if (rounding_m >= accuracy.max_error_m) // in pixels whose terms differ most
+  const double rounding_m = std::min(rounding.distance_m(1.0), rounding.distance_m_at(typical));
+  if (rounding_m >= accuracy.max_error_m) // where samples are farther apart than most pixels' are
     return whole_light(view.lights);
   return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
                        std::min(share * (accuracy.max_error_m - rounding_m),
@@ -385,8 +384,10 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   if (accuracy.mode == Mode::exact)
     return exact_plan(view, accuracy);
   FramePlan plan;
-  RoundedSum sum = choose_precision(view, accuracy, attempt);
-  const ReducedLight light = light_within(view, accuracy, sum.bound, share_of_reduction[attempt]);
+  const double typical =
+      typical_condition(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m());
+  RoundedSum sum = choose_precision(view, accuracy, typical, attempt);
+  const ReducedLight light = light_within(view, accuracy, sum.bound, typical, share_of_reduction[attempt]);
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
   plan.reduced = groups_of(view, light.illuminators, plan.precision,

@@ -186,15 +186,17 @@ TEST_CASE("each plan is more exact than the one before, the last one has every d
   CHECK(diodes == 240);
 }
 
-TEST_CASE("lamps of different phases are summed in float where few pixels' returns cancel") {
+TEST_CASE("lamps of different phases are reduced, and summed in float, where few pixels' returns cancel") {
   PlannedSetup phased;
   phased.lights.push_back(phased.lights[0]);
-  const auto precision_of = [&](double phase_rad) {
+  const auto plan_of = [&](double phase_rad) {
     phased.lights[1].modulation_phase_rad = phase_rad;
-    return plan(phased, automatic(3e-6)).precision;
+    return plan(phased, automatic(3e-6));
   };
-  CHECK(precision_of(0.5) == Precision::fp32);
-  CHECK(precision_of(3.1) == Precision::fp64);
+  const FramePlan apart = plan_of(0.5);
+  CHECK(apart.precision == Precision::fp32);
+  CHECK(shining(apart.reduced) < shining(apart.all));
+  CHECK(plan_of(3.1).precision == Precision::fp64);
 }
 
 TEST_CASE("high powers are taken by tables where the error asked for leaves room") {
