@@ -22,6 +22,8 @@ namespace {
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
 // The share that series of fewer terms may take in each plan.
 constexpr double share_of_series[frame_plans] = {0.03, 0.006, 0.0};
+// Rounding at which float is chosen by what most pixels' returns cancel.
+constexpr double widest_typical_m = 10e-6;
 // The share that rounding may take where high powers are taken by tables.
 constexpr double share_of_tables = 0.25;
 // A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
@@ -73,9 +75,10 @@ bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double cond
          bound.amplitude(condition) < accuracy.max_amplitude_error;
 }
 
-// Where pixels have that condition themselves.
+// Where pixels have that condition themselves. Wider bounds are many times what float is off by, so that the
+// tight ones of double are worth its time.
 bool is_mostly_within(const RoundingBound &bound, const Accuracy &accuracy, double condition) {
-  return bound.distance_m_at(condition) < accuracy.max_error_m &&
+  return bound.distance_m_at(condition) < std::min(accuracy.max_error_m, widest_typical_m) &&
          bound.amplitude(condition) < accuracy.max_amplitude_error;
 }
 
