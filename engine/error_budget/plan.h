@@ -59,11 +59,9 @@ struct FramePlan {
   // The errors claimed before the frame; nothing where theory knows no bound.
   std::optional<double> claimed_m, claimed_amplitude;
 
+  bool has_beams() const; // some bound has narrow beams' errors (ErrorBound::beams)
   bool is_reduced() const { return reduced.diodes.size() < all.diodes.size(); }
 };
-
-// The bound of pixels of which some keep the one bound and some the other.
-ErrorBound worse_of(ErrorBound a, const ErrorBound &b);
 
 // Plans for the same frame, each more exact and dearer than the one before.
 inline constexpr std::uint32_t frame_plans = 3;

@@ -83,7 +83,7 @@ Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &vi
 
 LawRounding law_rounding(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
   return {model.pattern, groups.radius_over_range,
-          scope.beam_edges_are_terms ? beam_cosine : scope.emission_cosine};
+          scope.beam_edges_are_terms ? beam_cosine : scope.emission_cosine, scope.beams_are_terms};
 }
 
 // The rounding of q / rho^2, u: |q| <= 2 rho R + R^2 has six roundings in its larger part and three in its
@@ -107,7 +107,7 @@ double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) 
 // u)^(-p/2).
 double power_weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope,
                           double inverse_powers) {
-  const auto [form, t, least_cosine] = law_rounding(groups, model, scope);
+  const auto [form, t, least_cosine, beams_are_apart] = law_rounding(groups, model, scope);
   double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
                  polynomial_error(groups, scope) +
                  0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
@@ -254,9 +254,12 @@ private:
             ? ambiguity_m
             : std::min(ambiguity_m, lengths_.range_m + lengths_.detour_m + groups_.path_difference_m);
     RoundingBound bound{};
-    bound.fixed_m = float_rounding * distance_m + pair_rounding * lengths_.range_m +
-                    0.5 * angle * u_ * std::min(relative_m(), 1.0 / wavenumber_rad_m);
+    bound.output_m = float_rounding * distance_m;
+    bound.fixed_m =
+        pair_rounding * lengths_.range_m + 0.5 * angle * u_ * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
+    const BeamError beams = beam_rounding(groups_.diodes, law_rounding(groups_, model_, scope_));
+    bound.beams = {u_ * u_ * beams.square, u_ * u_ * beams.square_per_log};
     if (scope_.beam_edges_are_terms)
       bound.beam_edge_error =
           u_ * beam_edge_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
@@ -336,8 +339,10 @@ void raise_to(RoundingBound &largest, const Bound &bound, const Modulation &modu
     for (const auto part :
          {&Part::fixed_m, &Part::per_condition_m, &Part::amplitude_fixed, &Part::amplitude_per_condition,
           &Part::weight_error, &Part::per_weight_m, &Part::amplitude_per_weight, &Part::any_weight_m,
-          &Part::beam_edge_error, &Part::per_apart, &Part::even_part})
+          &Part::beam_edge_error, &Part::per_apart, &Part::even_part, &Part::output_m})
       largest.*part = std::max(largest.*part, of_frequency.*part);
+    for (const auto part : {&BeamError::square, &BeamError::square_per_log})
+      largest.beams.*part = std::max(largest.beams.*part, of_frequency.beams.*part);
   }
 }
 

@@ -19,6 +19,7 @@ namespace pmdsim {
 // over |sum|, >= 1, the terms times the factor by which rounding grows there (MomentPolynomials::growth at
 // most); for harmonics the terms are those of all harmonics, each times its amplitude.
 struct RoundingBound {
+  double output_m; // of the distance as a float, at most
   double fixed_m, per_condition_m;
   double amplitude_fixed, amplitude_per_condition;
   // The relative error of every weight, which per_condition_m leaves out, and the effect of errors of single
@@ -26,6 +27,8 @@ struct RoundingBound {
   // that all weights have has this part of the effect, and no more than `any_weight_m` times sqrt(condition^2
   // - 1); infinite where that does not hold.
   double weight_error, per_weight_m, even_part, any_weight_m, amplitude_per_weight;
+  // Not included where RoundingScope::beams_are_terms: errors of weights in narrow beams.
+  BeamError beams;
   // Not included where RoundingScope::beam_edges_are_terms: the relative error of J, times the cosine to the
   // diode's axis and over the order.
   double beam_edge_error;
@@ -34,18 +37,23 @@ struct RoundingBound {
   // is not known.
   double per_apart;
 
-  double distance_m(double condition) const {
-    return fixed_m + (per_condition_m + weight_error * even_part * per_weight_m) * condition;
+  // `dimming`: -ln of the beams' mean J there.
+  double distance_m(double condition, double dimming = 0.0) const {
+    const double of_weights = weight_error * even_part + beams.at(dimming);
+    return output_m + fixed_m + (per_condition_m + of_weights * per_weight_m) * condition;
   }
   // The same where the condition is a pixel's own, which says more of the error that all weights have; it is
   // off as the amplitude is.
-  double distance_m_at(double condition) const {
-    const double largest = condition * (1.0 + 2.0 * amplitude(condition));
+  double distance_m_at(double condition, double dimming = 0.0) const {
+    const double largest = condition * (1.0 + 2.0 * amplitude(condition, dimming));
     const double any_m = any_weight_m * std::sqrt(std::max(largest * largest - 1.0, 0.0));
-    const double even_m = even_part * per_weight_m * condition;
-    return fixed_m + per_condition_m * condition + weight_error * (any_m < even_m ? any_m : even_m);
+    const double most_m = per_weight_m * condition;
+    return output_m + fixed_m + per_condition_m * condition +
+           weight_error * std::min(even_part * most_m, any_m) + beams.at(dimming) * std::min(most_m, any_m);
   }
-  double amplitude(double condition) const { return amplitude_fixed + amplitude_per_condition * condition; }
+  double amplitude(double condition, double dimming = 0.0) const {
+    return amplitude_fixed + (amplitude_per_condition + amplitude_per_weight * beams.at(dimming)) * condition;
+  }
 };
 
 inline constexpr double grazing_cosine = 0.01;
@@ -65,7 +73,8 @@ struct RoundingScope {
   double incidence_cosine = grazing_cosine, emission_cosine = grazing_cosine;
   // Light more than 45 degrees off its diode's axis is in the pixel's terms instead (shaders/light/sum.glsl).
   bool beam_edges_are_terms = false;
-  bool beforehand = false; // the groups are summed beforehand (point_polynomials.h)
+  bool beams_are_terms = false; // narrow beams' errors are in the pixel's terms
+  bool beforehand = false;      // the groups are summed beforehand (point_polynomials.h)
   // The relative error of a surface's backscatter: one rounding. Paint and vignetting add a few.
   double backscatter_error = 0x1p-24;
 };

@@ -1,5 +1,6 @@
 #include "engine/frame/frame_passes.h"
 
+#include "engine/error_budget/planned_bounds.h"
 #include "engine/frame/shadow_passes.h"
 #include "engine/frame/uniform_pixels_pass.h"
 #include "engine/light/host/host_sum.h"
@@ -74,11 +75,14 @@ SampleLayout layout_of(const SimulatorOptions &options, const FrameFacts &facts,
                              ? (path.moments + 1) * plan.all.runs.size()
                              : 0,
           .sum_bytes = depth_only && path.single_run ? sizeof(shader::vec2) : sizeof(shader::vec4),
-          .sum_planes = modulation.sum_planes() + (path.sums_records && modulation.keeps_terms ? 1 : 0),
+          .sum_planes = modulation.sum_planes() +
+                        (path.sums_records && modulation.keeps_terms ? (modulation.keeps_beams ? 2 : 1) : 0),
           .channels = ChannelLayout(modulation).channels(),
           .visibility_words = visibility_words,
           .held_errors = modulation.keeps_terms ? modulation.frequencies() : 0,
-          .terms = modulation.keeps_terms && !path.keeps_depths_only()};
+          .terms = !modulation.keeps_terms || path.keeps_depths_only() ? 0u
+                   : modulation.keeps_beams                            ? 3u
+                                                                       : 2u};
 }
 
 // The points of all samples, or those of `list`, for a sum of that precision.
@@ -395,6 +399,7 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
                                      facts.paint.painted, facts.window_bundles},
                                     request.accuracy, attempt);
   facts.modulation.keeps_terms = plan.bound.has_value();
+  facts.modulation.keeps_beams = plan.bound && plan.has_beams();
   facts.modulation.reports_kept = plan.bound && !plan.surely_kept;
   facts.modulation.keeps_bounds = plan.bound && options.keep_error_bound;
   const std::vector<SourceWindow> windows =

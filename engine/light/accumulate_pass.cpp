@@ -46,14 +46,16 @@ bool sums_equal_weights(const SourceGroups &groups, const SumScope &scope) {
 // shaders/light/sum.glsl).
 void set_beam_edges(const SourceGroups &groups, std::size_t first, std::size_t last, const ErrorBound &bound,
                     shader::LightRun &record) {
-  double steepest = 0.0, least_power = std::numeric_limits<double>::infinity();
+  double steepest = 0.0, most = 0.0, least_power = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i)
     if (const auto edge = beam_edge(groups.diodes[i])) {
       steepest = std::max(steepest, edge->steepness);
       least_power = std::min(least_power, edge->power);
+      most = std::max(most, edge->steepness * std::exp2(-0.5 * (edge->power - 1.0))); // at 45 degrees
     }
   record.beam_edges = static_cast<float>(bound.terms_of_beam_edges * steepest);
   record.beam_edge_root = static_cast<float>(1.0 / least_power);
+  record.beam_edge_most = static_cast<float>(bound.terms_of_beam_edges * most);
 }
 
 } // namespace
@@ -91,6 +93,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
       {shader::constant_cosine_fraction, std::bit_cast<std::uint32_t>(order.rest)},
       {shader::constant_phased, groups.phased},
       {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
+      {shader::constant_beams, on.modulation.keeps_beams},
       {shader::constant_shadowed, scope.shadowed},
       {shader::constant_tones, on.modulation.tones * on.modulation.frequencies()},
       {shader::constant_taps, on.modulation.taps},
@@ -128,6 +131,9 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
         static_cast<float>(bound.terms_per_weight_error * rounding * (height_rounding * size_m + apart_m));
     record.diagrams = static_cast<float>(bound.terms_per_weight_error * diagrams);
     set_beam_edges(groups, run.first, run.first + run_diodes, bound, record);
+    const double squared = bound.terms_per_weight_error * bound.terms_per_weight_error;
+    record.beams = static_cast<float>(squared * bound.beams.square);
+    record.beams_per_log = static_cast<float>(squared * bound.beams.square_per_log);
     if (groups.polynomials.powers > 0)
       std::ranges::copy(groups.polynomials.tables[result.size()], record.moments_of_powers);
     result.push_back(record);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace pmdsim {
 namespace {
@@ -65,16 +66,45 @@ double cosine_slope(const Diode &diode, const std::vector<VisibleBox> &visible) 
   return std::max(order * tangent, std::sqrt(order * (1.0 + tangent * tangent)));
 }
 
+// The rounding of the sine of the angle to the axis, by the way's cross product with it.
+double sine_error_u(double t) { return (1.0 + t) / (1.0 - t) + 6.0; }
+
+constexpr double log_rounding = 14.0, last_rounding = 6.0; // of an exponential, by its exponent; of all else
+
 // cos^n = exp(n / 2 log(1 - sin^2)).
 double real_power_rounding_u(double order, double t, double cosine) {
   const double c = std::max(cosine, std::exp(-largest_exponent / std::max(order, 1e-9)));
   const double s2 = std::min(0.5, 1.0 - c * c), r2 = squared_range_error_u(t);
-  const double sine = (1.0 + t) / (1.0 - t) + 6.0; // the way, its cross product with the axis
-  double log_error = (2.0 * std::sqrt(s2) * sine + s2 * (r2 + 10.0)) / (1.0 - s2);
+  double log_error = (2.0 * std::sqrt(s2) * sine_error_u(t) + s2 * (r2 + 10.0)) / (1.0 - s2);
   if (c * c < 0.5)
     log_error = std::max(log_error, 2.0 * along_error_u(t) / c + r2 + 9.0);
   const double exponent = -order * std::log(c);
-  return 0.5 * order * log_error + 14.0 * exponent + 6.0;
+  return 0.5 * order * log_error + log_rounding * exponent + last_rounding;
+}
+
+// The host multiplies powers out up to here, where a diode may have its own.
+bool is_narrow(float order, const LawRounding &sum) {
+  return sum.beams_are_apart && sum.pattern != shader::pattern_power &&
+         order > static_cast<float>(largest_multiplied_power);
+}
+
+// real_power_rounding_u but for its last roundings, at cosines c from least_cosine on, by x = -ln J = n y, y
+// = -ln c: it is at most
+//   sine sqrt(2 n x + bend x^2) + per_log x,   (s / c^2)^2 = e^2y (e^2y - 1) <= 2 y + bend y^2,
+// as that and s^2 / c^2 = e^2y - 1 are convex in y. With 2 a b <= k a^2 + b^2 / k the square of it is at most
+// what stands here; k is the best at x = 4. Beyond that cosine the rims of beams are counted, and with those
+// no more than this.
+BeamError cosine_beam_rounding(float of_order, const LawRounding &sum) {
+  if (!is_narrow(of_order, sum))
+    return {};
+  const double order = static_cast<double>(of_order), t = sum.radius_over_range;
+  const double y = std::max(1e-5, std::min(-std::log(sum.least_cosine), largest_exponent / order));
+  const double stretch = std::exp(2.0 * y), sine2 = sine_error_u(t) * sine_error_u(t);
+  const double bend = (stretch * (stretch - 1.0) - 2.0 * y) / (y * y);
+  const double per_log = log_rounding + 0.5 * (squared_range_error_u(t) + 10.0) * (stretch - 1.0) / y;
+  const double k = per_log * std::sqrt(4.0 / (2.0 * order * sine2));
+  const double per_log2 = (1.0 + k) * bend * sine2 + (1.0 + 1.0 / k) * per_log * per_log;
+  return {std::max((1.0 + k) * 2.0 * order * sine2, 2.0 * per_log2), per_log2};
 }
 
 double cosine_rounding_u(float order, const LawRounding &sum) {
@@ -86,6 +116,8 @@ double cosine_rounding_u(float order, const LawRounding &sum) {
   const bool is_whole = order == std::floor(order);
   if (sum.pattern == shader::pattern_power && is_whole)
     return shared;
+  if (is_narrow(order, sum))
+    return last_rounding;
   const double real = real_power_rounding_u(static_cast<double>(order), t, sum.least_cosine);
   // Sums in double take fractions by the other form; beside other laws the host may multiply a power out.
   const bool is_either =
@@ -162,6 +194,7 @@ constexpr std::array laws{
                  .form_beside_others = shader::pattern_general,
                  .slope = cosine_slope,
                  .rounding_u = cosine_rounding_u,
+                 .beam_rounding = cosine_beam_rounding,
                  .edge = cosine_edge,
                  .beam_edge_rounding_u = cosine_edge_rounding_u,
                  .series = [](const Pattern &cosine) { return std::optional(LawSeries{cosine.order}); }},
@@ -184,19 +217,14 @@ constexpr bool are_in_order() {
 }
 static_assert(are_in_order(), "laws[kind] is the law of that kind");
 
-// The largest of what each law's function has for the largest order among its diodes; 0 of laws without it.
-template <class Member, class ValueOf>
-double largest_of(std::span<const shader::GroupSource> diodes, Member member, ValueOf value_of) {
-  std::array<std::optional<float>, laws.size()> orders;
-  for (const shader::GroupSource &diode : diodes) {
-    std::optional<float> &order = orders[static_cast<std::size_t>(law_of(diode).kind)];
-    order = std::max(order.value_or(diode.order), diode.order);
-  }
-  double largest = 0.0;
-  for (std::size_t i = 0; i < laws.size(); ++i)
-    if (orders[i] && laws[i].*member != nullptr)
-      largest = std::max(largest, value_of(laws[i].*member, *orders[i]));
-  return largest;
+// Calls `use` with what each law's function has for each order among its diodes.
+template <class Member, class Use>
+void for_each_order(std::span<const shader::GroupSource> diodes, Member member, Use use) {
+  std::set<float> orders; // each of one law (RadiationLaw::number)
+  for (const shader::GroupSource &diode : diodes)
+    if (orders.insert(diode.order).second)
+      if (const auto function = law_of(diode).*member)
+        use(function, diode.order);
 }
 
 } // namespace
@@ -259,13 +287,27 @@ double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
 }
 
 double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
-  return largest_of(diodes, &RadiationLaw::rounding_u,
-                    [&](auto rounding_u, float order) { return rounding_u(order, sum); });
+  double largest = 0.0;
+  for_each_order(diodes, &RadiationLaw::rounding_u,
+                 [&](auto rounding_u, float order) { largest = std::max(largest, rounding_u(order, sum)); });
+  return largest;
 }
 
 double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
-  return largest_of(diodes, &RadiationLaw::beam_edge_rounding_u,
-                    [&](auto rounding_u, float order) { return rounding_u(order, sum); });
+  double largest = 0.0;
+  for_each_order(diodes, &RadiationLaw::beam_edge_rounding_u,
+                 [&](auto rounding_u, float order) { largest = std::max(largest, rounding_u(order, sum)); });
+  return largest;
+}
+
+BeamError beam_rounding(std::span<const shader::GroupSource> diodes, const LawRounding &sum) {
+  BeamError largest;
+  for_each_order(diodes, &RadiationLaw::beam_rounding, [&](auto rounding, float order) {
+    const BeamError of_order = rounding(order, sum);
+    largest.square = std::max(largest.square, of_order.square);
+    largest.square_per_log = std::max(largest.square_per_log, of_order.square_per_log);
+  });
+  return largest;
 }
 
 } // namespace pmdsim

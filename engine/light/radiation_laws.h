@@ -6,6 +6,7 @@
 #include "engine/light/camera_light.h"
 #include "engine/light/diagram_tables.h"
 #include "engine/light/precise_diagrams.h"
+#include "engine/model/accuracy.h"
 #include "shaders/shared/interface.h"
 
 #include <optional>
@@ -28,9 +29,10 @@ struct LawForm {
 
 // The sum in which J is rounded.
 struct LawRounding {
-  std::uint32_t pattern;    // its form, shader::pattern_*
-  double radius_over_range; // as in SourceGroups
-  double least_cosine;      // to the axis of any diode, of all that it lights
+  std::uint32_t pattern;        // its form, shader::pattern_*
+  double radius_over_range;     // as in SourceGroups
+  double least_cosine;          // to the axis of any diode, of all that it lights
+  bool beams_are_apart = false; // beam_rounding has what narrow beams' J is off by
 };
 
 // How the light ends beyond 45 degrees off a diode's axis (beam_edge_terms in shaders/light/sum.glsl).
@@ -65,6 +67,8 @@ struct RadiationLaw {
   double (*slope)(const Diode &, const std::vector<VisibleBox> &) = nullptr;
   // The error of J, relative to itself, u; `order` is the largest GroupSource::order.
   double (*rounding_u)(float order, const LawRounding &) = nullptr;
+  // Where those are apart: the error of a narrow beam's J, u.
+  BeamError (*beam_rounding)(float order, const LawRounding &) = nullptr;
   // The absolute error of J beside that, of a group's radius over its range; left out: 0. Infinite where it
   // has no bound.
   double (*error)(const Pattern &, DiagramTables &, double radius_over_range) = nullptr;
@@ -100,5 +104,7 @@ double pattern_slope(const std::vector<CameraIlluminator> &illuminators,
 // that claim none.
 double law_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 double beam_edge_rounding_u(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
+// An error of narrow beams that none of any diode exceeds, u; nothing for laws that have none apart.
+BeamError beam_rounding(std::span<const shader::GroupSource> diodes, const LawRounding &sum);
 
 } // namespace pmdsim

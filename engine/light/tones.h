@@ -20,6 +20,7 @@ struct Modulation {
   std::vector<double> modulation_hz; // the frequencies
   std::vector<float> harmonics;      // amplitudes, one for each tone of a frequency
   bool keeps_terms = false;          // an error was asked for: the sum of the terms' sizes is kept
+  bool keeps_beams = false;          // and what rounding does within beams (ErrorBound::beams)
   bool reports_kept = false;         // and the largest bound of the pixels that keep theirs
   bool keeps_bounds = false;         // each pixel's bound is a channel, too
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too

@@ -2,6 +2,7 @@
 // How exact a frame shall be, and how exact it was found to be. The truth is eq. 5 to 7's sum over
 // the sensor's S x S samples and all diodes in exact arithmetic (docs/theory.md, "The measurement").
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,16 +49,29 @@ struct AccuracyReport {
 // The unit of weights' relative errors: small, so that little light keeps its digits.
 inline constexpr double weight_error_unit = 0x1p-24;
 
+// The relative error of a weight within a diode's beam, J below 1: its square is at most -ln J times (square
+// + square_per_log times -ln J), where square is twice square_per_log at least, so that J times that is
+// concave in J.
+struct BeamError {
+  double square = 0.0, square_per_log = 0.0;
+
+  // Of weights whose mean J is at least exp(-dimming): the root of their mean square.
+  double at(double dimming) const { return std::sqrt(dimming * (square + square_per_log * dimming)); }
+};
+
 // Every pixel's error, and the limit that was asked for. A pixel is off by fixed + per_condition * condition
 // at most, the condition being sum of |terms| / |sum| over its samples and diodes, and by the effect of
 // errors of weights.
 struct ErrorBound {
-  double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped
+  double limit_m, fixed_m, per_condition_m;                         // of distance, wrapped; see output_m
   double amplitude_limit, amplitude_fixed, amplitude_per_condition; // relative
   // Further errors of single diodes' weights, relative, are summed apart, times this factor; 0: they are not.
   double terms_per_weight_error = 0.0;
   // Where beams may end in view: that factor times the rounding of a cosine to a diode's axis, for order 1.
   double terms_of_beam_edges = 0.0;
+  BeamError beams = {}; // of weights; not included elsewhere
+  // The rounding of the distance to a float, at most; what it comes to in a pixel is not in fixed_m.
+  double output_m = 0.0;
   // The relative error of every weight, which amplitude_per_condition includes and per_condition_m does not.
   double weight_error = 0.0;
   // The effects of weights' errors, for each unit of those over |sum|: on distance, on distance for the
@@ -75,11 +89,11 @@ struct ErrorBound {
   AtOneRange nearest() const {
     return at_one_range.value_or(AtOneRange{fixed_m, per_condition_m, per_weight_m, 0.0});
   }
-  // Of samples at one range, where no weight is off by itself.
-  double nearest_m(double condition) const {
+  // Of samples at one range, where no weight is off by itself but for beams' (BeamError::at).
+  double nearest_m(double condition, double dimming) const {
     const AtOneRange near = nearest();
-    const double of_weights_m = weight_error * even_part * near.per_weight_m;
-    return near.fixed_m + (near.per_condition_m + of_weights_m) * condition;
+    const double of_weights_m = (weight_error * even_part + beams.at(dimming)) * near.per_weight_m;
+    return output_m + near.fixed_m + (near.per_condition_m + of_weights_m) * condition;
   }
 };
 

@@ -49,7 +49,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   const vk::DeviceSize id_bytes = ids * layout.id_bytes;
   const vk::DeviceSize lit_bytes = layout.visibility_words > 0 ? samples * sizeof(std::uint32_t) : 0;
   const vk::DeviceSize term_bytes =
-      (layout.terms ? samples * 2 * sizeof(float) : 0) + pixels * layout.held_errors * sizeof(shader::vec2);
+      samples * layout.terms * sizeof(float) + pixels * layout.held_errors * sizeof(shader::vec2);
   const vk::DeviceSize violation_bytes = layout.held_errors > 0 ? sizeof(shader::BudgetViolations) : 0;
   const vk::DeviceSize visibility_bytes = lit_bytes * layout.visibility_words;
   using B = StripBuffers;

@@ -23,9 +23,9 @@ struct StripBuffers {
   vulkan::Buffer
       visibility;     // a window's bundles (source_windows.h), a word a sample each; empty without shadows
   vulkan::Buffer lit; // diodes that reach it, a word a sample; likewise
-  // Sum of |terms|, a float a sample, then of their weights' own errors, where points are summed; and the
-  // errors that pixels may have (ClaimsConstants), a vec2 for each frequency. Empty unless an error was asked
-  // for.
+  // Sum of |terms|, a float a sample, then the others (PixelSum in shaders/signal/demodulation.glsl), where
+  // points are summed; and the errors that pixels may have (ClaimsConstants), a vec2 for each frequency.
+  // Empty unless an error was asked for.
   vulkan::Buffer terms;
   vulkan::Buffer violations;  // shader::BudgetViolations; likewise
   vulkan::Buffer run_moments; // a plane for each run and moment, a float a sample; where the host sums
@@ -65,7 +65,7 @@ struct SampleLayout {
   std::uint32_t channels;
   std::uint32_t visibility_words; // 0: every diode reaches every sample
   std::uint32_t held_errors;      // the number of frequencies for which pixels' errors are held
-  bool terms;                     // of each sample
+  std::uint32_t terms;            // kept of each sample, floats
 };
 
 // Buffers of `previous`, whose contents are of no use any more, are taken where they have the right size.

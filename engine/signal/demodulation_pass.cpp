@@ -24,6 +24,7 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
           {shader::constant_listed, scope.list != nullptr},
           {shader::constant_depth_records, on.buffers.id_bytes == sizeof(shader::uvec4)},
           {shader::constant_keeps_terms, on.modulation.keeps_terms},
+          {shader::constant_beams, on.modulation.keeps_beams},
           {shader::constant_passes_on, scope.later != nullptr},
           {shader::constant_keeps_bounds, on.modulation.keeps_bounds},
           {shader::constant_reports_kept, on.modulation.keeps_terms && on.modulation.reports_kept},

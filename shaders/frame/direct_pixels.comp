@@ -27,11 +27,11 @@ float backscatter_at(DirectPixels direct, uint record, vec3 ray, Real3 point) {
 }
 
 // Stores what a return may be off by, in place of its sum.
-void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, vec2 terms, float size) {
+void hold(Channels to, DirectPixels direct, uint t, Frequency frequency, uint pixel, vec3 terms, Return of_pixel) {
   if (holds_pixels == 0)
     return;
-  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0), 0.0);
-  store_bound(to, frequency, pixel, size, errors);
+  Errors errors = errors_of(frequency, terms, of_pixel, Errors(0.0, 0.0), 0.0);
+  store_bound(to, frequency, pixel, of_pixel, errors);
   store_words(direct.errors, t * constants.plane + pixel, floatBitsToUint(held(frequency, errors)));
 }
 
@@ -40,8 +40,8 @@ void store_nothing(uint i, DirectPixelsOf output_of) {
   see_nothing(sum);
   Channels to = Channels(output_of.at.channels, constants.plane);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
-    store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
-    hold(to, output_of.at, t, output_of.of[t], i, vec2(0.0), 0.0);
+    Return nothing = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    hold(to, output_of.at, t, output_of.of[t], i, vec3(0.0), nothing);
   }
   if (lit_is_kept != 0)
     store_lit(to, output_of.of[0].lit_channel, output_of.of[0].diodes, i, sum);
@@ -70,12 +70,12 @@ void main() {
   sum.hits = hits ? 1u : 0u;
   sum.reference_m = sum.range = path.range;
   Channels to = Channels(direct.channels, constants.plane);
-  vec2 terms = shines ? backscatter * terms_of(weights, point, run) : vec2(0.0);
+  vec3 terms = shines ? backscatter * terms_of(weights, point, run) : vec3(0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     vec2 z = tone_return(moment, path, run, Tones(constants.tones).at[t]);
     sum.z[0] = vec4(shines ? backscatter * z : vec2(0.0), 0.0, 0.0);
-    float size = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
-    hold(to, direct, t, output_of.of[t], i, terms, size);
+    Return of_pixel = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    hold(to, direct, t, output_of.of[t], i, terms, of_pixel);
   }
   if (lit_is_kept != 0) {
     sum.lit = hits ? Words(direct.lit).at[record] : 0u;

@@ -99,10 +99,10 @@ Errors errors_of_quadrature(TrianglePlane plane, vec3 ray, vec3 step_x, vec3 ste
 }
 
 // Adds up the terms of all diodes at a point.
-void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out vec2 terms) {
+void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float backscatter, out vec4 z[tones], out vec3 terms) {
   [[unroll]] for (uint t = 0; t < tones; ++t)
     z[t] = vec4(0.0);
-  terms = vec2(0.0);
+  terms = vec3(0.0);
   [[unroll]] for (uint r = 0; r < runs; ++r) {
     LightRun run = Lights(constants.light).runs[r];
     Point point;
@@ -110,7 +110,7 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
     float moment[moments];
     Weights weights;
     sum_run(0u, point, run, constants.diodes, r * blocks_per_run, blocks_per_run, moment, weights);
-    terms += backscatter > 0.0 ? backscatter * terms_of(weights, point, run) : vec2(0.0);
+    terms += backscatter > 0.0 ? backscatter * terms_of(weights, point, run) : vec3(0.0);
     [[unroll]] for (uint t = 0; t < tones; ++t) {
       vec2 value = tone_return(moment, path, run, Lights(constants.light).at.tones[t]);
       z[t] = compensated_add(z[t], backscatter > 0.0 ? backscatter * value : vec2(0.0)); // black may not be a number
@@ -120,7 +120,7 @@ void sum_runs(UniformPixelsLight light, Real3 position, vec4 surface, float back
 
 // The results of a pixel's points beside their returns.
 struct Quadrature {
-  vec2 terms;
+  vec3 terms;
   Real range, depth, reference_m; // two sums; the first point's range, which the returns' phases are relative to
   float least_m, most_m;          // of the ranges
 };
@@ -146,7 +146,7 @@ void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, uin
     position = point_on_plane(ray, plane);
   float backscatter = backscatter_of(constants.shapes, constants.surfaces, high3(ray), position, triangle, plane);
   vec4 of_point[tones];
-  vec2 terms;
+  vec3 terms;
   sum_runs(light, position, vec4(plane.plane_hi.xyz, -plane.plane_hi.w), backscatter, of_point, terms);
   Real range = length3(position);
   if (number == 0u)
@@ -168,7 +168,7 @@ void add_point(UniformPixelsLight light, TrianglePlane plane, uint triangle, uin
 }
 
 Quadrature sum_points(UniformPixelsLight light, TrianglePlane plane, uint triangle, uint pixel, out vec4 z[tones]) {
-  Quadrature sum = Quadrature(vec2(0.0), real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
+  Quadrature sum = Quadrature(vec3(0.0), real(0.0), real(0.0), real(0.0), 1.0 / 0.0, 0.0);
   [[unroll]] for (uint t = 0; t < tones; ++t)
     z[t] = vec4(0.0);
   [[unroll]] for (uint p = 0; p < evaluations; ++p) { // lavapipe fetches lane by lane in loops
@@ -195,11 +195,11 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
       sum.reference_m = seen.reference_m;
       sum.hits = sum.lit = evaluations;
     }
-    float size = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
-    Errors errors = errors_of(frequency, hits ? seen.terms : vec2(0.0), size, added, hits ? seen.most_m - seen.least_m : 0.0);
+    Return of_pixel = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
+    Errors errors = errors_of(frequency, hits ? seen.terms : vec3(0.0), of_pixel, added, hits ? seen.most_m - seen.least_m : 0.0);
     kept = kept && is_kept(frequency, errors);
     worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));
-    store_bound(to, frequency, pixel, size, errors);
+    store_bound(to, frequency, pixel, of_pixel, errors);
     if (t == 0) {
       if (ground_truth != 0)
         store_ground_truth(to, evaluations, pixel, sum);

@@ -19,10 +19,12 @@ void add_tone(uint t, uint i, float moment[moments], ReferencePath path, LightRu
 #ifdef RECORD_DEPTH
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 
-// In a plane of their own behind the tones'.
-void add_terms(uint i, float backscatter, vec2 terms) {
+// In planes of their own behind the tones'.
+void add_terms(uint i, float backscatter, vec3 terms) {
   if (keeps_terms != 0)
-    add_to_plane(tones, i, backscatter, terms);
+    add_to_plane(tones, i, backscatter, terms.xy);
+  if (keeps_terms != 0 && beams != 0)
+    add_to_plane(tones + 1, i, backscatter, vec2(terms.z, 0.0));
 }
 #endif
 

@@ -38,16 +38,15 @@ ReferencePath load_point(uint i, LightRun run, out Point point) {
 float load_backscatter(uint i) { return Floats(constants.backscatter).at[i]; }
 
 // Adds a sample's terms without their phases, where pixels have to say how much of the sum their phases cancel.
-void add_terms(uint i, float backscatter, vec2 terms) {
+void add_terms(uint i, float backscatter, vec3 terms) {
   if (keeps_terms == 0 || constants.adds_terms == 0)
     return;
   Floats sums = Floats(constants.terms);
-  vec2 scattered = backscatter > 0.0 ? backscatter * terms : vec2(0.0);
-  uint weights = constants.plane + i;
-  if (is_first == 0)
-    scattered += vec2(sums.at[i], sums.at[weights]);
-  sums.at[i] = scattered.x;
-  sums.at[weights] = scattered.y;
+  vec3 scattered = backscatter > 0.0 ? backscatter * terms : vec3(0.0);
+  [[unroll]] for (uint kind = 0; kind < (beams != 0 ? 3 : 2); ++kind) {
+    uint at = kind * constants.plane + i;
+    sums.at[at] = is_first != 0 ? scattered[kind] : scattered[kind] + sums.at[at];
+  }
 }
 
 // Adds a run's two terms, times the backscatter, to a plane of the sum. A sample that hit nothing adds nothing, not even

@@ -210,7 +210,7 @@ void sum_run(uint i, Point point, LightRun run, uvec2 diodes, uint first, uint b
   find_moments(total, 1.0, point, run, moment, weights);
 }
 
-vec2 terms_of(Weights weights, Point point, LightRun run) {
+vec3 terms_of(Weights weights, Point point, LightRun run) {
   return weights.growth * terms_of(weights.sum, point.rho, point.height, run);
 }
 

@@ -17,6 +17,7 @@ layout(constant_id = constant_cosine_fraction) const float cosine_fraction = 0.0
 layout(constant_id = constant_blocks_per_run) const uint blocks_per_run = 1;
 layout(constant_id = constant_phased) const uint phased = 0;
 layout(constant_id = constant_beam_edges) const uint beam_edges = 1;
+layout(constant_id = constant_beams) const uint beams = 0;
 layout(constant_id = constant_shadowed) const uint shadowed = 0;
 layout(constant_id = constant_powers) const uint powers = 0;
 layout(constant_id = constant_equal_weights) const uint equal_weights = 0;
@@ -108,18 +109,26 @@ float largest_facing(float height, float inverse, LightRun run) {
 
 // The errors that rounding makes in cosines to the diodes' axes beyond 45 degrees, as terms. In cos^n they are n / cos times as
 // much as in the cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n.
-// Where less than 1e-4 is left of the cosine a beam ends: an edge as any other.
-float beam_edge_terms(float weights, float height, float inverse, LightRun run) {
-  float all = run.intensity * inverse * inverse; // without cosines
-  all *= largest_facing(height, inverse, run);
-  return run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
+// Where less than 1e-4 is left of the cosine a beam ends: an edge as any other. And there is no more of it than all light comes to
+// at 45 degrees. `all`: the light without the cosines to the axes.
+float beam_edge_terms(float weights, float all, LightRun run) {
+  float of_weights = run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
+  return min(of_weights, run.beam_edge_most * all);
 }
 
-// The sum of a run's terms without their phases. The rounding of Lambert's cosines where light grazes a surface, of the rims of
-// beams and of steep diagrams is counted apart (Frequency).
-vec2 terms_of(float weights, float rho, float height, LightRun run) {
+// The sum of weights times the squares of their errors within beams. These grow with x = -ln J, and J times them is concave in J, so
+// that the sum is at most what it would be if all J were their mean (engine/light/radiation_laws.h).
+float beam_terms(float weights, float all, LightRun run) {
+  float x = 1e-5 - log(clamp(weights / all, 1e-37, 1.0)); // a hair more, as it is rounded
+  return weights * x * (run.beams + run.beams_per_log * x);
+}
+
+// The sum of a run's terms without their phases, and what is counted apart (PixelSum): the rounding of Lambert's cosines where light
+// grazes a surface, of the rims of beams and of steep diagrams; and that within beams.
+vec3 terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
-  float terms = 0.0;
+  float all = run.intensity * inverse * inverse * largest_facing(height, inverse, run);
+  float terms = 0.0, of_beams = 0.0;
   if (backscatter_model == backscatter_lambert) {
     float any = run.heights * run.intensity * inverse * inverse * inverse;
     // In the dark beside a beam a height's rounding weighs no more than the light.
@@ -129,8 +138,10 @@ vec2 terms_of(float weights, float rho, float height, LightRun run) {
   if (pattern_model == pattern_axial || pattern_model == pattern_any)
     terms += run.diagrams * inverse * inverse * largest_facing(height, inverse, run);
   if (beam_edges != 0)
-    terms += beam_edge_terms(weights, height, inverse, run);
-  return weights > 0.0 ? vec2(weights, terms) : vec2(0.0); // where there is no light nothing can be off
+    terms += beam_edge_terms(weights, all, run);
+  if (beams != 0)
+    of_beams = beam_terms(weights, all, run);
+  return weights > 0.0 ? vec3(weights, terms, of_beams) : vec3(0.0); // where there is no light nothing can be off
 }
 
 // The phase of a path at a tone, the illuminator's with it, in turns.

@@ -187,6 +187,10 @@ struct LightRun {
   float beam_edges; // likewise of cosines to the diodes' axes beyond 45 degrees, over weights *
                     // W^-beam_edge_root
   float beam_edge_root; // W = sum of weights / (I / r^2)
+  float beam_edge_most; // and the most that this comes to, over I / r^2
+  float beams, beams_per_log; // the square of what rounding does to a beam's weights, over -ln W and over that
+                              // for each -ln W
+  float padding;
   vec4 detours; // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
   // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i)
   // (moment_polynomials.h).
@@ -343,7 +347,7 @@ struct AccumulateConstants {
   uvec2 diagrams;   // in: vec2[], the diagrams' values, each with the next theta's
   uvec2 visibility; // in, where shadowed: the words of the run's bundles, bundle by bundle
   uvec2 terms; // in (but for the first run) and out, where terms are kept: float[], sum of |terms| of each
-               // sample
+               // sample, then the others (PixelSum in shaders/signal/demodulation.glsl), likewise
   uvec2 list;  // in, where listed: PixelList and its pixels
   uint blocks; // blocks of diodes to sum, for the looped variant
   uint plane;  // elements of a plane of the sum
@@ -386,7 +390,7 @@ struct DemodulationConstants {
   uvec2 harmonics;  // in: float[], amplitudes of the harmonics
   uvec2 frequency;  // in: Frequency
   uvec2 lit;        // in: uint a sample, the diodes that reach it
-  uvec2 terms;      // in, where terms are kept: sum of |terms| of each sample
+  uvec2 terms;      // in, where terms are kept: as in AccumulateConstants
   uvec2 violations; // in and out, where terms are kept: BudgetViolations; or as ClaimsConstants::errors, of the frequency
   uvec2 list;       // in, where listed: PixelList and its pixels
   uvec2 later;      // out, where pixels pass on: PixelList of those that a later class sums again

@@ -10,6 +10,7 @@ layout(constant_id = constant_listed) const uint listed = 0;
 layout(constant_id = constant_depth_records) const uint depth_records = 0;
 layout(constant_id = constant_passes_on) const uint passes_on = 0;
 layout(constant_id = constant_holds_pixels) const uint holds_pixels = 0;
+layout(constant_id = constant_beams) const uint beams = 0;
 
 // Adds `z`, turned, in Real; the sum stays a pair.
 vec4 add_precisely(vec4 sum, vec4 z, Real turns) {
@@ -54,7 +55,8 @@ void sum_samples(uint pixel, Frequency frequency, out PixelSum sum) {
       sum.lit += Words(constants.lit).at[depth_records != 0 ? record_index(i, constants.padded_pixels, constants.columns, constants.samples)
                                                              : i];
     if (keeps_terms != 0) {
-      sum.terms += vec2(max(0.0, Floats(constants.terms).at[i]), Floats(constants.terms).at[constants.plane + i]);
+      sum.terms += vec3(max(0.0, Floats(constants.terms).at[i]), Floats(constants.terms).at[constants.plane + i],
+                        beams != 0 ? Floats(constants.terms).at[2 * constants.plane + i] : 0.0);
       sum.apart_m = vec2(min(sum.apart_m.x, high(excess_m)), max(sum.apart_m.y, high(excess_m)));
     }
   }
@@ -78,11 +80,11 @@ void pass_on(uint pixel) {
 }
 
 // A return keeps what was asked for, or its pixel passes on, or the return is counted; for all pixels together by claims.comp.
-void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, float size) {
-  vec2 terms = largest_amplitude(constants.harmonics) * sum.terms;
+void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, Return of_pixel) {
+  vec3 terms = largest_amplitude(constants.harmonics) * sum.terms;
   float apart_m = sum.apart_m.y - sum.apart_m.x;
-  Errors errors = errors_of(frequency, terms, size, Errors(0.0, 0.0), apart_m);
-  store_bound(to, frequency, pixel, size, errors);
+  Errors errors = errors_of(frequency, terms, of_pixel, Errors(0.0, 0.0), apart_m);
+  store_bound(to, frequency, pixel, of_pixel, errors);
   if (holds_pixels != 0)
     store_words(constants.violations, pixel, floatBitsToUint(held(frequency, errors)));
   else if (is_kept(frequency, errors))
@@ -104,9 +106,9 @@ void main() {
   sum_samples(pixel, frequency, sum);
   uint samples = constants.samples * constants.samples;
   Channels to = Channels(constants.channels, constants.padded_pixels);
-  float size = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
+  Return of_pixel = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
   if (keeps_terms != 0)
-    hold(to, frequency, pixel, sum, size);
+    hold(to, frequency, pixel, sum, of_pixel);
   if (ground_truth != 0) {
     store_ground_truth(to, samples, pixel, sum);
     uvec2 ids = central_ids(pixel);

@@ -13,6 +13,7 @@ layout(constant_id = constant_is_only) const uint is_only = 0;
 layout(constant_id = constant_side) const uint side = 1; // S
 layout(constant_id = constant_frequencies) const uint frequencies = 1;
 layout(constant_id = constant_one_backscatter) const uint one_backscatter = 0;
+layout(constant_id = constant_beams) const uint beams = 0;
 const uint all_planes = frequencies * planes;
 
 // The p-th plane of frequency f's sum, but for the backscatter.
@@ -52,7 +53,8 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
     }
   if (keeps_terms != 0) {
     float excess = hits ? high(excess_m) : 0.0;
-    sum.terms += shines ? backscatter * load_sum(frequencies, 0, i) : vec2(0.0);
+    float of_beams = beams != 0 ? load_sum(frequencies, 1, i).x : 0.0;
+    sum.terms += shines ? backscatter * vec3(load_sum(frequencies, 0, i), of_beams) : vec3(0.0);
     sum.apart_m = vec2(min(sum.apart_m.x, excess), max(sum.apart_m.y, excess));
   }
   sum.range = add(sum.range, hits ? range : real(0.0));
@@ -63,9 +65,9 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
 }
 
 // Stores the bound and the errors of frequency f.
-void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, float size) {
-  Errors errors = errors_of(frequency, sum.terms, size, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
-  store_bound(to, frequency, pixel, size, errors);
+void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, Return of_pixel) {
+  Errors errors = errors_of(frequency, sum.terms, of_pixel, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
+  store_bound(to, frequency, pixel, of_pixel, errors);
   store_words(constants.harmonics_or_errors, f * constants.padded_pixels + pixel, floatBitsToUint(held(frequency, errors)));
 }
 
@@ -95,9 +97,9 @@ void main() {
   [[unroll]] for (uint f = 0; f < frequencies; ++f) {
     [[unroll]] for (uint p = 0; p < planes; ++p)
       sum.z[p] = z[f * planes + p];
-    float size = store_return(to, of[f], constants.harmonics_or_errors, side * side, pixel, sum);
+    Return of_pixel = store_return(to, of[f], constants.harmonics_or_errors, side * side, pixel, sum);
     if (keeps_terms != 0)
-      hold(to, of[f], f, pixel, sum, size);
+      hold(to, of[f], f, pixel, sum, of_pixel);
   }
   if (ground_truth != 0)
     store_truth(to, pixel, first, sum);

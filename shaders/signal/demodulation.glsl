@@ -40,7 +40,8 @@ float nan() { return uintBitsToFloat(0x7fc00000u); }
 
 struct PixelSum {
   vec4 z[planes]; // compensated; of a tone relative to twice the reference range
-  vec2 terms;     // sum of |terms| over the samples, and of their weights' own errors, where an error was asked for
+  vec3 terms;     // sum of |terms| over the samples, of their weights' own errors, and of |terms| times the squares of weights' errors
+                  // within beams; where an error was asked for
   Real range;     // sum over the hits, m
   Real depth;
   Real reference_m; // range of the first hit
@@ -52,7 +53,7 @@ struct PixelSum {
 void see_nothing(out PixelSum sum) {
   [[unroll]] for (uint p = 0; p < planes; ++p)
     sum.z[p] = vec4(0.0);
-  sum.terms = vec2(0.0);
+  sum.terms = vec3(0.0);
   sum.apart_m = vec2(0.0);
   sum.range = sum.depth = sum.reference_m = real(0.0);
   sum.hits = sum.lit = 0u;
@@ -181,8 +182,8 @@ RealComplex precise_return(PixelSum sum, Frequency frequency, uvec2 harmonics) {
                                        : demodulate_harmonics_precisely(sum, frequency, harmonics);
 }
 
-// `turns` in [-1, 1]. Phase and distance are not known where nothing returns.
-void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
+// `turns` in [-1, 1]. Phase and distance are not known where nothing returns. Returns the distance, or 0.
+float store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
   bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
@@ -197,6 +198,7 @@ void store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, 
   if (precise_sum != 0 && high(distance) > frequency.below.y)
     distance_m = 0.0;
   store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
+  return is_known ? distance_m : 0.0;
 }
 
 // The mean of what was summed over the samples hit; `samples`: S x S.
@@ -206,9 +208,13 @@ float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
   return pixel.hits > 0u ? high(sum) : nan();
 }
 
-// `samples`: S x S of the pixel; `amplitudes`: those of the correlation function's harmonics, where it has any. Returns |z|
-// over what one sample's unit return would come to.
-float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
+// What the bound of a pixel's return asks for: |z| over what one sample's unit return would come to, and the distance, or 0.
+struct Return {
+  float size, distance_m;
+};
+
+// `samples`: S x S of the pixel; `amplitudes`: those of the correlation function's harmonics, where it has any.
+Return store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
   float scale = frequency.amplitude_scale / float(samples);
   float tap[taps];
   if ((waveform == waveform_square && precise_sum == 0) || keep_taps != 0)
@@ -233,8 +239,7 @@ float store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samp
   float amplitude = scale * size;
   Real turns = waveform == waveform_sine ? multiply(sum.reference_m, turns_per_m(frequency, 0)) : real(0.0);
   turns = add(add(turns, negate(round_to_whole(turns))), angle);
-  store_phase(to, frequency, pixel, amplitude, turns, mean_over_hits(sum.range, sum, samples));
-  return size;
+  return Return(size, store_phase(to, frequency, pixel, amplitude, turns, mean_over_hits(sum.range, sum, samples)));
 }
 
 void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
@@ -253,27 +258,32 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
 // Errors of weights as distance. One that all weights have turns the sum by sum w |sin| / |sum| times it, which even_part bounds
 // (engine/error_budget/rounding_bound.cpp), and as (sum w |sin|)^2 <=
 // sum w * sum w sin^2 <= (sum w)^2 - |sum|^2 that is at most sqrt(condition^2 - 1). `largest`: of the condition, which is off itself.
-float weights_error_m(Frequency frequency, float per_weight_m, float condition, float largest, float weights) {
-  float root = sqrt(max(largest * largest - 1.0, 0.0));
-  float common_m = min(frequency.even_part * per_weight_m * condition, frequency.any_weight_m * root);
-  return frequency.weight_error * common_m + per_weight_m * weights;
+// The same holds of `of_beams`, the root of the mean square of errors that differ, but for the even part.
+float weights_error_m(Frequency frequency, float per_weight_m, float condition, float largest, float weights, float of_beams) {
+  float any_m = frequency.any_weight_m * sqrt(max(largest * largest - 1.0, 0.0));
+  float most_m = per_weight_m * condition;
+  return frequency.weight_error * min(frequency.even_part * most_m, any_m) + of_beams * min(most_m, any_m) + per_weight_m * weights;
 }
 
+const float output_rounding = 5.9604645e-8; // of a distance to float, 2^-24 of it
+
 // The bound (Frequency), given what is known to add to the sum's own error, and how much the samples' ranges differ by.
-// `terms`: of the light, and of its weights' own errors.
-Errors errors_of(Frequency frequency, vec2 terms, float size, Errors added, float apart_m) {
-  float condition = terms.x > 0.0 ? terms.x / size : 0.0; // infinite where all cancels
-  float weights = terms.y > 0.0 ? terms.y / size : 0.0;
+// `terms` as in PixelSum.
+Errors errors_of(Frequency frequency, vec3 terms, Return of_pixel, Errors added, float apart_m) {
+  float condition = terms.x > 0.0 ? terms.x / of_pixel.size : 0.0; // infinite where all cancels
+  float weights = terms.y > 0.0 ? terms.y / of_pixel.size : 0.0;
+  float of_beams = terms.z > 0.0 ? sqrt(terms.z / terms.x) : 0.0;
   // A sum that is off by this part of itself is turned by more than a small part would turn it: by the arcsine.
-  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * weights;
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * (weights + of_beams * condition);
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
   float largest = condition * (1.0 + relative + 1e-6) * grown;
   float near_per_weight_m = min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m);
   float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
-                 weights_error_m(frequency, near_per_weight_m, condition, largest, weights);
+                 weights_error_m(frequency, near_per_weight_m, condition, largest, weights, of_beams);
   float any_m = (frequency.per_condition_m + added.distance_m) * condition +
-                weights_error_m(frequency, frequency.per_weight_m, condition, largest, weights);
-  return Errors(min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
+                weights_error_m(frequency, frequency.per_weight_m, condition, largest, weights, of_beams);
+  float output_m = output_rounding * of_pixel.distance_m;
+  return Errors(output_m + min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
                 frequency.amplitude_fixed + relative);
 }
 
@@ -302,9 +312,9 @@ vec2 held(Frequency frequency, Errors errors) {
 }
 
 // Stores the bound of a return; not known where there is none.
-void store_bound(Channels to, Frequency frequency, uint pixel, float size, Errors errors) {
+void store_bound(Channels to, Frequency frequency, uint pixel, Return of_pixel, Errors errors) {
   if (keeps_bounds != 0)
-    store(to, frequency.first_channel + bound_channel, pixel, size > 0.0 ? errors.distance_m : nan());
+    store(to, frequency.first_channel + bound_channel, pixel, of_pixel.size > 0.0 ? errors.distance_m : nan());
 }
 
 #endif

@@ -16,7 +16,7 @@ struct RunForm {
   bool lambert;     // a weight has the cosine of the surface
   Exponent cosines; // of each source's axis, in a weight
   bool coplanar, phased;
-  bool diagrams, beam_edges; // rounding that counts apart (shaders/light/sum.glsl: terms_of)
+  bool diagrams, beam_edges, beams; // rounding that counts apart (shaders/light/sum.glsl: terms_of)
   // Sums beforehand; nullptr: none. The coefficients stand in the order in which Horner's rule takes them.
   const shader::PointPolynomials *beforehand;
   const float *coefficients;

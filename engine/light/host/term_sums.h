@@ -8,14 +8,19 @@
 #include "engine/model/elementary_lanes.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
+// As PixelSum::terms in shaders/signal/demodulation.glsl: of the light, of its weights' own errors, and of
+// the squares of weights' errors within beams.
 struct Terms {
-  Floats light, weights; // of the light, and of its weights' own errors
+  Floats light, weights, beams;
 };
 
-inline Terms operator+(const Terms &a, const Terms &b) { return {a.light + b.light, a.weights + b.weights}; }
+inline Terms operator+(const Terms &a, const Terms &b) {
+  return {a.light + b.light, a.weights + b.weights, a.beams + b.beams};
+}
 
 // The factor by which the terms of the weights' polynomial in u, all taken as positive, may exceed it.
 inline Floats growth_at(const RunForm &form, const PointView &view) {
@@ -28,14 +33,17 @@ inline Floats growth_at(const RunForm &form, const PointView &view) {
   return sum;
 }
 
-// x^exponent, a hair more than exactly, at most 1e4; x in [1e-37, 1], exponent <= 0.
-inline Floats power_at_least(const Floats &x, float exponent) {
-  // ln x, by the exponent of 2 and the rest in [0.71, 1.42).
+// By the exponent of 2 and the rest in [0.71, 1.42); x from 1e-37 on.
+inline Floats log2_of(const Floats &x) {
   const Ints shift = (reinterpret_cast<Ints>(x * 1.4142135f) >> 23) - 127;
   const Floats rest = reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) - (shift << 23));
   const Floats y = (rest - 1.0f) / (rest + 1.0f), u = y * y;
-  const Floats log2_x = __builtin_convertvector(shift, Floats) +
-                        y * (2.885390082f + u * (0.9617966939f + u * (0.5770780164f + u * 0.4121985831f)));
+  return __builtin_convertvector(shift, Floats) +
+         y * (2.885390082f + u * (0.9617966939f + u * (0.5770780164f + u * 0.4121985831f)));
+}
+
+// 2^(exponent * log2_x), a hair more than exactly, at most 1e4; not less than 1.
+inline Floats power_at_least(const Floats &log2_x, float exponent) {
   const Floats power = smaller(exponent * log2_x, all(14.0f)); // 2^14 > 1e4
   const Floats whole = rounded(power), f = power - whole;
   const Floats fraction =
@@ -54,7 +62,7 @@ inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &
   const Floats facing = form.lambert
                             ? smaller(larger((view.height + run.radius_m) * per_range, all(1e-6f)), all(1.0f))
                             : all(1.0f);
-  Floats terms = none;
+  Floats terms = none, of_beams = none;
   if (form.lambert) {
     const Floats any = run.heights * run.intensity * per_range2 * per_range;
     const Floats lowest = view.height - run.radius_m; // of the run's sources, at least
@@ -62,16 +70,21 @@ inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &
   }
   if (form.diagrams)
     terms += run.diagrams * per_range2 * facing;
-  if (form.beam_edges) {
+  if (form.beam_edges || form.beams) {
     const Floats all_light = run.intensity * per_range2 * facing; // without cosines of the axes
-    const Floats part = smaller(larger(weights * inverse(all_light), all(1e-37f)), all(1.0f));
-    terms += run.beam_edges * weights * power_at_least(part, -run.beam_edge_root);
+    const Floats log2_part = log2_of(smaller(larger(weights * inverse(all_light), all(1e-37f)), all(1.0f)));
+    if (form.beam_edges)
+      terms += smaller(run.beam_edges * weights * power_at_least(log2_part, -run.beam_edge_root),
+                       run.beam_edge_most * all_light);
+    const Floats x = 1e-5f - std::numbers::ln2_v<float> * log2_part; // a hair more, as it is rounded
+    of_beams = weights * x * (run.beams + run.beams_per_log * x);
   }
   const Floats growth = form.powers > 0 ? growth_at(form, view) : near_growth;
   const Ints shines = weights > 0.0f; // where there is no light nothing can be off
   // A hair more, as inverses and roots are rounded.
   constexpr float at_least = 1.00001f;
-  return {shines ? growth * weights : none, shines ? at_least * growth * terms : none};
+  return {shines ? growth * weights : none, shines ? at_least * growth * terms : none,
+          shines ? at_least * growth * of_beams : none};
 }
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

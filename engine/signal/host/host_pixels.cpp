@@ -75,6 +75,7 @@ RunForm form_of(const PassSetup &on, const SourceGroups &groups, const SumScope 
   form.phased = groups.phased;
   form.diagrams = pattern == shader::pattern_axial || pattern == shader::pattern_any;
   form.beam_edges = has_beam_edges(on.model, scope.bound);
+  form.beams = on.modulation.keeps_beams;
   form.tests_facing = scope.tests_facing;
   return form;
 }

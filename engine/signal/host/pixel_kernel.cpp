@@ -138,9 +138,9 @@ void store_taps(const PixelWork &of, const shader::Frequency &frequency, const V
     store_channels(of, frequency.first_channel + of.first_tap + k, samples, tap(k), tap(k + 1));
 }
 
-// As store_phase of shaders/signal/demodulation.glsl; `turns` in [-1, 1].
-void store_phase(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-                 const Floats &amplitude, const Wide &turns, const Floats &range_m) {
+// As store_phase of shaders/signal/demodulation.glsl; `turns` in [-1, 1]. Returns the distance, or 0.
+Floats store_phase(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+                   const Floats &amplitude, const Wide &turns, const Floats &range_m) {
   const Ints is_known = amplitude > 0.0f;
   const Floats nan = all(std::numeric_limits<float>::quiet_NaN()), none = all(0.0f);
   const Floats rough = narrow(turns);
@@ -152,14 +152,16 @@ void store_phase(const PixelWork &of, const shader::Frequency &frequency, const 
   const double ambiguity_m = of_pair(frequency.ambiguity_m);
   store_channels(of, frequency.first_channel, samples, amplitude,
                  limited(within * two_pi, frequency.below.x));
-  store_channels(of, frequency.first_channel + 2, samples, limited(within * ambiguity_m, frequency.below.y),
-                 range_m);
+  const Floats distance_m = limited(within * ambiguity_m, frequency.below.y);
+  store_channels(of, frequency.first_channel + 2, samples, distance_m, range_m);
+  return is_known ? distance_m : none;
 }
 
 // What the pixels' returns may be off by.
 void hold(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-          const Terms &terms, const Floats &size, const Terms &turned, HeldPixels &held) {
-  const Errors errors = errors_of(frequency, terms, size, turned);
+          const Terms &terms, const Floats &size, const Floats &distance_m, const Terms &turned,
+          HeldPixels &held) {
+  const Errors errors = errors_of(frequency, terms, size, distance_m, turned);
   if (of.keeps_bounds)
     store_channels(of, frequency.first_channel + of.bound, samples,
                    size > 0.0f ? errors.distance_m : all(std::numeric_limits<float>::quiet_NaN()), all(0.0f));
@@ -195,7 +197,7 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
     store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
     store_taps(of, of.frequencies[f], samples, Complex());
     if (of.holds)
-      hold(of, of.frequencies[f], samples, {none, none}, none, {none, none}, held);
+      hold(of, of.frequencies[f], samples, Terms(), none, none, Terms(), held);
   }
   if (of.lit)
     store_lit(of, samples);
@@ -244,15 +246,16 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples) {
 }
 
 Terms scaled(const Floats &factor, const Terms &terms) {
-  return {factor * terms.light, factor * terms.weights};
+  return {factor * terms.light, factor * terms.weights, factor * terms.beams};
 }
 
 // Each run's terms times a bound of |sin| of the angle between them and the return: their own phases differ
-// by twice the run's path difference at the most, and the run's return lies among them.
+// by twice the run's path difference at the most, and the run's return lies among them. In place of the
+// squares of errors within beams stand these errors.
 Terms turned_terms(const PixelWork &of, const Returns &returns, std::uint32_t f) {
   const Floats infinite = all(std::numeric_limits<float>::infinity());
   if (!keeps_runs(of))
-    return {infinite, infinite};
+    return {infinite, infinite, infinite};
   constexpr float rounding = 1e-4f; // of both returns' angles
   const Complex &z = returns.z[f];
   Terms turned{};
@@ -261,7 +264,9 @@ Terms turned_terms(const PixelWork &of, const Returns &returns, std::uint32_t f)
     const Floats across = absolute(part.im * z.re - part.re * z.im), sizes = magnitude(part) * magnitude(z);
     const float spread = 2.0f * of.tones[f].wavenumber * of.forms[run].path_difference_m + rounding;
     const Floats sine = sizes > smallest ? smaller(across / sizes, all(1.0f)) + spread : all(1.0f);
-    turned = turned + scaled(sine, returns.terms_of_run[run]);
+    const Terms &terms = returns.terms_of_run[run];
+    turned = turned +
+             scaled(sine, {terms.light, terms.weights, root(larger(terms.light * terms.beams, all(tiny)))});
   }
   return turned;
 }
@@ -273,7 +278,7 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
   const Floats range_m = sees ? narrow(returns.range) : all(std::numeric_limits<float>::quiet_NaN());
   const Terms lit = scaled(backscatter, returns.terms);
-  const Terms terms{shines ? lit.light : none, shines ? lit.weights : none};
+  const Terms terms{shines ? lit.light : none, shines ? lit.weights : none, shines ? lit.beams : none};
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
     const shader::Frequency &frequency = of.frequencies[f];
     Complex z = backscatter * returns.z[f];
@@ -284,10 +289,11 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
     if (of.kept_taps > 0)
       store_taps(of, frequency, samples,
                  all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
-    store_phase(of, frequency, samples, frequency.amplitude_scale * size, of_range + wide(angle_turns(z)),
-                range_m);
+    const Floats distance_m = store_phase(of, frequency, samples, frequency.amplitude_scale * size,
+                                          of_range + wide(angle_turns(z)), range_m);
     if (of.holds)
-      hold(of, frequency, samples, terms, size, scaled(backscatter, turned_terms(of, returns, f)), held);
+      hold(of, frequency, samples, terms, size, distance_m, scaled(backscatter, turned_terms(of, returns, f)),
+           held);
   }
   if (of.lit)
     store_lit(of, samples);

@@ -1,0 +1,109 @@
+#include "engine/error_budget/planned_precision.h"
+
+#include "engine/error_budget/planned_bounds.h"
+#include "engine/error_budget/planned_groups.h"
+#include "engine/light/radiation_laws.h"
+#include "engine/model/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace pmdsim {
+namespace {
+
+// Rounding at which float is chosen by what most pixels' returns cancel.
+constexpr double widest_typical_m = 10e-6;
+// The share that rounding may take where high powers are taken by tables.
+constexpr double share_of_tables = 0.25;
+
+bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double condition, double dimming) {
+  return bound.distance_m(condition, dimming) < accuracy.max_error_m &&
+         bound.amplitude(condition, dimming) < accuracy.max_amplitude_error;
+}
+
+// Where pixels have that condition themselves. Wider bounds are many times what float is off by, so that the
+// tight ones of double are worth its time.
+bool is_mostly_within(const RoundingBound &bound, const Accuracy &accuracy, double condition,
+                      double dimming) {
+  return bound.distance_m_at(condition, dimming) < std::min(accuracy.max_error_m, widest_typical_m) &&
+         bound.amplitude(condition, dimming) < accuracy.max_amplitude_error;
+}
+
+[[noreturn]] void refuse(const Accuracy &accuracy, const std::string &why) {
+  throw Error(ExitCode::accuracy, fmt::format("a distance error of at most {:.6g} mm cannot be promised: {}",
+                                              1e3 * accuracy.max_error_m, why));
+}
+
+[[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound, double dimming) {
+  const double error_m = bound.distance_m(1.0, dimming);
+  if (error_m >= accuracy.max_error_m)
+    refuse(accuracy, fmt::format("rounding alone may come to {:.6g} mm", 1e3 * error_m));
+  throw Error(
+      ExitCode::accuracy,
+      fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
+                  "come to {:.3g}",
+                  accuracy.max_amplitude_error, bound.amplitude(1.0, dimming)));
+}
+
+const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
+  DiagramTables tables;
+  for (const CameraIlluminator &illuminator : lights)
+    for (const Diode &diode : illuminator.diodes)
+      if (!std::isfinite(law_error(diode.pattern, tables, 0.0)))
+        return law_of(diode.pattern).unbounded;
+  return "";
+}
+
+// In float, high powers by tables; nothing where there are none, or where rounding might then take much of
+// the error.
+std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &accuracy,
+                                        std::uint32_t attempt) {
+  constexpr Precision precision = Precision::fp32;
+  if (!has_high_powers(view) || accuracy.precision.value_or(precision) != precision)
+    return std::nullopt;
+  SourceGroups groups =
+      groups_of(view, view.lights, precision,
+                tolerance_of(view, precision, accuracy, share_of_series[attempt]), HighPowers::by_tables);
+  const auto bound = bound_of(view, groups, {precision, view.sensor.samples});
+  Accuracy part = accuracy;
+  part.max_error_m *= share_of_tables;
+  part.max_amplitude_error *= share_of_tables;
+  if (!groups.near_polynomials || !bound || !is_within(*bound, part, growth_of(groups), 0.0))
+    return std::nullopt;
+  return RoundedSum{precision, std::move(groups), *bound};
+}
+
+} // namespace
+
+RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, const TypicalLight &typical,
+                            std::uint32_t attempt) {
+  // With one sample a pixel, near pixels may pass to a class in double; with several, that takes too long.
+  // Where shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart,
+  // may pass.
+  const bool several = view.sensor.samples > 1;
+  const double dimming = several ? typical.dimming_of_most : typical.dimming;
+  std::optional<RoundingBound> last;
+  const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
+  if (attempt == 0)
+    if (auto sum = sum_by_tables(view, accuracy, attempt))
+      return std::move(*sum);
+  for (const Precision precision :
+       {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
+    SourceGroups groups = groups_of(view, view.lights, precision,
+                                    tolerance_of(view, precision, accuracy, share_of_series[attempt]));
+    const PlannedSum sum{precision, view.sensor.samples};
+    const auto bound = bound_of(view, groups, sum);
+    const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;
+    const double condition = several ? groups.polynomials.growth : 1.0;
+    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, dimming) ||
+                  is_mostly_within(usual.value_or(*bound), accuracy, condition * typical.condition, dimming)))
+      return {precision, std::move(groups), *bound};
+    last = bound;
+  }
+  if (last)
+    refuse(accuracy, *last, dimming);
+  refuse(accuracy, why_unbounded(view.lights));
+}
+
+} // namespace pmdsim
