@@ -50,7 +50,8 @@ std::optional<RoundingBound> bound_of(const Light &light, const RoundingScope &s
 
 TEST_CASE("light in the lens is rounded at the output only") {
   const RoundingBound bound = bound_of({diodes_at({{0.0, 0.0, 0.0}})}).value();
-  CHECK(bound.fixed_m == Approx((float_rounding + 0x1p-38) * 2.0));
+  CHECK(bound.output_m == Approx(float_rounding * 2.0));
+  CHECK(bound.fixed_m == Approx(0x1p-38 * 2.0));
   CHECK(bound.per_condition_m == 0.0); // whatever its weight is off by, there is one path
   CHECK(bound.per_weight_m == 0.0);
   CHECK(bound.amplitude_fixed == Approx(25 * float_rounding));
@@ -69,7 +70,8 @@ TEST_CASE("a pair of diodes by hand") {
   CHECK(bound.even_part == Approx(1.0 / 3.0)); // all weights off alike: e, not 3 e
   CHECK(bound.amplitude_per_weight == 1.0);
   const double angle_m = 0.5 * 6 * float_rounding * 0.01 / 3.9;
-  CHECK(bound.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9) + angle_m).epsilon(1e-3));
+  CHECK(bound.output_m == Approx(float_rounding * (2.0 + 0.01 / 3.9)).epsilon(1e-3));
+  CHECK(bound.fixed_m == Approx(angle_m + 0x1p-38 * 2.0).epsilon(1e-3));
 }
 
 TEST_CASE("weights that are off turn a sum the less, the less its terms cancel") {
@@ -78,7 +80,7 @@ TEST_CASE("weights that are off turn a sum the less, the less its terms cancel")
   lights.back().modulation_phase_rad = 1.0;
   const RoundingBound bound = bound_of({lights}).value();
   CHECK(bound.distance_m_at(1.0) < 0.5 * bound.distance_m(1.0));
-  CHECK(bound.distance_m_at(1.0) > bound.fixed_m + bound.per_condition_m);
+  CHECK(bound.distance_m_at(1.0) > bound.output_m + bound.fixed_m + bound.per_condition_m);
   CHECK(bound.distance_m_at(3.0) == Approx(bound.distance_m(3.0)).epsilon(0.1));
   RoundingBound unknown = bound;
   unknown.any_weight_m = std::numeric_limits<double>::infinity();
@@ -89,7 +91,8 @@ TEST_CASE("in double only the output is rounded") {
   const RoundingBound in_float = bound_of({diodes_at(pair)}).value();
   const RoundingBound in_double = bound_of({diodes_at(pair)}, {.precision = Precision::fp64}).value();
   CHECK(in_double.fixed_m < in_float.fixed_m); // by the sum's own angle
-  CHECK(in_double.fixed_m == Approx(float_rounding * (2.0 + 0.01 / 3.9)).epsilon(1e-3));
+  CHECK(in_double.output_m == in_float.output_m);
+  CHECK(in_double.fixed_m == Approx(0x1p-38 * 2.0).epsilon(1e-3));
   CHECK(in_double.per_condition_m < 1e-5 * in_float.per_condition_m);
   CHECK(in_double.amplitude_per_condition < 1e-5 * in_float.amplitude_per_condition);
 }
@@ -98,8 +101,8 @@ TEST_CASE("distances from a low frequency are off by half a unit in the last pla
   auto lights = diodes_at(pair);
   lights[0].modulation_phase_rad = 1.0;
   const Light far{lights, point_at_2m, {1e6}};
-  CHECK(bound_of(far, {.precision = Precision::fp64})->fixed_m == Approx(0x1p-24 * 128.0).epsilon(1e-4));
-  CHECK(bound_of(far)->fixed_m > 10e-6);
+  CHECK(bound_of(far, {.precision = Precision::fp64})->output_m == Approx(0x1p-24 * 128.0).epsilon(1e-4));
+  CHECK(bound_of(far)->distance_m(1.0) > 10e-6);
 }
 
 TEST_CASE("what makes weights worse makes the bound larger") {
@@ -119,6 +122,30 @@ TEST_CASE("what makes weights worse makes the bound larger") {
     CHECK(now > before);
     before = now;
   }
+}
+
+TEST_CASE("within beams the error grows as they dim, where pixels know how dim they are") {
+  const Light beams{diodes_at(pair, {Pattern::Kind::cosine, 100.0})};
+  RoundingScope scope{.emission_cosine = 0.8};
+  const RoundingBound any = bound_of(beams, scope).value();
+  scope.beams_are_terms = true;
+  const RoundingBound bright = bound_of(beams, scope).value();
+  CHECK(any.beams.at(10.0) == 0.0);
+  CHECK(bright.weight_error < 0.1 * any.weight_error);
+  const double dimmest = -100.0 * std::log(0.8);
+  double before_m = bright.distance_m(1.0);
+  for (const double dimming : {1.0, 4.0, 16.0, dimmest}) {
+    const double now_m = bright.distance_m(1.0, dimming);
+    CHECK(now_m > before_m);
+    CHECK(bright.distance_m_at(1.0, dimming) < now_m);
+    CHECK(bright.amplitude(1.0, dimming) == Approx(bright.amplitude(1.0) + bright.beams.at(dimming)));
+    before_m = now_m;
+  }
+  // No even part, and a square that is simplified.
+  CHECK(bright.weight_error + bright.beams.at(dimmest) >= any.weight_error);
+  CHECK(bright.weight_error + bright.beams.at(dimmest) <= 1.5 * any.weight_error);
+  const Light mild{diodes_at(pair, {Pattern::Kind::cosine, 3.0})};
+  CHECK(bound_of(mild, scope)->beams.at(10.0) == 0.0);
 }
 
 TEST_CASE("samples of one pixel at different ranges") {

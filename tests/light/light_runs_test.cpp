@@ -56,6 +56,7 @@ TEST_CASE("what rounding does at the rims of a run's beams, as terms") {
   const shader::LightRun alike = light_runs(groups, counting(0.0, 10.0))[0];
   CHECK(alike.beam_edges == 30.0f);
   CHECK(alike.beam_edge_root == Approx(1.0 / 3.0));
+  CHECK(alike.beam_edge_most == Approx(10.0 * 3.0 * 0.5)); // 3 cos^2 at 45 degrees
   CHECK(light_runs(groups, ErrorBound{})[0].beam_edges == 0.0f);
   groups.diodes[0].order = 1.5f;
   const shader::LightRun mixed = light_runs(groups, counting(0.0, 10.0))[0];
@@ -77,8 +78,28 @@ TEST_CASE("what rims come to bounds what rounding of each diode's cosine does") 
         const double terms = static_cast<double>(run.beam_edges) * weights *
                              std::pow(weights / 1.5, -static_cast<double>(run.beam_edge_root));
         CHECK(rounding <= terms * 1.0001);
+        CHECK(rounding <= static_cast<double>(run.beam_edge_most) * 1.5 * 1.0001);
       }
   }
+}
+
+TEST_CASE("what a run's beams come to bounds the squares of each diode's error") {
+  SourceGroups groups = pair_of({Pattern::Kind::cosine, 100.0}, Precision::fp32);
+  ErrorBound bound = counting(2.0);
+  bound.beams = {50.0, 25.0};
+  const shader::LightRun run = light_runs(groups, bound)[0];
+  CHECK((run.beams == 200.0f && run.beams_per_log == 100.0f));
+  for (const double first : {0.0, 1e-3, 0.3, 1.0, 7.0, 40.0})
+    for (const double second : {0.0, 1e-3, 0.3, 1.0, 7.0, 40.0}) { // -ln J
+      const double of_first = std::exp(-first), of_second = 0.5 * std::exp(-second);
+      const double squares = 4.0 * (of_first * std::pow(bound.beams.at(first), 2.0) +
+                                    of_second * std::pow(bound.beams.at(second), 2.0));
+      const double weights = of_first + of_second, x = -std::log(weights / 1.5);
+      CHECK(squares <= weights * x *
+                               (static_cast<double>(run.beams) + static_cast<double>(run.beams_per_log) * x) *
+                               1.0001 +
+                           1e-12);
+    }
 }
 
 TEST_CASE("beams that end as a step, or do not end, have no rim of their own") {

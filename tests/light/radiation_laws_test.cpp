@@ -2,6 +2,7 @@
 
 #include "tests/support/scenes.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -96,4 +97,50 @@ TEST_CASE("measured diagrams have no series, and no bound where they vary about 
   CHECK(law_error(cosine(3.0), tables, 0.1) == 0.0);
   CHECK_FALSE(law_series(Pattern{}).value().order);
   CHECK(law_series(cosine(3.0)).value().order == 3.0);
+}
+
+namespace {
+
+shader::GroupSource diode_of_order(float order) {
+  shader::GroupSource diode{};
+  diode.order = order;
+  return diode;
+}
+
+} // namespace
+
+TEST_CASE("a narrow beam's error by -ln J is never below what it is by the cosine") {
+  for (const float order : {9.0f, 30.0f, 192.5f, 400.0f, 1e5f})
+    for (const double least_cosine : {0.71, 0.9, 0.999})
+      for (const double t : {0.0, 0.1, 0.5}) {
+        const std::array diodes{diode_of_order(order)};
+        LawRounding sum{shader::pattern_general, t, least_cosine, true};
+        const double apart = law_rounding_u(diodes, sum);
+        const BeamError beams = beam_rounding(diodes, sum);
+        CHECK(beams.square >= 2.0 * beams.square_per_log); // J times the square is concave in J
+        sum.beams_are_apart = false;
+        for (double part = 0.01; part <= 1.0; part += 0.01) {
+          sum.least_cosine = 1.0 - part * (1.0 - least_cosine);
+          const double dimming = -static_cast<double>(order) * std::log(sum.least_cosine);
+          if (dimming > 87.0) // no float holds it
+            break;
+          INFO("order " << order << ", t " << t << ", cosine " << sum.least_cosine);
+          REQUIRE(law_rounding_u(diodes, sum) <= 1.0001 * (apart + beams.at(dimming)));
+        }
+      }
+}
+
+TEST_CASE("only narrow beams' errors are apart, and each of their orders counts") {
+  const std::vector<shader::GroupSource> mild{diode_of_order(2.0f), diode_of_order(-1.0f)},
+      narrow{diode_of_order(100.0f)}, steep{diode_of_order(400.0f)},
+      all{mild[0], mild[1], narrow[0], steep[0]};
+  const LawRounding together{shader::pattern_general, 0.1, 0.8},
+      apart{shader::pattern_general, 0.1, 0.8, true}, shared{shader::pattern_power, 0.1, 0.8, true};
+  CHECK(beam_rounding(mild, apart).square == 0.0);
+  CHECK(law_rounding_u(mild, apart) == law_rounding_u(mild, together));
+  CHECK(law_rounding_u(all, apart) == law_rounding_u(mild, together));
+  CHECK(beam_rounding(narrow, together).square == 0.0);
+  CHECK(beam_rounding(narrow, shared).square == 0.0);
+  CHECK(beam_rounding(steep, apart).square > 2.0 * beam_rounding(narrow, apart).square);
+  CHECK(beam_rounding(all, apart).square == beam_rounding(steep, apart).square);
 }

@@ -86,6 +86,14 @@ PixelCase beams_that_end_in_view() {
   return beams;
 }
 
+// Too narrow for tables; between them is little light.
+PixelCase narrow_beams() {
+  PixelCase beams{"narrow beams"};
+  beams.pattern = cosine(60.0);
+  beams.axis = {0.3, 0.1, 1.0};
+  return beams;
+}
+
 std::vector<Illuminator> lights_of(const PixelCase &of) {
   std::vector<Illuminator> lights{light_at(ring(of.diodes, 0.12), of.phase_rad, of.pattern)};
   for (std::size_t i = 0; i < lights[0].diodes.size(); i += 2)
@@ -233,6 +241,7 @@ TEST_CASE("the host bounds a pixel's error as the device does") {
   precise.precision = Precision::fp64;
   std::vector<PixelCase> cases = pixel_cases();
   cases.push_back(beams_that_end_in_view());
+  cases.push_back(narrow_beams());
   for (const PixelCase &of : cases) {
     // On the device pixels that turn away from some source, and boards in space, are sorted into classes.
     const bool sorts = of.shadows == Shadows::off || !of.is_one_run();
@@ -245,10 +254,10 @@ TEST_CASE("the host bounds a pixel's error as the device does") {
       INFO(of.name << ", " << bits << " bits");
       const Measurement host = measured(of, bits, within);
       check_within_bounds(host, exact);
-      if (!sorts && of.pattern.order > 3.0)
+      if (!sorts && of.pattern.order == 8.0)
         check_bounds(host, device, 2e-2, 8.0); // as far as light is known
-      else if (!sorts)
-        check_bounds(host, device, 1e-3, 1.0);
+      else if (!sorts) // within beams few sources shine: hardly any light cancels, and rounding shows in that
+        check_bounds(host, device, of.pattern.order > 8.0 ? 2e-2 : 1e-3, 1.0);
     }
   }
 }
