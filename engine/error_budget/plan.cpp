@@ -232,7 +232,9 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   plan.all = std::move(sum.groups);
   plan.reduced = groups_of(view, light.illuminators, plan.precision,
                            tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]),
-                           plan.all.near_polynomials ? HighPowers::by_tables : HighPowers::by_roots);
+                           plan.all.near_polynomials         ? NearTables::of_any_powers
+                           : plan.all.polynomials.powers > 0 ? NearTables::of_low_powers
+                                                             : NearTables::none);
   plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   const PlannedSum whole{plan.precision, view.sensor.samples};

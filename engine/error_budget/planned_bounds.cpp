@@ -60,11 +60,11 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
   bound.weight_error = rounding.weight_error;
   bound.per_weight_m = rounding.per_weight_m;
   bound.any_weight_m = rounding.any_weight_m;
-  bound.even_part = std::max(rounding.even_part, at_one_range ? at_one_range->even_part : 0.0);
+  bound.even_part = rounding.even_part;
   bound.amplitude_per_weight = rounding.amplitude_per_weight;
   if (at_one_range && std::isfinite(rounding.per_apart))
     bound.at_one_range = {at_one_range->fixed_m, at_one_range->per_condition_m + light.error_per_condition_m,
-                          at_one_range->per_weight_m, rounding.per_apart};
+                          at_one_range->per_weight_m, rounding.per_apart, at_one_range->even_part};
   if (rounding.per_weight_m > 0.0 || std::isfinite(bound.amplitude_limit))
     bound.terms_per_weight_error = 1.0 / weight_error_unit;
   bound.terms_of_beam_edges = bound.terms_per_weight_error * rounding.beam_edge_error;
@@ -84,7 +84,8 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
   if (!b.at_one_range)
     a.at_one_range.reset();
   if (a.at_one_range)
-    for (const auto part : {&Near::fixed_m, &Near::per_condition_m, &Near::per_weight_m, &Near::per_apart})
+    for (const auto part :
+         {&Near::fixed_m, &Near::per_condition_m, &Near::per_weight_m, &Near::per_apart, &Near::even_part})
       (*a.at_one_range).*part = std::max((*a.at_one_range).*part, (*b.at_one_range).*part);
   return a;
 }

@@ -10,20 +10,21 @@ constexpr double largest_tolerance = 0x1p-14; // no more is worth it
 
 constexpr double usual_powers = 12.0; // of 1 / r
 
-bool may_have_tables(const LightFacts &view, HighPowers high) {
+bool may_have_tables(const LightFacts &view, NearTables tables) {
   return view.on_host && view.sensor.samples == 1 &&
-         (high == HighPowers::by_tables || !has_high_powers(view));
+         (tables == NearTables::of_any_powers ||
+          (tables == NearTables::of_low_powers && !has_high_powers(view)));
 }
 
 // In runs of at most so many blocks.
 SourceGroups in_runs_of(std::uint32_t most_blocks, const LightFacts &view,
                         const std::vector<CameraIlluminator> &lights, Precision precision, double tolerance,
-                        HighPowers high) {
+                        NearTables tables) {
   const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
   SourceGroups groups =
       group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks, tolerance);
   if (precision == Precision::fp32 && view.modulation.by_moments())
-    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed, may_have_tables(view, high));
+    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed, may_have_tables(view, tables));
   return groups;
 }
 
@@ -51,17 +52,17 @@ double growth_of(const SourceGroups &groups) {
 }
 
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision, double tolerance, HighPowers high) {
-  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, high);
+                       Precision precision, double tolerance, NearTables tables) {
+  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, tables);
   // What series leave out counts as rounding does, which grows.
   if (const double growth = growth_of(groups); growth > 1.0 && tolerance > 0.0) {
     tolerance /= growth;
-    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, high);
+    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, tables);
   }
   // A window of shadows' bits holds no long run.
   const bool long_runs =
       view.on_host && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
-  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance, high) : groups;
+  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance, tables) : groups;
 }
 
 } // namespace pmdsim

@@ -13,14 +13,14 @@ std::vector<double> wavenumbers_rad_m(const Modulation &modulation);
 // double.
 double tolerance_of(const LightFacts &view, Precision precision, const Accuracy &accuracy, double share);
 
-// Tables in place of roots let rounding grow, and more so where weights fall fast: high powers of 1 / r take
-// roots, or tables where the error asked for leaves room.
-enum class HighPowers { by_roots, by_tables };
+// Which powers of 1 / r tables may stand for: they let rounding grow, and more so where weights fall fast.
+enum class NearTables { none, of_low_powers, of_any_powers };
 bool has_high_powers(const LightFacts &view);
 
 // `tolerance`: of series, over the growth by which such errors count.
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision, double tolerance = 0.0, HighPowers high = HighPowers::by_roots);
+                       Precision precision, double tolerance = 0.0,
+                       NearTables tables = NearTables::of_low_powers);
 
 // The factor by which rounding grows at most, where powers stand for roots.
 double growth_of(const SourceGroups &groups);

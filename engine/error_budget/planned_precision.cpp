@@ -14,8 +14,9 @@ namespace {
 
 // Rounding at which float is chosen by what most pixels' returns cancel.
 constexpr double widest_typical_m = 10e-6;
-// The share that rounding may take where high powers are taken by tables.
-constexpr double share_of_tables = 0.25;
+// The share that rounding may take where high powers are taken by tables, and how much it grows in most
+// pixels where low ones are.
+constexpr double share_of_high_powers = 0.25, usual_growth = 2.0;
 
 bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double condition, double dimming) {
   return bound.distance_m(condition, dimming) < accuracy.max_error_m &&
@@ -55,21 +56,24 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
-// In float, high powers by tables; nothing where there are none, or where rounding might then take much of
-// the error.
+// In float, by tables in place of roots; nothing where there are none, or where rounding might then take much
+// of the error, or too much.
 std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &accuracy,
                                         std::uint32_t attempt) {
   constexpr Precision precision = Precision::fp32;
-  if (!has_high_powers(view) || accuracy.precision.value_or(precision) != precision)
+  if (accuracy.precision.value_or(precision) != precision)
     return std::nullopt;
   SourceGroups groups =
       groups_of(view, view.lights, precision,
-                tolerance_of(view, precision, accuracy, share_of_series[attempt]), HighPowers::by_tables);
+                tolerance_of(view, precision, accuracy, share_of_series[attempt]), NearTables::of_any_powers);
   const auto bound = bound_of(view, groups, {precision, view.sensor.samples});
+  if (!groups.near_polynomials || !bound)
+    return std::nullopt;
+  const bool high = has_high_powers(view);
   Accuracy part = accuracy;
-  part.max_error_m *= share_of_tables;
-  part.max_amplitude_error *= share_of_tables;
-  if (!groups.near_polynomials || !bound || !is_within(*bound, part, growth_of(groups), 0.0))
+  part.max_error_m *= high ? share_of_high_powers : 1.0;
+  part.max_amplitude_error *= high ? share_of_high_powers : 1.0;
+  if (!is_within(*bound, part, high ? growth_of(groups) : std::min(growth_of(groups), usual_growth), 0.0))
     return std::nullopt;
   return RoundedSum{precision, std::move(groups), *bound};
 }
@@ -90,19 +94,20 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
       return std::move(*sum);
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    SourceGroups groups = groups_of(view, view.lights, precision,
-                                    tolerance_of(view, precision, accuracy, share_of_series[attempt]));
+    SourceGroups groups =
+        groups_of(view, view.lights, precision,
+                  tolerance_of(view, precision, accuracy, share_of_series[attempt]), NearTables::none);
     const PlannedSum sum{precision, view.sensor.samples};
     const auto bound = bound_of(view, groups, sum);
     const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;
     const double condition = several ? groups.polynomials.growth : 1.0;
-    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, dimming) ||
+    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, typical.largest_dimming) ||
                   is_mostly_within(usual.value_or(*bound), accuracy, condition * typical.condition, dimming)))
       return {precision, std::move(groups), *bound};
     last = bound;
   }
   if (last)
-    refuse(accuracy, *last, dimming);
+    refuse(accuracy, *last, typical.largest_dimming);
   refuse(accuracy, why_unbounded(view.lights));
 }
 

@@ -15,7 +15,7 @@ struct RoundedSum {
 };
 
 // The share that series of fewer terms may take in each plan.
-inline constexpr double share_of_series[frame_plans] = {0.03, 0.006, 0.0};
+inline constexpr double share_of_series[frame_plans] = {0.01, 0.006, 0.0};
 
 // In the cheapest precision from the `attempt`-th plan on that leaves something of the error asked for.
 // Throws Error (accuracy) where none does.

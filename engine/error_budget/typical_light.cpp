@@ -62,7 +62,8 @@ TypicalLight typical_light(const std::vector<CameraIlluminator> &lights,
     }
   if (conditions.empty())
     return {};
-  return {quantile(conditions, 0.5), quantile(dimmings, 0.5), quantile(dimmings, most)};
+  return {quantile(conditions, 0.5), quantile(dimmings, 0.5), quantile(dimmings, most),
+          *std::ranges::max_element(dimmings)};
 }
 
 } // namespace pmdsim

@@ -83,16 +83,17 @@ struct ErrorBound {
   // where that is not known.
   struct AtOneRange {
     double fixed_m, per_condition_m, per_weight_m, per_apart;
+    double even_part = 1.0; // at one range
   };
   std::optional<AtOneRange> at_one_range = std::nullopt;
 
   AtOneRange nearest() const {
-    return at_one_range.value_or(AtOneRange{fixed_m, per_condition_m, per_weight_m, 0.0});
+    return at_one_range.value_or(AtOneRange{fixed_m, per_condition_m, per_weight_m, 0.0, even_part});
   }
   // Of samples at one range, where no weight is off by itself but for beams' (BeamError::at).
   double nearest_m(double condition, double dimming) const {
     const AtOneRange near = nearest();
-    const double of_weights_m = (weight_error * even_part + beams.at(dimming)) * near.per_weight_m;
+    const double of_weights_m = (weight_error * near.even_part + beams.at(dimming)) * near.per_weight_m;
     return output_m + near.fixed_m + (near.per_condition_m + of_weights_m) * condition;
   }
 };

@@ -109,6 +109,7 @@ std::vector<shader::Frequency> frequency_records(const Modulation &modulation, d
     record.per_weight_m = static_cast<float>(weight_error_unit * bound->per_weight_m);
     record.any_weight_m = static_cast<float>(std::min(weight_error_unit * bound->any_weight_m, 1e30));
     record.even_part = static_cast<float>(bound->even_part);
+    record.near_even_part = static_cast<float>(nearest.even_part);
     record.near_per_weight_m = static_cast<float>(weight_error_unit * nearest.per_weight_m);
     record.per_weight = static_cast<float>(weight_error_unit * bound->amplitude_per_weight);
     record.amplitude_limit = static_cast<float>(bound->amplitude_limit);

@@ -378,7 +378,7 @@ struct Frequency {
   // What all weights are off by, in the same units; the part of the first that this has, and what it does as distance over
   // sqrt(condition^2 - 1).
   float weight_error, even_part, any_weight_m;
-  float padding;
+  float near_even_part; // of the second
 };
 
 struct DemodulationConstants {

@@ -259,10 +259,12 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
 // (engine/error_budget/rounding_bound.cpp), and as (sum w |sin|)^2 <=
 // sum w * sum w sin^2 <= (sum w)^2 - |sum|^2 that is at most sqrt(condition^2 - 1). `largest`: of the condition, which is off itself.
 // The same holds of `of_beams`, the root of the mean square of errors that differ, but for the even part.
-float weights_error_m(Frequency frequency, float per_weight_m, float condition, float largest, float weights, float of_beams) {
+// `common_per_weight_m`: even_part of per_weight_m.
+float weights_error_m(Frequency frequency, float per_weight_m, float common_per_weight_m, float condition, float largest, float weights,
+                      float of_beams) {
   float any_m = frequency.any_weight_m * sqrt(max(largest * largest - 1.0, 0.0));
-  float most_m = per_weight_m * condition;
-  return frequency.weight_error * min(frequency.even_part * most_m, any_m) + of_beams * min(most_m, any_m) + per_weight_m * weights;
+  return frequency.weight_error * min(common_per_weight_m * condition, any_m) + of_beams * min(per_weight_m * condition, any_m) +
+         per_weight_m * weights;
 }
 
 const float output_rounding = 5.9604645e-8; // of a distance to float, 2^-24 of it
@@ -278,10 +280,12 @@ Errors errors_of(Frequency frequency, vec3 terms, Return of_pixel, Errors added,
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
   float largest = condition * (1.0 + relative + 1e-6) * grown;
   float near_per_weight_m = min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m);
+  float near_common_m =
+      min(frequency.near_even_part * frequency.near_per_weight_m + frequency.per_weight * apart_m, near_per_weight_m);
   float near_m = (frequency.near_per_condition_m + frequency.per_apart * apart_m + added.distance_m) * condition +
-                 weights_error_m(frequency, near_per_weight_m, condition, largest, weights, of_beams);
+                 weights_error_m(frequency, near_per_weight_m, near_common_m, condition, largest, weights, of_beams);
   float any_m = (frequency.per_condition_m + added.distance_m) * condition +
-                weights_error_m(frequency, frequency.per_weight_m, condition, largest, weights, of_beams);
+                weights_error_m(frequency, frequency.per_weight_m, frequency.even_part * frequency.per_weight_m, condition, largest, weights, of_beams);
   float output_m = output_rounding * of_pixel.distance_m;
   return Errors(output_m + min(frequency.near_fixed_m + near_m * grown, frequency.fixed_m + any_m * grown),
                 frequency.amplitude_fixed + relative);

@@ -63,7 +63,7 @@ const std::map<std::string, HostLayout> host_layouts{
     STRUCT(Frequency, turns_per_m, ambiguity_m, below, amplitude_scale, first_channel, limit_m, fixed_m,
            per_condition_m, amplitude_limit, amplitude_fixed, amplitude_per_condition, diodes,
            lit_channel, near_fixed_m, near_per_condition_m, per_apart, per_weight_m,
-           near_per_weight_m, per_weight, weight_error, even_part, any_weight_m, padding),
+           near_per_weight_m, per_weight, weight_error, even_part, any_weight_m, near_even_part),
     STRUCT(SampleGrid, slope, first, columns, inverse_columns),
     STRUCT(Strip, column, row, columns, rows, resolution_x, resolution_y, samples, padded_pixels),
     STRUCT(IdRasterConstants, shift, tile_x, tile_y, column, row, resolution_x, fragments_per_pixel_side,

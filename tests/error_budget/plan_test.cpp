@@ -212,6 +212,20 @@ TEST_CASE("high powers are taken by tables where the error asked for leaves room
   CHECK_FALSE(plan(beams, automatic(1e-4)).all.near_polynomials);
 }
 
+TEST_CASE("low powers are taken by tables but where those let rounding grow beyond the error") {
+  PlannedSetup wide;
+  for (Diode &diode : wide.lights[0].diodes) {
+    diode.position_m *= 4.3;
+    diode.pattern = cosine(9.0);
+  }
+  wide.scene = wall_at(1.5);
+  const FramePlan by_tables = plan(wide, automatic(1e-4)), by_roots = plan(wide, automatic(1e-5));
+  REQUIRE(by_tables.all.near_polynomials);
+  CHECK(by_tables.all.near_polynomials->growth > 2.0);
+  CHECK_FALSE(by_roots.all.near_polynomials);
+  CHECK(by_roots.precision == Precision::fp32);
+}
+
 TEST_CASE("a precision that was asked for is taken") {
   Accuracy accuracy = automatic(1e-6);
   accuracy.precision = Precision::fp64;

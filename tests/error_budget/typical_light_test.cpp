@@ -58,12 +58,14 @@ TEST_CASE("where nothing is visible or lit, nothing cancels") {
 }
 
 TEST_CASE("beams are as dim as they are at most places, and at nine of ten") {
-  // cos^8 is a 16th at 45 degrees: ten places, of which two are there and the others on the axis.
-  std::vector<VisibleBox> places(8, point_at({0.0, 0.0, 1.0}));
-  places.insert(places.end(), 2, point_at({1.0, 0.0, 1.0}));
+  // cos^8 is a 16th at 45 degrees, where three of 32 places are, and 2^-8 at 60, where one is.
+  std::vector<VisibleBox> places(28, point_at({0.0, 0.0, 1.0}));
+  places.insert(places.end(), 3, point_at({1.0, 0.0, 1.0}));
+  places.push_back(point_at({std::sqrt(3.0), 0.0, 1.0}));
   const TypicalLight light =
       typical_light({lamp(0.0, {Pattern::Kind::cosine, 8.0, nullptr})}, places, wavenumber_rad_m);
   CHECK(std::abs(light.dimming) < 1e-12);
   CHECK(light.dimming_of_most == Approx(4.0 * std::numbers::ln2));
+  CHECK(light.largest_dimming == Approx(8.0 * std::numbers::ln2));
   CHECK(typical_light({lamp(0.0)}, places, wavenumber_rad_m).dimming_of_most == Approx(0.0).margin(1e-12));
 }

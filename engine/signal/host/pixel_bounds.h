@@ -18,15 +18,15 @@ struct Errors {
 constexpr float at_least = 1.000002f;
 constexpr float smallest = 1e-37f; // that has an inverse
 
-// Of weights, as distance (weights_error_m there). `turning`: sqrt(condition^2 - 1), at the most. `of_beams`:
-// the root of the mean square of the errors within beams. `turned`: the errors of each run times how far they
-// turn the return at the most, over its size.
-inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, const Floats &condition,
-                              const Floats &turning, const Floats &weights, const Floats &of_beams,
-                              const Terms &turned) {
+// Of weights, as distance (weights_error_m there). `even_part`: of per_weight_m. `turning`: sqrt(condition^2
+// - 1), at the most. `of_beams`: the root of the mean square of the errors within beams. `turned`: the errors
+// of each run times how far they turn the return at the most, over its size.
+inline Floats weights_error_m(const shader::Frequency &frequency, float per_weight_m, float even_part,
+                              const Floats &condition, const Floats &turning, const Floats &weights,
+                              const Floats &of_beams, const Terms &turned) {
   const float any_m = frequency.any_weight_m;
   const Floats most_m = per_weight_m * condition, turning_m = any_m * turning;
-  const Floats common_m = smaller(smaller(frequency.even_part * most_m, turning_m), any_m * turned.light);
+  const Floats common_m = smaller(smaller(even_part * most_m, turning_m), any_m * turned.light);
   const Floats of_beams_m = smaller(of_beams * smaller(most_m, turning_m), any_m * turned.beams);
   return frequency.weight_error * common_m + of_beams_m +
          smaller(per_weight_m * weights, any_m * turned.weights);
@@ -56,16 +56,18 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
   const Terms over_size{turned.light * inverse_size, turned.weights * inverse_size,
                         turned.beams * inverse_size};
-  const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m) {
+  const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m, float even_part) {
     const Floats growing_m =
         per_condition_m * condition +
-        weights_error_m(frequency, per_weight_m, condition, turning, weights, of_beams, over_size);
+        weights_error_m(frequency, per_weight_m, even_part, condition, turning, weights, of_beams, over_size);
     return fixed_m + growing_m * grown;
   };
-  Floats error_m = bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,
-                           std::min(frequency.near_per_weight_m, frequency.per_weight_m));
+  Floats error_m =
+      bound_m(frequency.near_fixed_m, frequency.near_per_condition_m,
+              std::min(frequency.near_per_weight_m, frequency.per_weight_m), frequency.near_even_part);
   if (!is_tighter_at_one_range(frequency))
-    error_m = smaller(error_m, bound_m(frequency.fixed_m, frequency.per_condition_m, frequency.per_weight_m));
+    error_m = smaller(error_m, bound_m(frequency.fixed_m, frequency.per_condition_m, frequency.per_weight_m,
+                                       frequency.even_part));
   constexpr float output_rounding = 0x1p-24f; // of the distance to float
   return {output_rounding * distance_m + error_m, frequency.amplitude_fixed + relative};
 }
