@@ -21,9 +21,9 @@ namespace {
 // The share that the reduced set may take in each plan of what rounding leaves of the error asked for. The
 // rest is for pixels whose returns cancel in part.
 constexpr double share_of_reduction[frame_plans] = {0.5, 0.02, 0.0};
-// A set that is off by more than rounding saves few diodes and claims much, so that it takes no more of the
-// error than rounding does, or this share.
-constexpr double least_share_of_reduction = 0.02;
+// A set that is off by more than half of rounding saves few diodes and claims much, so that it takes no more
+// of the error than that, or this share.
+constexpr double share_of_rounding = 0.5, least_share_of_reduction = 0.02;
 
 // Pixels whose bound is so many times that of one in which nothing cancels are summed in double, wherever
 // they can be. There are few of them, and the frame claims the worst bound of the others.
@@ -96,14 +96,15 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
                                      rounding.distance_m_at(typical.condition, typical.dimming));
   if (rounding_m >= accuracy.max_error_m) // where samples are farther apart than most pixels' are
     return whole_light(view.lights);
-  return reduce_diodes(view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
-                       std::min(share * (accuracy.max_error_m - rounding_m),
-                                std::max(least_share_of_reduction * accuracy.max_error_m, rounding_m)),
-                       share * (accuracy.max_amplitude_error - rounding.amplitude(1.0, typical.dimming)));
+  return reduce_diodes(
+      view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
+      std::min(share * (accuracy.max_error_m - rounding_m),
+               std::max(least_share_of_reduction * accuracy.max_error_m, share_of_rounding * rounding_m)),
+      share * (accuracy.max_amplitude_error - rounding.amplitude(1.0, typical.dimming)));
 }
 
 bool is_kept_by_some(const ErrorBound &bound) {
-  return bound.nearest_m(1.0, 0.0) <= bound.limit_m &&
+  return bound.nearest_m(1.0, darkest) <= bound.limit_m &&
          bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 

@@ -36,15 +36,15 @@ bool is_mostly_within(const RoundingBound &bound, const Accuracy &accuracy, doub
                                               1e3 * accuracy.max_error_m, why));
 }
 
-[[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound, double dimming) {
-  const double error_m = bound.distance_m(1.0, dimming);
+[[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound) {
+  const double error_m = bound.distance_m(1.0, darkest);
   if (error_m >= accuracy.max_error_m)
     refuse(accuracy, fmt::format("rounding alone may come to {:.6g} mm", 1e3 * error_m));
   throw Error(
       ExitCode::accuracy,
       fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
                   "come to {:.3g}",
-                  accuracy.max_amplitude_error, bound.amplitude(1.0, dimming)));
+                  accuracy.max_amplitude_error, bound.amplitude(1.0, darkest)));
 }
 
 const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
@@ -101,13 +101,13 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
     const auto bound = bound_of(view, groups, sum);
     const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;
     const double condition = several ? groups.polynomials.growth : 1.0;
-    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, typical.largest_dimming) ||
+    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, darkest) ||
                   is_mostly_within(usual.value_or(*bound), accuracy, condition * typical.condition, dimming)))
       return {precision, std::move(groups), *bound};
     last = bound;
   }
   if (last)
-    refuse(accuracy, *last, typical.largest_dimming);
+    refuse(accuracy, *last);
   refuse(accuracy, why_unbounded(view.lights));
 }
 

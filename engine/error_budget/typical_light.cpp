@@ -62,8 +62,7 @@ TypicalLight typical_light(const std::vector<CameraIlluminator> &lights,
     }
   if (conditions.empty())
     return {};
-  return {quantile(conditions, 0.5), quantile(dimmings, 0.5), quantile(dimmings, most),
-          *std::ranges::max_element(dimmings)};
+  return {quantile(conditions, 0.5), quantile(dimmings, 0.5), quantile(dimmings, most)};
 }
 
 } // namespace pmdsim

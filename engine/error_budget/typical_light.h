@@ -12,8 +12,8 @@ namespace pmdsim {
 // however surfaces are turned. Measured diagrams count as if they were the same all around.
 struct TypicalLight {
   double condition = 1.0; // the median of sum |w| / |sum w exp(j 2 kappa path)|
-  // Of -ln J, J the mean of the diodes': the median, what nine of ten places are below, the largest.
-  double dimming = 0.0, dimming_of_most = 0.0, largest_dimming = 0.0;
+  // Of -ln J, J the mean of the diodes': the median, and what nine of ten places are below.
+  double dimming = 0.0, dimming_of_most = 0.0;
 };
 
 // Nothing cancels or dims where nothing is visible or lit.
