@@ -13,7 +13,6 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace pmdsim {
 namespace {
@@ -103,8 +102,9 @@ ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, cons
       share * (accuracy.max_amplitude_error - rounding.amplitude(1.0, typical.dimming)));
 }
 
-bool is_kept_by_some(const ErrorBound &bound) {
-  return bound.nearest_m(1.0, darkest) <= bound.limit_m &&
+// Where nothing cancels, however dim beams are.
+bool is_kept_where_none_cancel(const ErrorBound &bound) {
+  return bound.nearest_m(1.0, bound.beams.darkest) <= bound.limit_m &&
          bound.amplitude_fixed + bound.amplitude_per_condition <= bound.amplitude_limit;
 }
 
@@ -125,7 +125,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
       return std::nullopt;
     const ErrorBound bound =
         error_bound_of(accuracy, *rounding, light, at_one_range(view, plan.uniform_groups, sum));
-    return is_kept_by_some(bound) ? std::optional(bound) : std::nullopt;
+    return is_kept_where_none_cancel(bound) ? std::optional(bound) : std::nullopt;
   };
   plan.uniform_bound = bound_at(1, 0.0);
   if (plan.uniform_bound && view.sensor.samples > 1)

@@ -65,7 +65,7 @@ ErrorBound error_bound_of(const Accuracy &accuracy, const RoundingBound &roundin
   if (at_one_range && std::isfinite(rounding.per_apart))
     bound.at_one_range = {at_one_range->fixed_m, at_one_range->per_condition_m + light.error_per_condition_m,
                           at_one_range->per_weight_m, rounding.per_apart, at_one_range->even_part};
-  if (rounding.per_weight_m > 0.0 || std::isfinite(bound.amplitude_limit))
+  if (rounding.per_weight_m > 0.0 || std::isfinite(bound.amplitude_limit) || rounding.beams.square > 0.0)
     bound.terms_per_weight_error = 1.0 / weight_error_unit;
   bound.terms_of_beam_edges = bound.terms_per_weight_error * rounding.beam_edge_error;
   return bound;
@@ -78,7 +78,7 @@ ErrorBound worse_of(ErrorBound a, const ErrorBound &b) {
                           &ErrorBound::per_weight_m, &ErrorBound::any_weight_m,
                           &ErrorBound::amplitude_per_weight, &ErrorBound::even_part, &ErrorBound::output_m})
     a.*part = std::max(a.*part, b.*part);
-  for (const auto part : {&BeamError::square, &BeamError::square_per_log})
+  for (const auto part : {&BeamError::square, &BeamError::square_per_log, &BeamError::darkest})
     a.beams.*part = std::max(a.beams.*part, b.beams.*part);
   using Near = ErrorBound::AtOneRange;
   if (!b.at_one_range)

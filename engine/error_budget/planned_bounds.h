@@ -9,8 +9,6 @@
 
 namespace pmdsim {
 
-inline constexpr double darkest = 87.0; // -ln J at most, that float holds
-
 // How groups are summed, and for which pixels.
 struct PlannedSum {
   Precision precision;

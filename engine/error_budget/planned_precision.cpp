@@ -37,14 +37,14 @@ bool is_mostly_within(const RoundingBound &bound, const Accuracy &accuracy, doub
 }
 
 [[noreturn]] void refuse(const Accuracy &accuracy, const RoundingBound &bound) {
-  const double error_m = bound.distance_m(1.0, darkest);
+  const double error_m = bound.distance_m(1.0, bound.beams.darkest);
   if (error_m >= accuracy.max_error_m)
     refuse(accuracy, fmt::format("rounding alone may come to {:.6g} mm", 1e3 * error_m));
   throw Error(
       ExitCode::accuracy,
       fmt::format("a relative amplitude error of at most {:.3g} cannot be promised: rounding alone may "
                   "come to {:.3g}",
-                  accuracy.max_amplitude_error, bound.amplitude(1.0, darkest)));
+                  accuracy.max_amplitude_error, bound.amplitude(1.0, bound.beams.darkest)));
 }
 
 const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
@@ -56,8 +56,8 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
-// In float, by tables in place of roots; nothing where there are none, or where rounding might then take much
-// of the error, or too much.
+// In float, by tables in place of roots; nothing where there are none, or where rounding might then take more
+// than a quarter of the error for high powers, or more than all of it in most pixels for low ones.
 std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &accuracy,
                                         std::uint32_t attempt) {
   constexpr Precision precision = Precision::fp32;
@@ -86,7 +86,6 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
   // Where shadows fall on several, all are summed at once, and pixels at edges, whose samples are apart,
   // may pass.
   const bool several = view.sensor.samples > 1;
-  const double dimming = several ? typical.dimming_of_most : typical.dimming;
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
   if (attempt == 0)
@@ -101,8 +100,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
     const auto bound = bound_of(view, groups, sum);
     const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;
     const double condition = several ? groups.polynomials.growth : 1.0;
-    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, darkest) ||
-                  is_mostly_within(usual.value_or(*bound), accuracy, condition * typical.condition, dimming)))
+    if (bound && (is_within(usual.value_or(*bound), accuracy, condition, bound->beams.darkest) ||
+                  is_mostly_within(usual.value_or(*bound), accuracy, condition * typical.condition,
+                                   several ? bound->beams.darkest : typical.dimming)))
       return {precision, std::move(groups), *bound};
     last = bound;
   }

@@ -259,7 +259,7 @@ private:
         pair_rounding * lengths_.range_m + 0.5 * angle * u_ * std::min(relative_m(), 1.0 / wavenumber_rad_m);
     bound.amplitude_fixed = amplitude_of_a_pixel * float_rounding + scope_.backscatter_error;
     const BeamError beams = beam_rounding(groups_.diodes, law_rounding(groups_, model_, scope_));
-    bound.beams = {u_ * u_ * beams.square, u_ * u_ * beams.square_per_log};
+    bound.beams = {u_ * u_ * beams.square, u_ * u_ * beams.square_per_log, beams.darkest};
     if (scope_.beam_edges_are_terms)
       bound.beam_edge_error =
           u_ * beam_edge_rounding_u(groups_.diodes, law_rounding(groups_, model_, scope_));
@@ -341,7 +341,7 @@ void raise_to(RoundingBound &largest, const Bound &bound, const Modulation &modu
           &Part::weight_error, &Part::per_weight_m, &Part::amplitude_per_weight, &Part::any_weight_m,
           &Part::beam_edge_error, &Part::per_apart, &Part::even_part, &Part::output_m})
       largest.*part = std::max(largest.*part, of_frequency.*part);
-    for (const auto part : {&BeamError::square, &BeamError::square_per_log})
+    for (const auto part : {&BeamError::square, &BeamError::square_per_log, &BeamError::darkest})
       largest.beams.*part = std::max(largest.beams.*part, of_frequency.beams.*part);
   }
 }

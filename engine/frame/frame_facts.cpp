@@ -21,7 +21,7 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
 std::uint32_t largest_strip(const vulkan::Device &device, const Modulation &modulation,
                             const Sensor &sensor) {
   const std::uint32_t usual = modulation.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;
-  return samples_of_a_strip(usual, modulation.sum_planes() + 1, ChannelLayout(modulation).channels(),
+  return samples_of_a_strip(usual, modulation.sum_planes() + 2, ChannelLayout(modulation).channels(),
                             sensor.samples * sensor.samples);
 }
 

@@ -108,10 +108,11 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
   const double rounding = groups.precise_diodes.empty() ? 0x1p-24 : 0x1p-45;
   std::vector<shader::LightRun> result;
   for (const SourceRun &run : groups.runs) {
-    double intensity = 0.0, diagrams = 0.0; // relative; times the laws' errors
+    double intensity = 0.0, brightest = 0.0, diagrams = 0.0; // relative; times the laws' largest J, errors
     glm::dvec4 detours(0.0);
     for (std::size_t i = run.first; i < run.first + run_diodes; ++i) {
       intensity += static_cast<double>(groups.diodes[i].intensity);
+      brightest += static_cast<double>(groups.diodes[i].intensity) * groups.positions[i].brightest;
       detours += glm::dvec4(groups.diodes[i].position);
       diagrams += static_cast<double>(groups.diodes[i].intensity) * groups.positions[i].law_error;
     }
@@ -123,6 +124,7 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
     record.phase_turns = float_pair(run.phase_turns);
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
+    record.brightest = static_cast<float>(brightest);
     record.detours = detours;
     // Summed beforehand, heights of places to either side of the reference cancel.
     const double apart_m =

@@ -104,7 +104,7 @@ BeamError cosine_beam_rounding(float of_order, const LawRounding &sum) {
   const double per_log = log_rounding + 0.5 * (squared_range_error_u(t) + 10.0) * (stretch - 1.0) / y;
   const double k = per_log * std::sqrt(4.0 / (2.0 * order * sine2));
   const double per_log2 = (1.0 + k) * bend * sine2 + (1.0 + 1.0 / k) * per_log * per_log;
-  return {std::max((1.0 + k) * 2.0 * order * sine2, 2.0 * per_log2), per_log2};
+  return {std::max((1.0 + k) * 2.0 * order * sine2, 2.0 * per_log2), per_log2, order * y};
 }
 
 double cosine_rounding_u(float order, const LawRounding &sum) {
@@ -249,6 +249,10 @@ double precise_law_error(const Pattern &pattern) {
   return law.precise_error != nullptr ? law.precise_error(pattern) : 0.0;
 }
 
+double largest_radiation(const Pattern &pattern) {
+  return pattern.diagram ? std::max(1.0, std::ranges::max(pattern.diagram->relative)) : 1.0;
+}
+
 std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode) {
   const RadiationLaw &law = law_of(diode);
   return law.edge != nullptr ? law.edge(diode.order) : std::nullopt;
@@ -306,6 +310,7 @@ BeamError beam_rounding(std::span<const shader::GroupSource> diodes, const LawRo
     const BeamError of_order = rounding(order, sum);
     largest.square = std::max(largest.square, of_order.square);
     largest.square_per_log = std::max(largest.square_per_log, of_order.square_per_log);
+    largest.darkest = std::max(largest.darkest, of_order.darkest);
   });
   return largest;
 }

@@ -89,6 +89,9 @@ const RadiationLaw &law_of(const shader::GroupSource &diode);
 double law_error(const Pattern &pattern, DiagramTables &tables, double radius_over_range);
 double precise_law_error(const Pattern &pattern); // in fp64
 
+// J's largest value, at least 1, which it has on the axis.
+double largest_radiation(const Pattern &pattern);
+
 // A diode's beam edge, and the series by which the reduction expands its J; nothing where its law has none.
 std::optional<BeamEdge> beam_edge(const shader::GroupSource &diode);
 std::optional<LawSeries> law_series(const Pattern &pattern);

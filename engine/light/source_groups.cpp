@@ -209,7 +209,8 @@ void add_runs(const Group &group, Precision precision, SourceGroups &result, Dia
       const double error = precise
                                ? precise_law_error(diode.pattern)
                                : law_error(diode.pattern, diagrams.in_float, group.reach.radius_over_range());
-      result.positions.push_back({diode.position_m, dark ? no_id : diode.number, error});
+      result.positions.push_back(
+          {diode.position_m, dark ? no_id : diode.number, error, largest_radiation(diode.pattern)});
     }
   }
 }

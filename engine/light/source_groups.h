@@ -39,6 +39,7 @@ struct SourcePosition {
   glm::dvec3 position_m;        // camera frame
   std::uint32_t number = no_id; // counted through the illuminators; no_id of a dark one that pads a run
   double law_error = 0.0;       // of its J, beside what rounding does (radiation_laws.h)
+  double brightest = 1.0;       // its largest J, or 1
 };
 
 struct SourceGroups {

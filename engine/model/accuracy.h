@@ -54,6 +54,7 @@ inline constexpr double weight_error_unit = 0x1p-24;
 // concave in J.
 struct BeamError {
   double square = 0.0, square_per_log = 0.0;
+  double darkest = 0.0; // the largest -ln J within beams, beside their rims
 
   // Of weights whose mean J is at least exp(-dimming): the root of their mean square.
   double at(double dimming) const { return std::sqrt(dimming * (square + square_per_log * dimming)); }

@@ -71,6 +71,7 @@ StripBuffers make_strip_buffers(const vulkan::Device &device, const std::vector<
   made.ids_read = read(&B::ids_read, layout.host_reads_ids && !made.ids.is_mapped() ? id_bytes : 0);
   made.visibility_read = read(&B::visibility_read, options.keep_visibility ? visibility_bytes : 0);
   made.id_bytes = layout.id_bytes;
+  made.terms_of_sample = layout.terms;
   return made;
 }
 

@@ -33,9 +33,10 @@ struct StripBuffers {
   vulkan::Buffer channels; // pair by pair (shaders/shared/interface.h), padded_pixels words of each channel
   vulkan::Buffer channels_read; // empty where `channels` is mapped itself
   vulkan::Buffer violations_read;
-  vulkan::Buffer ids_read;        // empty where `ids` is mapped itself, or the host has no use for them
-  vulkan::Buffer visibility_read; // empty unless the samples' diodes are asked for
-  std::size_t id_bytes = 0;       // a sample, of `ids`
+  vulkan::Buffer ids_read;           // empty where `ids` is mapped itself, or the host has no use for them
+  vulkan::Buffer visibility_read;    // empty unless the samples' diodes are asked for
+  std::size_t id_bytes = 0;          // a sample, of `ids`
+  std::uint32_t terms_of_sample = 0; // floats, of `terms`
 };
 
 // A pair of channels as the host reads it, once it is read back: `first`, which is even, and the next, a word

@@ -89,8 +89,8 @@ bool is_shared_with_host(const PassSetup &on, const HeldErrors &errors, const vu
 
 HeldErrors held_errors(const StripBuffers &buffers, HeldErrors::By by) {
   if (by == HeldErrors::By::direct_pixels)
-    return {buffers.sum, sums, by};
-  return {buffers.terms, terms, by};
+    return {buffers.sum, sums, by, buffers.terms_of_sample};
+  return {buffers.terms, terms, by, buffers.terms_of_sample};
 }
 
 Pass claims_pass(const PassSetup &on, const HeldErrors &errors, const vulkan::Buffer *later) {

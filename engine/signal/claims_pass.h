@@ -12,12 +12,13 @@ struct HeldErrors {
   const vulkan::Buffer &in;
   Resources resource;
   enum class By { direct_pixels, demodulated_depths, demodulated_samples } by;
+  std::uint32_t terms; // of each sample, floats
 
   std::uint32_t plane(const shader::Strip &strip) const {
     return by == By::direct_pixels ? sample_count(strip) : strip.padded_pixels;
   }
   vk::DeviceSize offset(const shader::Strip &strip) const {
-    return by == By::demodulated_samples ? 2 * sizeof(float) * vk::DeviceSize{sample_count(strip)} : 0;
+    return by == By::demodulated_samples ? terms * sizeof(float) * vk::DeviceSize{sample_count(strip)} : 0;
   }
 };
 HeldErrors held_errors(const StripBuffers &buffers, HeldErrors::By by);

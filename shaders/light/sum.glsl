@@ -110,7 +110,7 @@ float largest_facing(float height, float inverse, LightRun run) {
 // The errors that rounding makes in cosines to the diodes' axes beyond 45 degrees, as terms. In cos^n they are n / cos times as
 // much as in the cosine. As x^(1 - 1 / n) is concave, the mean of cos^(n - 1) is at most W^(1 - 1 / n), W the mean of cos^n.
 // Where less than 1e-4 is left of the cosine a beam ends: an edge as any other. And there is no more of it than all light comes to
-// at 45 degrees. `all`: the light without the cosines to the axes.
+// at 45 degrees. `all`: the light if each J were the largest that it has.
 float beam_edge_terms(float weights, float all, LightRun run) {
   float of_weights = run.beam_edges * weights * min(pow(clamp(weights / all, 1e-37, 1.0), -run.beam_edge_root), 1e4);
   return min(of_weights, run.beam_edge_most * all);
@@ -127,7 +127,7 @@ float beam_terms(float weights, float all, LightRun run) {
 // grazes a surface, of the rims of beams and of steep diagrams; and that within beams.
 vec3 terms_of(float weights, float rho, float height, LightRun run) {
   float inverse = 1.0 / (rho - run.radius_m); // half of rho at least
-  float all = run.intensity * inverse * inverse * largest_facing(height, inverse, run);
+  float all = run.brightest * inverse * inverse * largest_facing(height, inverse, run); // where J is largest
   float terms = 0.0, of_beams = 0.0;
   if (backscatter_model == backscatter_lambert) {
     float any = run.heights * run.intensity * inverse * inverse * inverse;

@@ -195,10 +195,11 @@ float store_phase(Channels to, Frequency frequency, uint pixel, float amplitude,
   Real distance = multiply(turns, real(frequency.ambiguity_m.x, frequency.ambiguity_m.y));
   float distance_m = clamp(high(distance), 0.0, frequency.below.y);
   // As exact as a float is: the largest below may be a whole unit off what rounds to the end, which is 0 as well.
+  float rounded_m = distance_m;
   if (precise_sum != 0 && high(distance) > frequency.below.y)
     distance_m = 0.0;
   store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
-  return is_known ? distance_m : 0.0;
+  return is_known ? rounded_m : 0.0;
 }
 
 // The mean of what was summed over the samples hit; `samples`: S x S.
@@ -263,8 +264,8 @@ void store_ids(Channels to, uvec2 ids, uint object, uint pixel) {
 float weights_error_m(Frequency frequency, float per_weight_m, float common_per_weight_m, float condition, float largest, float weights,
                       float of_beams) {
   float any_m = frequency.any_weight_m * sqrt(max(largest * largest - 1.0, 0.0));
-  return frequency.weight_error * min(common_per_weight_m * condition, any_m) + of_beams * min(per_weight_m * condition, any_m) +
-         per_weight_m * weights;
+  float of_beams_m = of_beams > 0.0 ? of_beams * min(per_weight_m * condition, any_m) : 0.0;
+  return frequency.weight_error * min(common_per_weight_m * condition, any_m) + of_beams_m + per_weight_m * weights;
 }
 
 const float output_rounding = 5.9604645e-8; // of a distance to float, 2^-24 of it
@@ -274,9 +275,10 @@ const float output_rounding = 5.9604645e-8; // of a distance to float, 2^-24 of 
 Errors errors_of(Frequency frequency, vec3 terms, Return of_pixel, Errors added, float apart_m) {
   float condition = terms.x > 0.0 ? terms.x / of_pixel.size : 0.0; // infinite where all cancels
   float weights = terms.y > 0.0 ? terms.y / of_pixel.size : 0.0;
-  float of_beams = terms.z > 0.0 ? sqrt(terms.z / terms.x) : 0.0;
+  float of_beams = terms.x > 0.0 && terms.z > 0.0 ? sqrt(terms.z / terms.x) : 0.0;
+  float all_of_beams = of_beams > 0.0 ? of_beams * condition : 0.0;
   // A sum that is off by this part of itself is turned by more than a small part would turn it: by the arcsine.
-  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * (weights + of_beams * condition);
+  float relative = (frequency.amplitude_per_condition + added.amplitude) * condition + frequency.per_weight * (weights + all_of_beams);
   float grown = relative < 1.0 ? 1.0 / (1.0 - relative) : 1.0 / 0.0;
   float largest = condition * (1.0 + relative + 1e-6) * grown;
   float near_per_weight_m = min(frequency.near_per_weight_m + frequency.per_weight * apart_m, frequency.per_weight_m);

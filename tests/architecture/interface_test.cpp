@@ -59,7 +59,7 @@ const std::map<std::string, HostLayout> host_layouts{
            padding, across_rest),
     STRUCT(Tone, turns_per_m, wavenumber, harmonic),
     STRUCT(LightRun, reference_hi, reference_lo, phase_turns, radius_m, intensity, heights, diagrams, beam_edges,
-           beam_edge_root, beam_edge_most, beams, beams_per_log, padding, detours, moments_of_powers),
+           beam_edge_root, beam_edge_most, beams, beams_per_log, brightest, detours, moments_of_powers),
     STRUCT(Frequency, turns_per_m, ambiguity_m, below, amplitude_scale, first_channel, limit_m, fixed_m,
            per_condition_m, amplitude_limit, amplitude_fixed, amplitude_per_condition, diodes,
            lit_channel, near_fixed_m, near_per_condition_m, per_apart, per_weight_m,

@@ -71,7 +71,7 @@ inline Terms terms_of(const RunForm &form, const PointView &view, const Floats &
   if (form.diagrams)
     terms += run.diagrams * per_range2 * facing;
   if (form.beam_edges || form.beams) {
-    const Floats all_light = run.intensity * per_range2 * facing; // without cosines of the axes
+    const Floats all_light = run.brightest * per_range2 * facing; // where J is largest
     const Floats log2_part = log2_of(smaller(larger(weights * inverse(all_light), all(1e-37f)), all(1.0f)));
     if (form.beam_edges)
       terms += smaller(run.beam_edges * weights * power_at_least(log2_part, -run.beam_edge_root),

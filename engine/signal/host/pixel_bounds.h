@@ -27,7 +27,8 @@ inline Floats weights_error_m(const shader::Frequency &frequency, float per_weig
   const float any_m = frequency.any_weight_m;
   const Floats most_m = per_weight_m * condition, turning_m = any_m * turning;
   const Floats common_m = smaller(smaller(even_part * most_m, turning_m), any_m * turned.light);
-  const Floats of_beams_m = smaller(of_beams * smaller(most_m, turning_m), any_m * turned.beams);
+  const Floats of_beams_m =
+      of_beams > 0.0f ? smaller(of_beams * smaller(most_m, turning_m), any_m * turned.beams) : all(0.0f);
   return frequency.weight_error * common_m + of_beams_m +
          smaller(per_weight_m * weights, any_m * turned.weights);
 }
@@ -47,9 +48,10 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   const Floats inverse_size = size > smallest ? at_least * inverse(size) : infinite;
   const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
                weights = terms.weights > 0.0f ? terms.weights * inverse_size : none;
-  const Floats of_beams = terms.beams > 0.0f ? at_least * root(terms.beams / terms.light) : none;
-  const Floats relative =
-      frequency.amplitude_per_condition * condition + frequency.per_weight * (weights + of_beams * condition);
+  const Floats of_beams =
+      (terms.light > 0.0f) & (terms.beams > 0.0f) ? at_least * root(terms.beams / terms.light) : none;
+  const Floats relative = frequency.amplitude_per_condition * condition +
+                          frequency.per_weight * (weights + (of_beams > 0.0f ? of_beams * condition : none));
   const Floats grown = relative < 1.0f ? at_least * inverse(1.0f - relative) : infinite;
   // As large as has a square: what grows without end is unbounded by `grown` itself.
   const Floats largest = smaller(condition * (1.0f + relative + 1e-6f) * grown, all(1e18f)),
