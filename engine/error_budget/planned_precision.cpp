@@ -93,9 +93,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
       return std::move(*sum);
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    SourceGroups groups =
-        groups_of(view, view.lights, precision,
-                  tolerance_of(view, precision, accuracy, share_of_series[attempt]), NearTables::none);
+    SourceGroups groups = groups_of(view, view.lights, precision,
+                                    tolerance_of(view, precision, accuracy, share_of_series[attempt]),
+                                    attempt == 0 ? NearTables::none : NearTables::of_low_powers);
     const PlannedSum sum{precision, view.sensor.samples};
     const auto bound = bound_of(view, groups, sum);
     const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;
