@@ -49,7 +49,7 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
                weights = terms.weights > 0.0f ? terms.weights * inverse_size : none;
   const Floats of_beams =
-      (terms.light > 0.0f) & (terms.beams > 0.0f) ? at_least * root(terms.beams / terms.light) : none;
+      ((terms.light > 0.0f) & (terms.beams > 0.0f)) ? at_least * root(terms.beams / terms.light) : none;
   const Floats relative = frequency.amplitude_per_condition * condition +
                           frequency.per_weight * (weights + (of_beams > 0.0f ? of_beams * condition : none));
   const Floats grown = relative < 1.0f ? at_least * inverse(1.0f - relative) : infinite;
