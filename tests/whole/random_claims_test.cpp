@@ -126,8 +126,8 @@ void check_claims(double max_error_m, double largest_claim_over_found, double mo
 
 } // namespace
 
-TEST_CASE("random setups claim little more than is found", "[long]") { check_claims(100e-6, 35.0, 0.05); }
+TEST_CASE("random setups claim little more than is found", "[long]") { check_claims(100e-6, 20.0, 0.05); }
 
 TEST_CASE("random setups claim little more than is found, within ten micrometres", "[long]") {
-  check_claims(10e-6, 10.0, 0.05);
+  check_claims(10e-6, 5.0, 0.05);
 }
