@@ -56,26 +56,26 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
-// In float, by tables in place of roots; nothing where there are none, or where rounding might then take more
-// than a quarter of the error for high powers, or more than all of it in most pixels for low ones.
-std::optional<RoundedSum> sum_by_tables(const LightFacts &view, const Accuracy &accuracy,
-                                        std::uint32_t attempt) {
-  constexpr Precision precision = Precision::fp32;
-  if (accuracy.precision.value_or(precision) != precision)
-    return std::nullopt;
-  SourceGroups groups =
-      groups_of(view, view.lights, precision,
-                tolerance_of(view, precision, accuracy, share_of_series[attempt]), NearTables::of_any_powers);
-  const auto bound = bound_of(view, groups, {precision, view.sensor.samples});
-  if (!groups.near_polynomials || !bound)
-    return std::nullopt;
+// Whether tables leave most pixels room: the rounding of high powers takes a quarter of the error at most.
+bool have_room(const LightFacts &view, const Accuracy &accuracy, const SourceGroups &by_tables) {
+  const auto bound = bound_of(view, by_tables, {Precision::fp32, view.sensor.samples});
   const bool high = has_high_powers(view);
   Accuracy part = accuracy;
   part.max_error_m *= high ? share_of_high_powers : 1.0;
   part.max_amplitude_error *= high ? share_of_high_powers : 1.0;
-  if (!is_within(*bound, part, high ? growth_of(groups) : std::min(growth_of(groups), usual_growth), 0.0))
-    return std::nullopt;
-  return RoundedSum{precision, std::move(groups), *bound};
+  const double growth = high ? growth_of(by_tables) : std::min(growth_of(by_tables), usual_growth);
+  return bound && is_within(*bound, part, growth, 0.0);
+}
+
+// By tables in place of roots, where those have room. Later plans are in float only if that was asked for.
+SourceGroups groups_for(const LightFacts &view, const Accuracy &accuracy, Precision precision,
+                        std::uint32_t attempt) {
+  const double tolerance = tolerance_of(view, precision, accuracy, share_of_series[attempt]);
+  SourceGroups groups = groups_of(view, view.lights, precision, tolerance,
+                                  attempt == 0 ? NearTables::of_any_powers : NearTables::of_low_powers);
+  if (attempt > 0 || !groups.near_polynomials || have_room(view, accuracy, groups))
+    return groups;
+  return groups_of(view, view.lights, precision, tolerance, NearTables::none);
 }
 
 } // namespace
@@ -88,14 +88,9 @@ RoundedSum choose_precision(const LightFacts &view, const Accuracy &accuracy, co
   const bool several = view.sensor.samples > 1;
   std::optional<RoundingBound> last;
   const Precision first = attempt == 0 ? Precision::fp32 : Precision::fp64;
-  if (attempt == 0)
-    if (auto sum = sum_by_tables(view, accuracy, attempt))
-      return std::move(*sum);
   for (const Precision precision :
        {accuracy.precision.value_or(first), accuracy.precision.value_or(Precision::fp64)}) {
-    SourceGroups groups = groups_of(view, view.lights, precision,
-                                    tolerance_of(view, precision, accuracy, share_of_series[attempt]),
-                                    attempt == 0 ? NearTables::none : NearTables::of_low_powers);
+    SourceGroups groups = groups_for(view, accuracy, precision, attempt);
     const PlannedSum sum{precision, view.sensor.samples};
     const auto bound = bound_of(view, groups, sum);
     const auto usual = several && view.modulation.lit ? at_one_range(view, groups, sum) : bound;

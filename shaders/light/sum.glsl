@@ -117,7 +117,7 @@ float beam_edge_terms(float weights, float all, LightRun run) {
 }
 
 // The sum of weights times the squares of their errors within beams. These grow with x = -ln J, and J times them is concave in J, so
-// that the sum is at most what it would be if all J were their mean (engine/light/radiation_laws.h).
+// that the sum is at most what it would be if all J were their mean (BeamError).
 float beam_terms(float weights, float all, LightRun run) {
   float x = 1e-5 - log(clamp(weights / all, 1e-37, 1.0)); // a hair more, as it is rounded
   return weights * x * (run.beams + run.beams_per_log * x);
