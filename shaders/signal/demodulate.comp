@@ -96,12 +96,12 @@ void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, Return of_
 }
 
 void main() {
+  Frequency frequency = Frequencies(constants.frequency).at[0]; // before any branch, where lavapipe loads once for all lanes
   uint pixel = gl_GlobalInvocationID.x;
   if (listed != 0)
     pixel = listed_pixel(PixelLists(constants.list), pixel, constants.padded_pixels);
   if (pixel >= constants.pixels)
     return;
-  Frequency frequency = Frequencies(constants.frequency).at[0];
   PixelSum sum;
   sum_samples(pixel, frequency, sum);
   uint samples = constants.samples * constants.samples;
