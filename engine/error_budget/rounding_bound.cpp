@@ -144,9 +144,10 @@ double excess_error_m(const SourceGroups &groups, const RoundingScope &scope) {
          groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
 
-// The errors of every term: of its weight, relative, and of its path.
+// The errors of every term: of its weight, relative, with the part of it that no other tone of the frequency
+// has, and of its path.
 struct TermError {
-  double weight, path_m;
+  double weight, of_this_tone, path_m;
 
   // `turning`: at most, |sin| of the angle between a term and the sum.
   double angle_rad(double wavenumber_rad_m, double turning) const {
@@ -227,10 +228,11 @@ private:
       left_out *= phase_rad / k;
     const MomentPolynomials &powers = groups_.polynomials;
     const bool by_powers = powers.powers > 0; // or, on the host, by others
-    TermError error{
-        weight_ + summation() * growth + 3.0 * u_ +
-            (by_powers ? std::max(powers.weight_error, near_weight_error(groups_.tolerance)) : 0.0),
-        0.0};
+    const double of_powers =
+        by_powers ? std::max(powers.weight_error, near_weight_error(groups_.tolerance)) : 0.0;
+    TermError error{weight_ + summation() * growth + 3.0 * u_ + of_powers, 0.0, 0.0};
+    // All tones take the same moments; the first is as it is for all of them.
+    error.of_this_tone = (growth - 1.0) * (weight_ + summation()) + 3.0 * u_ + of_powers;
     error.path_m =
         growth * u_ * (excess_error_m(groups_, scope_) + 11.0 * groups_.path_difference_m) +
         growth * (summation() * path_terms_m() + left_out / wavenumber_rad_m) +
@@ -266,35 +268,73 @@ private:
     return bound;
   }
 
-  // Every harmonic is turned by its whole phase, in float; those whose returns the taps mistake for the
-  // fundamental's have phases of their own.
   RoundingBound of_tones(double wavenumber_rad_m) const {
-    const double rotation = modulation_.waveform == shader::waveform_harmonics ? phasor * u_ : 0.0;
-    const TermError fundamental = of_tone(wavenumber_rad_m);
-    double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
-    double angle_rad = fundamental.angle_rad(wavenumber_rad_m, turning) + rotation;
-    double amplitude = fundamental.angle_rad(wavenumber_rad_m, 1.0) + rotation;
-    for (std::uint32_t h = 2; h <= modulation_.tones; ++h) {
-      if (h % modulation_.taps != 1 && h % modulation_.taps != modulation_.taps - 1)
-        continue;
-      const TermError alias = of_tone(h * wavenumber_rad_m);
-      const double any_rad = alias.angle_rad(h * wavenumber_rad_m, 1.0) + rotation;
-      turning = 1.0;
-      angle_rad = std::max(angle_rad, any_rad);
-      amplitude = std::max(amplitude, any_rad);
-    }
-    const bool is_sine = modulation_.waveform == shader::waveform_sine;
+    return modulation_.waveform == shader::waveform_sine ? of_sine(wavenumber_rad_m)
+                                                         : of_harmonics(wavenumber_rad_m);
+  }
+
+  RoundingBound of_sine(double wavenumber_rad_m) const {
+    const TermError tone = of_tone(wavenumber_rad_m);
+    const double turning = std::min(wavenumber_rad_m * spread_m(), 1.0);
     RoundingBound bound = fixed(wavenumber_rad_m);
     // Ranges count there and back, where a term is turned and where the sum's angle is taken.
-    bound.per_apart = is_sine ? (phasor + angle) * u_ : unknown;
-    bound.weight_error = fundamental.weight;
-    bound.even_part = is_sine ? even_part(wavenumber_rad_m) : 1.0;
-    bound.per_condition_m = 0.5 * (angle_rad - fundamental.weight * turning) / wavenumber_rad_m;
-    bound.amplitude_per_condition = amplitude;
+    bound.per_apart = (phasor + angle) * u_;
+    bound.weight_error = tone.weight;
+    bound.even_part = even_part(wavenumber_rad_m);
+    bound.per_condition_m = 0.5 * tone.path_m;
+    bound.amplitude_per_condition = tone.angle_rad(wavenumber_rad_m, 1.0);
     bound.per_weight_m = 0.5 * turning / wavenumber_rad_m;
-    bound.any_weight_m = is_sine ? 0.5 / wavenumber_rad_m : unknown;
+    bound.any_weight_m = 0.5 / wavenumber_rad_m;
     bound.amplitude_per_weight = 1.0;
     return bound;
+  }
+
+  // The taps mistake some harmonics' returns for the fundamental's: a path of phase x returns g(x), the sum
+  // of a_h exp(+-j h x) over those. z over the sum of the weights lies in the hull of the g(x), so that |Im(g
+  // exp(-j arg z))| is at most what the g differ by: the phases' range times the sum of h |a_h|. Errors that
+  // a weight has for one harmonic alone turn z as they may. Every harmonic is turned by its whole phase, in
+  // float.
+  RoundingBound of_harmonics(double wavenumber_rad_m) const {
+    const std::vector<std::uint32_t> shown = shown_harmonics();
+    // With its amplitude, and in the sum of all.
+    const double rotation = (phasor + 1.0 + static_cast<double>(shown.size())) * u_;
+    double amplitudes = 0.0, slopes = 0.0, weight = 0.0, angle_rad = 0.0, amplitude = 0.0;
+    for (const std::uint32_t h : shown) {
+      const double of_harmonic = amplitude_of(h);
+      const TermError tone = of_tone(h * wavenumber_rad_m);
+      amplitudes += of_harmonic;
+      slopes += h * of_harmonic;
+      weight = std::max(weight, tone.weight);
+      angle_rad += of_harmonic * (tone.of_this_tone + h * wavenumber_rad_m * tone.path_m + rotation);
+      amplitude += of_harmonic * (tone.angle_rad(h * wavenumber_rad_m, 1.0) + rotation);
+    }
+    RoundingBound bound = fixed(wavenumber_rad_m);
+    if (shown.empty()) // nothing returns
+      return bound;
+    const double slope = slopes / amplitudes;
+    bound.per_apart = shown.back() * phasor * u_; // ranges count there and back
+    bound.weight_error = weight;
+    bound.even_part = 1.0;
+    bound.per_condition_m = 0.5 * angle_rad / amplitudes / wavenumber_rad_m;
+    bound.amplitude_per_condition = amplitude / amplitudes;
+    bound.per_weight_m = 0.5 * std::min(slope * wavenumber_rad_m * spread_m(), 1.0) / wavenumber_rad_m;
+    bound.any_weight_m = unknown;
+    bound.amplitude_per_weight = slope;
+    return bound;
+  }
+
+  double amplitude_of(std::uint32_t harmonic) const {
+    return std::abs(static_cast<double>(modulation_.harmonics[harmonic - 1]));
+  }
+
+  // Those that the taps take for the fundamental.
+  std::vector<std::uint32_t> shown_harmonics() const {
+    std::vector<std::uint32_t> shown;
+    for (std::uint32_t h = 1; h <= modulation_.tones; ++h)
+      if ((h % modulation_.taps == 1 || h % modulation_.taps == modulation_.taps - 1) &&
+          amplitude_of(h) > 0.0)
+        shown.push_back(h);
+    return shown;
   }
 
   // With C = 4 ||x| - 1/2| - 1, x in turns, a tap is C of the reference path times the sum of the weights,

@@ -2,6 +2,7 @@
 
 #include "engine/light/host/host_sum.h"
 #include "engine/sampling/sample_grid.h"
+#include "engine/signal/demodulation_pass.h"
 #include "engine/signal/direct_pixels.h"
 #include "shaders/shared/interface.h"
 
@@ -228,8 +229,7 @@ bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const Fr
 // Whether the sums of records can be held against what was asked for.
 bool can_hold_records(const FrameFacts &facts, const FrameRequest &request) {
   return request.accuracy.mode == Mode::automatic && !request.sensor.adaptive_samples &&
-         facts.modulation.waveform == shader::waveform_sine &&
-         facts.modulation.frequencies() <= most_direct_frequencies;
+         facts.modulation.by_moments() && resolves_at_once(facts.modulation);
 }
 
 // The host's raster knows neither the holes of shapes nor tiles, and leaves doubles.

@@ -12,6 +12,24 @@
 #include <string_view>
 
 namespace pmdsim {
+namespace {
+
+// For depth records, as many as make a straight line that does not take long to compile: a divisor of their
+// number, so that one pipeline does for all parts.
+std::uint32_t frequencies_at_once(const Modulation &modulation) {
+  constexpr std::uint32_t most = 8, most_planes = 16;
+  std::uint32_t count =
+      std::clamp(most_planes / modulation.planes, 1u, std::min(modulation.frequencies(), most));
+  while (modulation.frequencies() % count != 0)
+    --count;
+  return count;
+}
+
+} // namespace
+
+bool resolves_at_once(const Modulation &modulation) {
+  return frequencies_at_once(modulation) == modulation.frequencies();
+}
 
 vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScope &scope, bool first) {
   return {{shader::constant_planes, on.modulation.planes},
@@ -37,17 +55,13 @@ bool leaves_errors(const Modulation &modulation, const SumScope &scope) {
 
 namespace {
 
-// For depth records, as many as make a straight line that does not take long to compile: a divisor of their
-// number, so that one pipeline does for all parts.
-std::uint32_t frequencies_at_once(const Modulation &modulation, const SumScope &scope) {
-  if (!scope.depth_records)
-    return 1;
-  constexpr std::uint32_t most = 8, most_planes = 16;
-  std::uint32_t count =
-      std::clamp(most_planes / modulation.planes, 1u, std::min(modulation.frequencies(), most));
-  while (modulation.frequencies() % count != 0)
-    --count;
-  return count;
+std::vector<shader::Frequency> records_of(const PassSetup &on, const SourceGroups &groups,
+                                          const SumScope &scope, const vulkan::Buffer &harmonics) {
+  auto records =
+      frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count);
+  for (shader::Frequency &record : records)
+    record.harmonics = harmonics.words();
+  return records;
 }
 
 // The pass on the device.
@@ -68,22 +82,22 @@ private:
   std::uint32_t frequencies_, at_once_;
   vk::DeviceSize sample_bytes_; // of the sum's planes of a frequency
   std::uint32_t lit_channel_, diodes_, side_;
-  bool single_run_, holds_, leaves_errors_;
-  vulkan::Buffer records_, harmonics_; // shader::Frequency of each frequency; amplitudes
-  vulkan::ComputePipeline first_;      // of the frequencies: stores the ground truth, too
-  vulkan::ComputePipeline later_;      // all the others; empty where there are none
+  bool single_run_, leaves_errors_;
+  vulkan::Buffer harmonics_;      // amplitudes
+  vulkan::Buffer records_;        // shader::Frequency of each frequency
+  vulkan::ComputePipeline first_; // of the frequencies: stores the ground truth, too
+  vulkan::ComputePipeline later_; // all the others; empty where there are none
 };
 
 Demodulation::Demodulation(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                            bool leaves_truth)
     : buffers_(on.buffers), scene_(on.scene), scope_(scope), frequencies_(on.modulation.frequencies()),
-      at_once_(frequencies_at_once(on.modulation, scope)),
+      at_once_(scope.depth_records ? frequencies_at_once(on.modulation) : 1),
       lit_channel_(ChannelLayout(on.modulation).lit_channel()), diodes_(groups.diode_count),
-      side_(on.sensor.samples), single_run_(groups.runs.size() == 1), holds_(on.modulation.keeps_terms),
+      side_(on.sensor.samples), single_run_(groups.runs.size() == 1),
       leaves_errors_(leaves_errors(on.modulation, scope)),
-      records_(vulkan::upload(on.device, frequency_records(on.modulation, groups.largest_intensity_w_sr,
-                                                           scope.bound, groups.diode_count))),
       harmonics_(vulkan::upload(on.device, on.modulation.harmonics)),
+      records_(vulkan::upload(on.device, records_of(on, groups, scope, harmonics_))),
       first_(make_pipeline(on, true, leaves_truth)) {
   const bool is_short = scope.depth_records && single_run_;
   sample_bytes_ = on.modulation.planes * (is_short ? sizeof(shader::vec2) : sizeof(shader::vec4));
@@ -135,7 +149,6 @@ void Demodulation::record_samples(const Recording &at, std::uint32_t frequency) 
                                                 buffers_.ids.words(),
                                                 scene_.planes.words(),
                                                 buffers_.channels.words(),
-                                                harmonics_.words(),
                                                 records_.words(frequency * sizeof(shader::Frequency)),
                                                 buffers_.lit.words(),
                                                 buffers_.terms.words(),
@@ -164,7 +177,7 @@ void Demodulation::record_depths(const Recording &at, std::uint32_t first_freque
       scene_.planes.words(),
       buffers_.sum.words(sample_bytes_ * plane * first_frequency),
       buffers_.channels.words(),
-      holds_ ? buffers_.terms.words() : harmonics_.words(),
+      buffers_.terms.words(),
       records_.words(first_frequency * sizeof(shader::Frequency)),
       scene_.paint.shapes.words(),
       scene_.paint.surfaces.words(),

@@ -10,6 +10,9 @@ namespace pmdsim {
 Pass demodulation_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope,
                        bool leaves_truth = false);
 
+// Whether one dispatch resolves all frequencies of depth records: else it would not find the terms.
+bool resolves_at_once(const Modulation &modulation);
+
 // Whether it leaves the errors that all pixels may have for claims_pass; else it settles its own.
 bool leaves_errors(const Modulation &modulation, const SumScope &scope);
 

@@ -40,7 +40,7 @@ void store_nothing(uint i, DirectPixelsOf output_of) {
   see_nothing(sum);
   Channels to = Channels(output_of.at.channels, constants.plane);
   [[unroll]] for (uint t = 0; t < tones; ++t) {
-    Return nothing = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    Return nothing = store_return(to, output_of.of[t], 1, i, sum);
     hold(to, output_of.at, t, output_of.of[t], i, vec3(0.0), nothing);
   }
   if (lit_is_kept != 0)
@@ -74,7 +74,7 @@ void main() {
   [[unroll]] for (uint t = 0; t < tones; ++t) {
     vec2 z = tone_return(moment, path, run, Tones(constants.tones).at[t]);
     sum.z[0] = vec4(shines ? backscatter * z : vec2(0.0), 0.0, 0.0);
-    Return of_pixel = store_return(to, output_of.of[t], uvec2(0), 1, i, sum);
+    Return of_pixel = store_return(to, output_of.of[t], 1, i, sum);
     hold(to, direct, t, output_of.of[t], i, terms, of_pixel);
   }
   if (lit_is_kept != 0) {

@@ -195,7 +195,7 @@ bool store_pixel(Channels to, UniformPixelsLight light, uint pixel, bool hits, Q
       sum.reference_m = seen.reference_m;
       sum.hits = sum.lit = evaluations;
     }
-    Return of_pixel = store_return(to, frequency, uvec2(0), evaluations, pixel, sum);
+    Return of_pixel = store_return(to, frequency, evaluations, pixel, sum);
     Errors errors = errors_of(frequency, hits ? seen.terms : vec3(0.0), of_pixel, added, hits ? seen.most_m - seen.least_m : 0.0);
     kept = kept && is_kept(frequency, errors);
     worst = Errors(max(worst.distance_m, errors.distance_m), max(worst.amplitude, errors.amplitude));

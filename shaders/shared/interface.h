@@ -364,6 +364,7 @@ struct Frequency {
   vec2 turns_per_m;      // of range, 2 f / c: hi, lo
   vec2 ambiguity_m;      // c / (2 f): hi, lo
   vec2 below;            // the largest floats below 2 pi and below c / (2 f)
+  uvec2 harmonics;       // float[], their amplitudes in the correlation function; nothing but where it has any
   float amplitude_scale; // amplitude per unit of the mean return
   uint first_channel;
   float limit_m, fixed_m, per_condition_m;
@@ -387,7 +388,6 @@ struct DemodulationConstants {
   uvec2 ids;
   uvec2 planes;
   uvec2 channels;   // out: pair by pair of channels (channel_*), of each pixel two values of 32 bits
-  uvec2 harmonics;  // in: float[], amplitudes of the harmonics
   uvec2 frequency;  // in: Frequency
   uvec2 lit;        // in: uint a sample, the diodes that reach it
   uvec2 terms;      // in, where terms are kept: as in AccumulateConstants
@@ -482,8 +482,8 @@ struct DepthDemodulationConstants {
   uvec2 planes;
   uvec2 sum; // as in DemodulationConstants, from here on
   uvec2 channels;
-  uvec2 harmonics_or_errors; // likewise; of sines, where terms are kept, out: as ClaimsConstants::errors
-  uvec2 frequency;
+  uvec2 errors;    // out, where terms are kept: as ClaimsConstants::errors
+  uvec2 frequency; // in: Frequency[]
   uvec2 shapes; // as in PointsConstants
   uvec2 surfaces;
   uvec2 lit; // in: uint a sample, the diodes that reach it

@@ -81,7 +81,7 @@ void pass_on(uint pixel) {
 
 // A return keeps what was asked for, or its pixel passes on, or the return is counted; for all pixels together by claims.comp.
 void hold(Channels to, Frequency frequency, uint pixel, PixelSum sum, Return of_pixel) {
-  vec3 terms = largest_amplitude(constants.harmonics) * sum.terms;
+  vec3 terms = largest_amplitude(frequency) * sum.terms;
   float apart_m = sum.apart_m.y - sum.apart_m.x;
   Errors errors = errors_of(frequency, terms, of_pixel, Errors(0.0, 0.0), apart_m);
   store_bound(to, frequency, pixel, of_pixel, errors);
@@ -106,7 +106,7 @@ void main() {
   sum_samples(pixel, frequency, sum);
   uint samples = constants.samples * constants.samples;
   Channels to = Channels(constants.channels, constants.padded_pixels);
-  Return of_pixel = store_return(to, frequency, constants.harmonics, samples, pixel, sum);
+  Return of_pixel = store_return(to, frequency, samples, pixel, sum);
   if (keeps_terms != 0)
     hold(to, frequency, pixel, sum, of_pixel);
   if (ground_truth != 0) {

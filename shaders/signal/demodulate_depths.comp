@@ -66,9 +66,10 @@ void add_sample(inout PixelSum sum, inout vec4 z[all_planes], Frequency of[frequ
 
 // Stores the bound and the errors of frequency f.
 void hold(Channels to, Frequency frequency, uint f, uint pixel, PixelSum sum, Return of_pixel) {
-  Errors errors = errors_of(frequency, sum.terms, of_pixel, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
+  vec3 terms = largest_amplitude(frequency) * sum.terms;
+  Errors errors = errors_of(frequency, terms, of_pixel, Errors(0.0, 0.0), sum.apart_m.y - sum.apart_m.x);
   store_bound(to, frequency, pixel, of_pixel, errors);
-  store_words(constants.harmonics_or_errors, f * constants.padded_pixels + pixel, floatBitsToUint(held(frequency, errors)));
+  store_words(constants.errors, f * constants.padded_pixels + pixel, floatBitsToUint(held(frequency, errors)));
 }
 
 void store_truth(Channels to, uint pixel, uvec2 first, PixelSum sum) {
@@ -97,7 +98,7 @@ void main() {
   [[unroll]] for (uint f = 0; f < frequencies; ++f) {
     [[unroll]] for (uint p = 0; p < planes; ++p)
       sum.z[p] = z[f * planes + p];
-    Return of_pixel = store_return(to, of[f], constants.harmonics_or_errors, side * side, pixel, sum);
+    Return of_pixel = store_return(to, of[f], side * side, pixel, sum);
     if (keeps_terms != 0)
       hold(to, of[f], f, pixel, sum, of_pixel);
   }

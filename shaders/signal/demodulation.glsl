@@ -95,14 +95,14 @@ vec2 tap_phasor(uint k) {
 }
 
 // The return of a tone, all of its phase.
-vec2 whole_return(PixelSum sum, Frequency frequency, uvec2 harmonics, uint plane) {
+vec2 whole_return(PixelSum sum, Frequency frequency, uint plane) {
   float turns = turn_fraction(multiply(sum.reference_m, turns_per_m(frequency, plane)));
   vec2 z = complex_multiply(compensated_value(sum.z[plane]), unit_phasor(turns));
-  return waveform == waveform_sine ? z : Floats(harmonics).at[plane] * z;
+  return waveform == waveform_sine ? z : Floats(frequency.harmonics).at[plane] * z;
 }
 
 // The N correlation samples, up to the amplitude's scale.
-void find_taps(PixelSum sum, Frequency frequency, uvec2 harmonics, out float tap[taps]) {
+void find_taps(PixelSum sum, Frequency frequency, out float tap[taps]) {
   if (waveform == waveform_square) {
     [[unroll]] for (uint k = 0; k < taps; ++k) {
       uint distinct = taps % 2 == 0 ? k % (taps / 2) : k;
@@ -115,7 +115,7 @@ void find_taps(PixelSum sum, Frequency frequency, uvec2 harmonics, out float tap
   [[unroll]] for (uint k = 0; k < taps; ++k)
     tap[k] = 0.0;
   [[unroll]] for (uint p = 0; p < planes; ++p) {
-    vec2 z = whole_return(sum, frequency, harmonics, p);
+    vec2 z = whole_return(sum, frequency, p);
     [[unroll]] for (uint k = 0; k < taps; ++k)
       tap[k] += dot(z, tap_phasor(k * (p + 1)));
   }
@@ -130,14 +130,14 @@ vec2 demodulate(float tap[taps]) {
 }
 
 // The same without the taps: only harmonics that are 1 or N - 1 modulo N show. If there is none of these, z is exactly 0.
-vec2 demodulate_harmonics(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+vec2 demodulate_harmonics(PixelSum sum, Frequency frequency) {
   vec2 z = vec2(0.0);
   [[unroll]] for (uint p = 0; p < planes; ++p) {
     uint alias = (p + 1) % taps;
     if (alias == 1)
-      z += whole_return(sum, frequency, harmonics, p);
+      z += whole_return(sum, frequency, p);
     else if (alias == taps - 1)
-      z += whole_return(sum, frequency, harmonics, p) * vec2(1.0, -1.0);
+      z += whole_return(sum, frequency, p) * vec2(1.0, -1.0);
   }
   return z;
 }
@@ -162,7 +162,7 @@ RealComplex demodulate_precisely(PixelSum sum) {
 }
 
 // As demodulate_harmonics.
-RealComplex demodulate_harmonics_precisely(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+RealComplex demodulate_harmonics_precisely(PixelSum sum, Frequency frequency) {
   RealComplex z = RealComplex(real(0.0), real(0.0));
   [[unroll]] for (uint p = 0; p < planes; ++p) {
     uint alias = (p + 1) % taps;
@@ -170,16 +170,16 @@ RealComplex demodulate_harmonics_precisely(PixelSum sum, Frequency frequency, uv
       continue;
     Real turns = real_turn_fraction(multiply(sum.reference_m, turns_per_m(frequency, p)));
     RealComplex whole = complex_multiply(precise_value(sum.z[p]), real_unit_phasor(turns));
-    whole = scale_complex(whole, real(Floats(harmonics).at[p]));
+    whole = scale_complex(whole, real(Floats(frequency.harmonics).at[p]));
     z = add_complex(z, alias == 1 ? whole : RealComplex(whole.re, negate(whole.im)));
   }
   return z;
 }
 
-RealComplex precise_return(PixelSum sum, Frequency frequency, uvec2 harmonics) {
+RealComplex precise_return(PixelSum sum, Frequency frequency) {
   return waveform == waveform_sine     ? precise_value(sum.z[0])
          : waveform == waveform_square ? demodulate_precisely(sum)
-                                       : demodulate_harmonics_precisely(sum, frequency, harmonics);
+                                       : demodulate_harmonics_precisely(sum, frequency);
 }
 
 // `turns` in [-1, 1]. Phase and distance are not known where nothing returns. Returns the distance, or 0.
@@ -214,12 +214,12 @@ struct Return {
   float size, distance_m;
 };
 
-// `samples`: S x S of the pixel; `amplitudes`: those of the correlation function's harmonics, where it has any.
-Return store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint samples, uint pixel, PixelSum sum) {
+// `samples`: S x S of the pixel.
+Return store_return(Channels to, Frequency frequency, uint samples, uint pixel, PixelSum sum) {
   float scale = frequency.amplitude_scale / float(samples);
   float tap[taps];
   if ((waveform == waveform_square && precise_sum == 0) || keep_taps != 0)
-    find_taps(sum, frequency, amplitudes, tap);
+    find_taps(sum, frequency, tap);
   if (keep_taps != 0)
     [[unroll]] for (uint k = 0; k < taps; ++k)
       store(to, frequency.first_channel + channel_tap + k, pixel, scale * tap[k]);
@@ -227,13 +227,13 @@ Return store_return(Channels to, Frequency frequency, uvec2 amplitudes, uint sam
   vec2 z;
   Real angle;
   if (precise_sum != 0) {
-    RealComplex whole = precise_return(sum, frequency, amplitudes);
+    RealComplex whole = precise_return(sum, frequency);
     z = vec2(high(whole.re), high(whole.im));
     angle = real_angle_turns(whole);
   } else {
     z = waveform == waveform_sine     ? compensated_value(sum.z[0])
         : waveform == waveform_square ? demodulate(tap)
-                                      : demodulate_harmonics(sum, frequency, amplitudes);
+                                      : demodulate_harmonics(sum, frequency);
     angle = real(angle_turns(z));
   }
   float size = magnitude(z);
@@ -294,13 +294,13 @@ Errors errors_of(Frequency frequency, vec3 terms, Return of_pixel, Errors added,
 }
 
 // The sum of the amplitudes of the harmonics that N taps take for the fundamental: the most that multiplies a term in all.
-float largest_amplitude(uvec2 harmonics) {
+float largest_amplitude(Frequency frequency) {
   if (waveform != waveform_harmonics)
     return 1.0;
   float sum = 0.0;
   [[unroll]] for (uint p = 0; p < planes; ++p) {
     uint alias = (p + 1) % taps;
-    sum += alias == 1 || alias == taps - 1 ? abs(Floats(harmonics).at[p]) : 0.0;
+    sum += alias == 1 || alias == taps - 1 ? abs(Floats(frequency.harmonics).at[p]) : 0.0;
   }
   return sum;
 }

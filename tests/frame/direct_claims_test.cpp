@@ -10,6 +10,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <string>
+#include <string_view>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -43,7 +45,8 @@ Accuracy within(double max_error_m, std::optional<Precision> precision = {}) {
   return accuracy;
 }
 
-Measurement measured(const Room &room, const Accuracy &accuracy, bool on_host = true) {
+Measurement measured(const Room &room, const Accuracy &accuracy, bool on_host = true,
+                     std::string_view record = "to channels at once") {
   SimulatorOptions options;
   options.loop = DiodeLoop::looped; // compiles faster
   options.keep_error_bound = true;
@@ -54,7 +57,7 @@ Measurement measured(const Room &room, const Accuracy &accuracy, bool on_host = 
   if (accuracy.mode == Mode::automatic)
     for (const auto &[name, value] : simulator.path())
       if (name == "record")
-        REQUIRE(value.find("to channels at once") != std::string::npos);
+        REQUIRE(value.find(record) != std::string::npos);
   return simulator.measure();
 }
 
@@ -70,30 +73,55 @@ void check_the_same(const Measurement &host, const Measurement &device) {
     }
 }
 
+void print_heading() { fmt::print("\n{:30} {:>12} {:>12}\n", "records' pixels", "largest um", "bound um"); }
+
+void check_bounds(const std::string &name, const Room &at, std::string_view record) {
+  Accuracy precise;
+  precise.precision = Precision::fp64;
+  const Measurement exact = measured(at, precise), frame = measured(at, within(1e-4), true, record);
+  REQUIRE(frame.accuracy.precision == Precision::fp32);
+  double largest_m = 0.0, bound_m = 0.0;
+  for (std::size_t f = 0; f < frame.returns.size(); ++f)
+    for (std::size_t i = 0; i < frame.range_m.size(); ++i) {
+      const Return &is = frame.returns[f], &should = exact.returns[f];
+      if (!(should.amplitude[i] > 0.0f))
+        continue;
+      const double off_m = std::abs(double(is.distance_m[i]) - double(should.distance_m[i]));
+      REQUIRE(off_m <= double(is.error_bound_m[i]) + 0x1p-24 * double(should.distance_m[i]));
+      REQUIRE(double(is.error_bound_m[i]) <= *frame.accuracy.claimed_m);
+      largest_m = std::max(largest_m, off_m);
+      bound_m = std::max(bound_m, double(is.error_bound_m[i]));
+    }
+  CHECK(bound_m == Approx(*frame.accuracy.claimed_m));
+  fmt::print("{:30} {:12.4f} {:12.4f}\n", name, 1e6 * largest_m, 1e6 * bound_m);
+}
+
 } // namespace
 
 TEST_CASE("every pixel that goes to channels at once keeps its bound") {
-  fmt::print("\n{:30} {:>12} {:>12}\n", "direct pixels", "largest um", "bound um");
-  for (const double order : {1.0, 3.0}) {
-    const Room at = room(order);
-    Accuracy precise;
-    precise.precision = Precision::fp64;
-    const Measurement exact = measured(at, precise), frame = measured(at, within(1e-4));
-    double largest_m = 0.0, bound_m = 0.0;
-    for (std::size_t f = 0; f < frame.returns.size(); ++f)
-      for (std::size_t i = 0; i < frame.range_m.size(); ++i) {
-        const Return &is = frame.returns[f], &should = exact.returns[f];
-        if (!(should.amplitude[i] > 0.0f))
-          continue;
-        const double off_m = std::abs(double(is.distance_m[i]) - double(should.distance_m[i]));
-        REQUIRE(off_m <= double(is.error_bound_m[i]) + 0x1p-24 * double(should.distance_m[i]));
-        REQUIRE(double(is.error_bound_m[i]) <= *frame.accuracy.claimed_m);
-        largest_m = std::max(largest_m, off_m);
-        bound_m = std::max(bound_m, double(is.error_bound_m[i]));
-      }
-    CHECK(bound_m == Approx(*frame.accuracy.claimed_m));
-    fmt::print("{:30} {:12.4f} {:12.4f}\n", fmt::format("cos^{}", order), 1e6 * largest_m, 1e6 * bound_m);
-  }
+  print_heading();
+  for (const double order : {1.0, 3.0})
+    check_bounds(fmt::format("cos^{}", order), room(order), "to channels at once");
+}
+
+TEST_CASE("every pixel of records whose sums are stored keeps its bound") {
+  print_heading();
+  Room at = room(1.0);
+  at.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, 0.1}};
+  check_bounds("harmonics", at, "depth");
+  at.sensor.samples = 2;
+  check_bounds("harmonics, S = 2", at, "depth");
+  at.sensor.waveform = {};
+  check_bounds("sine, S = 2", at, "depth");
+}
+
+TEST_CASE("a bound does not depend on how large all harmonics are together") {
+  Room at = room(1.0);
+  at.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, 0.1}};
+  const Measurement once = measured(at, within(1e-4), true, "depth");
+  for (double &amplitude : at.sensor.waveform.harmonics)
+    amplitude *= 8.0;
+  check_the_same(once, measured(at, within(1e-4), true, "depth"));
 }
 
 TEST_CASE("the host and the device come to the same claim") {
