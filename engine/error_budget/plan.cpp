@@ -113,7 +113,7 @@ void plan_uniform_pixels(const LightFacts &view, const Accuracy &accuracy, const
                          FramePlan &plan) {
   const bool in_float = accuracy.precision != Precision::fp64;
   if (in_float)
-    plan.uniform_groups = groups_of(view, light.illuminators, Precision::fp32);
+    plan.uniform_groups = groups_of(view, light.illuminators, Precision::fp32, 0.0, 1.0); // on the device
   // How much light a sample has is counted in these, also where pixels are only listed.
   plan.uniform_groups.diode_count = plan.all.diode_count;
   if (!in_float)
@@ -231,11 +231,9 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   const ReducedLight light = light_within(view, accuracy, sum.bound, typical, share_of_reduction[attempt]);
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
-  plan.reduced = groups_of(view, light.illuminators, plan.precision,
-                           tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]),
-                           plan.all.near_polynomials         ? NearTables::of_any_powers
-                           : plan.all.polynomials.powers > 0 ? NearTables::of_low_powers
-                                                             : NearTables::none);
+  plan.reduced =
+      groups_of(view, light.illuminators, plan.precision,
+                tolerance_of(view, plan.precision, accuracy, share_of_series[attempt]), plan.all.near_growth);
   plan.reduced.diode_count = plan.all.diode_count; // how much light a sample has is counted in these
   plan.extent = {light.lights, pattern_slope(view.lights, view.visible)};
   const PlannedSum whole{plan.precision, view.sensor.samples};

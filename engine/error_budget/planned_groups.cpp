@@ -8,23 +8,17 @@ namespace {
 
 constexpr double largest_tolerance = 0x1p-14; // no more is worth it
 
-constexpr double usual_powers = 12.0; // of 1 / r
-
-bool may_have_tables(const LightFacts &view, NearTables tables) {
-  return view.on_host && view.sensor.samples == 1 &&
-         (tables == NearTables::of_any_powers ||
-          (tables == NearTables::of_low_powers && !has_high_powers(view)));
-}
-
 // In runs of at most so many blocks.
 SourceGroups in_runs_of(std::uint32_t most_blocks, const LightFacts &view,
                         const std::vector<CameraIlluminator> &lights, Precision precision, double tolerance,
-                        NearTables tables) {
+                        double near_growth) {
   const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
   SourceGroups groups =
       group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks, tolerance);
+  groups.near_growth = near_growth;
+  const bool host_sums = view.on_host && view.sensor.samples == 1 && near_growth > 1.0;
   if (precision == Precision::fp32 && view.modulation.by_moments())
-    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed, may_have_tables(view, tables));
+    choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed, host_sums);
   return groups;
 }
 
@@ -45,24 +39,22 @@ double tolerance_of(const LightFacts &view, Precision precision, const Accuracy 
   return std::min(share * std::min(angle_rad, accuracy.max_amplitude_error), largest_tolerance);
 }
 
-bool has_high_powers(const LightFacts &view) { return inverse_powers(view.model) > usual_powers; }
-
 double growth_of(const SourceGroups &groups) {
   return groups.near_polynomials ? groups.near_polynomials->growth : groups.polynomials.growth;
 }
 
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision, double tolerance, NearTables tables) {
-  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, tables);
+                       Precision precision, double tolerance, double near_growth) {
+  SourceGroups groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, near_growth);
   // What series leave out counts as rounding does, which grows.
   if (const double growth = growth_of(groups); growth > 1.0 && tolerance > 0.0) {
     tolerance /= growth;
-    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, tables);
+    groups = in_runs_of(usual_run_blocks, view, lights, precision, tolerance, near_growth);
   }
   // A window of shadows' bits holds no long run.
   const bool long_runs =
       view.on_host && groups.polynomials.equal_weights && groups.runs.size() > 1 && !view.modulation.lit;
-  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance, tables) : groups;
+  return long_runs ? in_runs_of(long_run_blocks, view, lights, precision, tolerance, near_growth) : groups;
 }
 
 } // namespace pmdsim

@@ -13,14 +13,10 @@ std::vector<double> wavenumbers_rad_m(const Modulation &modulation);
 // double.
 double tolerance_of(const LightFacts &view, Precision precision, const Accuracy &accuracy, double share);
 
-// Which powers of 1 / r tables may stand for: they let rounding grow, and more so where weights fall fast.
-enum class NearTables { none, of_low_powers, of_any_powers };
-bool has_high_powers(const LightFacts &view);
-
-// `tolerance`: of series, over the growth by which such errors count.
+// `tolerance`: of series, over the growth by which such errors count. `near_growth`: of tables that stand for
+// roots; 1: there are none.
 SourceGroups groups_of(const LightFacts &view, const std::vector<CameraIlluminator> &lights,
-                       Precision precision, double tolerance = 0.0,
-                       NearTables tables = NearTables::of_low_powers);
+                       Precision precision, double tolerance = 0.0, double near_growth = largest_near_growth);
 
 // The factor by which rounding grows at most, where powers stand for roots.
 double growth_of(const SourceGroups &groups);

@@ -14,9 +14,8 @@ namespace {
 
 // Rounding at which float is chosen by what most pixels' returns cancel.
 constexpr double widest_typical_m = 10e-6;
-// The share that rounding may take where high powers are taken by tables, and how much it grows in most
-// pixels where low ones are.
-constexpr double share_of_high_powers = 0.25, usual_growth = 2.0;
+// The share of the error that tables may take in place of roots; and the least growth that they are worth.
+constexpr double share_of_tables = 0.9, least_near_growth = 1.5;
 
 bool is_within(const RoundingBound &bound, const Accuracy &accuracy, double condition, double dimming) {
   return bound.distance_m(condition, dimming) < accuracy.max_error_m &&
@@ -56,26 +55,27 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
-// Whether tables leave most pixels room: the rounding of high powers takes a quarter of the error at most.
-bool have_room(const LightFacts &view, const Accuracy &accuracy, const SourceGroups &by_tables) {
+// How much rounding may grow in tables.
+double growth_within(const LightFacts &view, const Accuracy &accuracy, const SourceGroups &by_tables) {
   const auto bound = bound_of(view, by_tables, {Precision::fp32, view.sensor.samples});
-  const bool high = has_high_powers(view);
-  Accuracy part = accuracy;
-  part.max_error_m *= high ? share_of_high_powers : 1.0;
-  part.max_amplitude_error *= high ? share_of_high_powers : 1.0;
-  const double growth = high ? growth_of(by_tables) : std::min(growth_of(by_tables), usual_growth);
-  return bound && is_within(*bound, part, growth, 0.0);
+  if (!bound)
+    return 1.0;
+  const double fixed_m = bound->distance_m(0.0), fixed = bound->amplitude(0.0);
+  return share_of_tables * std::min((accuracy.max_error_m - fixed_m) / (bound->distance_m(1.0) - fixed_m),
+                                    (accuracy.max_amplitude_error - fixed) / (bound->amplitude(1.0) - fixed));
 }
 
-// By tables in place of roots, where those have room. Later plans are in float only if that was asked for.
+// By tables in place of roots, as far as those have room.
 SourceGroups groups_for(const LightFacts &view, const Accuracy &accuracy, Precision precision,
                         std::uint32_t attempt) {
   const double tolerance = tolerance_of(view, precision, accuracy, share_of_series[attempt]);
-  SourceGroups groups = groups_of(view, view.lights, precision, tolerance,
-                                  attempt == 0 ? NearTables::of_any_powers : NearTables::of_low_powers);
-  if (attempt > 0 || !groups.near_polynomials || have_room(view, accuracy, groups))
+  SourceGroups groups = groups_of(view, view.lights, precision, tolerance);
+  if (!groups.near_polynomials)
     return groups;
-  return groups_of(view, view.lights, precision, tolerance, NearTables::none);
+  const double within = growth_within(view, accuracy, groups);
+  if (within >= growth_of(groups))
+    return groups;
+  return groups_of(view, view.lights, precision, tolerance, within > least_near_growth ? within : 1.0);
 }
 
 } // namespace

@@ -176,7 +176,6 @@ bool is_exact_enough(const Run &run, double phase_rad, double tolerance, double 
          run.angle_error_rad <= part * std::max(angle_rad, tolerance);
 }
 constexpr double near_part = 0.25;
-constexpr double largest_near_growth = 4.0; // of rounding: beyond it roots are the more exact
 
 // With the fewest powers that are exact enough.
 std::optional<std::pair<std::uint32_t, Run>> shortest_run(const PathDifference &reach, double inverse_powers,
@@ -218,7 +217,8 @@ std::vector<std::uint32_t> near_powers(std::uint32_t of_frame) {
 
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, double inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
-                                                    std::uint32_t powers, double tolerance) {
+                                                    std::uint32_t powers, double tolerance,
+                                                    double largest_growth) {
   const double phase_rad = wavenumber_rad_m * reach.path_difference_m;
   std::optional<NearPolynomials> widest;
   constexpr int steps = 10;
@@ -229,7 +229,7 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
     const Run run =
         fit_run({-u, u}, reach.farthest_m, inverse_powers, moments, powers, wavenumber_rad_m, &sizes);
     const bool is_enough =
-        is_exact_enough(run, phase_rad, tolerance, near_part) && value(sizes[0], u) <= largest_near_growth;
+        is_exact_enough(run, phase_rad, tolerance, near_part) && value(sizes[0], u) <= largest_growth;
     (is_enough ? within : beyond) = u;
     if (is_enough)
       widest = NearPolynomials{u, run.table};
@@ -239,15 +239,16 @@ std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach,
 
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
                                                         double inverse_powers, std::uint32_t moments,
-                                                        double wavenumber_rad_m, double tolerance) {
+                                                        double wavenumber_rad_m, double tolerance,
+                                                        double largest_growth) {
   MomentPolynomials bound;
   for (const std::uint32_t powers : near_powers(0))
     for (std::size_t i = 0; i < reaches.size(); ++i) {
       const PathDifference &reach = reaches[i];
       if (i > 0 && reach == reaches[i - 1])
         continue;
-      const auto near =
-          fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers, tolerance);
+      const auto near = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers,
+                                             tolerance, largest_growth);
       if (!near)
         continue;
       std::vector<Coefficients> sizes;

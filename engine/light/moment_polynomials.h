@@ -50,7 +50,8 @@ MomentPolynomials fit_polynomials(std::span<const PathDifference> reaches, doubl
 
 // Polynomials of so many powers for places where |u| is at most `largest_u`: the widest whose errors are at
 // most those below, and a quarter of what fit_polynomials allows, whose arguments these are, and whose growth
-// is moderate.
+// is at most `largest_growth`.
+inline constexpr double largest_near_growth = 2.0; // roots are not much slower, and more exact
 struct NearPolynomials {
   double largest_u;
   MomentPolynomials::Table table;
@@ -62,12 +63,14 @@ double near_weight_error(double tolerance);
 double near_angle_error_rad(double tolerance);
 std::optional<NearPolynomials> fit_near_polynomials(const PathDifference &reach, double inverse_powers,
                                                     std::uint32_t moments, double wavenumber_rad_m,
-                                                    std::uint32_t powers, double tolerance);
+                                                    std::uint32_t powers, double tolerance,
+                                                    double largest_growth = largest_near_growth);
 
 // The errors and the growth of all of these tables where a frame has no polynomials, and nearer places draw
 // roots; it has no tables. Nothing where there are none, either.
 std::optional<MomentPolynomials> bound_near_polynomials(std::span<const PathDifference> reaches,
                                                         double inverse_powers, std::uint32_t moments,
-                                                        double wavenumber_rad_m, double tolerance);
+                                                        double wavenumber_rad_m, double tolerance,
+                                                        double largest_growth = largest_near_growth);
 
 } // namespace pmdsim

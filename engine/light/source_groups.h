@@ -47,6 +47,8 @@ struct SourceGroups {
   // What series may leave out of a sum beyond rounding: of the relative weights, and as an angle at the
   // highest frequency, rad.
   double tolerance = 0.0;
+  // How much rounding may grow in tables of powers that stand for roots.
+  double near_growth = largest_near_growth;
   std::uint32_t blocks_per_run =
       1; // of shader::diodes_per_block diodes; short runs are padded with dark ones
   double largest_intensity_w_sr = 0; // what GroupSource::intensity is relative to

@@ -52,8 +52,8 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
                                        least_intensity(groups), groups.tolerance);
   if (groups.polynomials.powers == 0) {
     if (host_sums)
-      groups.near_polynomials =
-          bound_near_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m, groups.tolerance);
+      groups.near_polynomials = bound_near_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,
+                                                       groups.tolerance, groups.near_growth);
     return;
   }
   groups.polynomials.equal_weights = allowed.equal_weights && have_equal_weights(groups, model);

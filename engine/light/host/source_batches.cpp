@@ -106,8 +106,8 @@ std::vector<PowerTable> tables_of(const SourceGroups &groups, const PathDifferen
   const std::uint32_t moments = groups.moments;
   std::vector<PowerTable> tables;
   for (const std::uint32_t powers : near_powers(groups.polynomials.powers)) {
-    const auto fitted =
-        fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers, groups.tolerance);
+    const auto fitted = fit_near_polynomials(reach, inverse_powers, moments, wavenumber_rad_m, powers,
+                                             groups.tolerance, groups.near_growth);
     const auto largest_u = static_cast<float>(fitted ? fitted->largest_u : 0.0);
     if (!(largest_u > (tables.empty() ? 0.0f : tables.back().largest_u)))
       continue;
