@@ -55,14 +55,16 @@ const char *why_unbounded(const std::vector<CameraIlluminator> &lights) {
   return "";
 }
 
-// How much rounding may grow in tables.
+// How much rounding may grow in tables, however dim beams are.
 double growth_within(const LightFacts &view, const Accuracy &accuracy, const SourceGroups &by_tables) {
   const auto bound = bound_of(view, by_tables, {Precision::fp32, view.sensor.samples});
   if (!bound)
     return 1.0;
   const double fixed_m = bound->distance_m(0.0), fixed = bound->amplitude(0.0);
-  return share_of_tables * std::min((accuracy.max_error_m - fixed_m) / (bound->distance_m(1.0) - fixed_m),
-                                    (accuracy.max_amplitude_error - fixed) / (bound->amplitude(1.0) - fixed));
+  const double dimming = bound->beams.darkest;
+  return share_of_tables *
+         std::min((accuracy.max_error_m - fixed_m) / (bound->distance_m(1.0, dimming) - fixed_m),
+                  (accuracy.max_amplitude_error - fixed) / (bound->amplitude(1.0, dimming) - fixed));
 }
 
 // By tables in place of roots, as far as those have room.

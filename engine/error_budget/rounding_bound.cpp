@@ -296,8 +296,10 @@ private:
   // float.
   RoundingBound of_harmonics(double wavenumber_rad_m) const {
     const std::vector<std::uint32_t> shown = shown_harmonics();
-    // With its amplitude, and in the sum of all.
-    const double rotation = (phasor + 1.0 + static_cast<double>(shown.size())) * u_;
+    // With its amplitude, which is a float, and in the sums of all samples and of all harmonics.
+    const double of_samples = scope_.samples > 1 ? 3.0 : 0.0;
+    const double rotation =
+        (phasor + of_samples + static_cast<double>(shown.size())) * u_ + std::max(u_, float_rounding);
     double amplitudes = 0.0, slopes = 0.0, weight = 0.0, angle_rad = 0.0, amplitude = 0.0;
     for (const std::uint32_t h : shown) {
       const double of_harmonic = amplitude_of(h);
@@ -417,11 +419,15 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
     return std::nullopt;
   RoundingBound largest{};
   raise_to(largest, Bound(groups, visible, model, modulation, scope), modulation);
-  if (groups.near_polynomials) { // in place of roots
-    SourceGroups by_powers = groups;
-    by_powers.polynomials = *groups.near_polynomials;
-    raise_to(largest, Bound(by_powers, visible, model, modulation, scope), modulation);
-  }
+  const auto raise_to_sums_by = [&](const MomentPolynomials &polynomials) {
+    SourceGroups otherwise = groups;
+    otherwise.polynomials = polynomials;
+    raise_to(largest, Bound(otherwise, visible, model, modulation, scope), modulation);
+  };
+  if (groups.near_polynomials) // in place of roots
+    raise_to_sums_by(*groups.near_polynomials);
+  if (groups.polynomials.powers > 0 && !scope.beforehand) // the host draws roots where no table does
+    raise_to_sums_by({});
   return largest;
 }
 

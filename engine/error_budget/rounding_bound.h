@@ -17,7 +17,8 @@ namespace pmdsim {
 
 // The error of any pixel against the same sum in exact arithmetic. `condition` is the pixel's, sum of |terms|
 // over |sum|, >= 1, the terms times the factor by which rounding grows there (MomentPolynomials::growth at
-// most); for harmonics the terms are those of all harmonics, each times its amplitude.
+// most); for harmonics the terms are those of all that the taps take for the fundamental, each times its
+// amplitude.
 struct RoundingBound {
   double output_m; // of the distance as a float, at most
   double fixed_m, per_condition_m;

@@ -46,10 +46,9 @@ void choose_polynomials(SourceGroups &groups, const SumModel &model, double wave
   for (const SourceRun &run : groups.runs)
     reaches.push_back(run.reach);
   const double inverse = inverse_powers(model);
-  if (!allowed.polynomial_moments || model.pattern == shader::pattern_general)
-    return;
-  groups.polynomials = fit_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,
-                                       least_intensity(groups), groups.tolerance);
+  if (allowed.polynomial_moments && model.pattern != shader::pattern_general)
+    groups.polynomials = fit_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,
+                                         least_intensity(groups), groups.tolerance);
   if (groups.polynomials.powers == 0) {
     if (host_sums)
       groups.near_polynomials = bound_near_polynomials(reaches, inverse, groups.moments, wavenumber_rad_m,

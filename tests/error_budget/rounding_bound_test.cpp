@@ -3,8 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <random>
 
 using namespace pmdsim;
 
@@ -20,6 +22,7 @@ struct Light {
   std::vector<double> modulation_hz{20e6};
   Waveform waveform{};
   std::uint32_t backscatter = shader::backscatter_flat;
+  std::uint32_t taps = 4;
 };
 
 std::vector<CameraIlluminator> diodes_at(const std::vector<glm::dvec3> &places_m,
@@ -40,6 +43,7 @@ std::optional<RoundingBound> bound_of(const Light &light, const RoundingScope &s
   Sensor sensor;
   sensor.modulation_hz = light.modulation_hz;
   sensor.waveform = light.waveform;
+  sensor.taps = light.taps;
   const Modulation signal = modulation_of(sensor, {});
   const SourceGroups groups =
       group_diodes(light.illuminators, light.visible, signal.largest_wavenumber_rad_m(), scope.precision);
@@ -184,14 +188,52 @@ TEST_CASE("errors of weights turn harmonics by their slope at most") {
   const RoundingBound harmonics = bound_of(light).value();
   CHECK(harmonics.per_weight_m == Approx((1.0 + 3 * 0.1) / 1.1 * sine.per_weight_m));
   CHECK(harmonics.weight_error == Approx(sine.weight_error).epsilon(0.05));
-  // Each harmonic is turned by itself: 13 u of a phase, and 3 u of the weights.
-  const double turned_m = 0.5 * float_rounding / signal_wavenumber_rad_m * (13 + 3);
+  // Each harmonic is turned by itself: 10 u of a phase, 3 u of its amplitude and in the sum, 3 u of the
+  // weights.
+  const double turned_m = 0.5 * float_rounding / signal_wavenumber_rad_m * (10 + 3 + 3);
   CHECK(harmonics.per_condition_m - sine.per_condition_m == Approx(turned_m).epsilon(0.1));
   // The second is not seen by four taps.
   light.waveform.harmonics = {1.0, 5.0};
   CHECK(bound_of(light)->per_weight_m == Approx(sine.per_weight_m));
   light.waveform.harmonics = {0.0, 5.0};
   CHECK(bound_of(light)->per_weight_m == 0.0);
+}
+
+TEST_CASE("weights that are off turn random harmonics within the bound") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  double nearest = 0.0;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    std::vector<glm::dvec3> places_m(6);
+    for (glm::dvec3 &place_m : places_m)
+      place_m = {0.4 * any(random), 0.4 * any(random), 0.4 * any(random)};
+    Light light{diodes_at(places_m)};
+    light.waveform = {Waveform::Kind::harmonics,
+                      {any(random), any(random), any(random), any(random), any(random)}};
+    light.taps = 3 + i % 3;
+    std::complex<double> z, off;
+    double terms = 0.0;
+    for (const glm::dvec3 &place_m : places_m) {
+      const double phase_rad =
+          signal_wavenumber_rad_m * (2.0 + glm::distance(place_m, glm::dvec3(0.0, 0.0, 2.0)));
+      const double weight = 1.0 + any(random), sign = any(random) > 0.0 ? 1.0 : -1.0;
+      for (std::uint32_t h = 1; h <= light.waveform.harmonics.size(); ++h) {
+        const bool shows = h % light.taps == 1, is_mirrored = h % light.taps == light.taps - 1;
+        if (!shows && !is_mirrored)
+          continue;
+        const auto term =
+            weight * light.waveform.harmonics[h - 1] * std::polar(1.0, (shows ? 1.0 : -1.0) * h * phase_rad);
+        z += term;
+        off += sign * term;
+        terms += std::abs(term);
+      }
+    }
+    const double turned_m = 0.5 * std::abs((off / z).imag()) / signal_wavenumber_rad_m;
+    const double bound_m = bound_of(light)->per_weight_m * terms / std::abs(z);
+    REQUIRE(turned_m <= bound_m);
+    nearest = std::max(nearest, turned_m / bound_m);
+  }
+  CHECK(nearest > 0.3); // a third of the bound would not do
 }
 
 TEST_CASE("samples of one pixel at one range, apart across the view of a lamp beside the lens") {

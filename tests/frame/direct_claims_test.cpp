@@ -111,6 +111,11 @@ TEST_CASE("every pixel of records whose sums are stored keeps its bound") {
   check_bounds("harmonics", at, "depth");
   at.sensor.samples = 2;
   check_bounds("harmonics, S = 2", at, "depth");
+  at.sensor.samples = 1;
+  at.sensor.modulation_hz = {20e6, 21e6, 22e6, 23e6, 24e6, 25e6, 26e6}; // more than one dispatch resolves
+  check_bounds("harmonics, seven times", at, "point");
+  at.sensor.modulation_hz = {20e6, 31e6};
+  at.sensor.samples = 2;
   at.sensor.waveform = {};
   check_bounds("sine, S = 2", at, "depth");
 }
