@@ -25,11 +25,15 @@ bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIllum
     VisibleBox box;
     for (const Diode &diode : illuminator.diodes)
       box.add(diode.position_m);
-    const glm::dvec3 centre = 0.5 * (box.low_m + box.high_m);
-    const double radius_m = glm::distance(centre, box.high_m);
-    return std::ranges::all_of(camera.planes, [&](const Plane &plane) {
-      return glm::dot(plane.normal, centre) - plane.offset_m > radius_m;
-    });
+    return all_face(camera, box);
+  });
+}
+
+bool all_face(const CameraScene &camera, const VisibleBox &box) {
+  const glm::dvec3 centre = 0.5 * (box.low_m + box.high_m);
+  const double radius_m = glm::distance(centre, box.high_m);
+  return std::ranges::all_of(camera.planes, [&](const Plane &plane) {
+    return glm::dot(plane.normal, centre) - plane.offset_m > radius_m;
   });
 }
 

@@ -19,5 +19,7 @@ std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illumin
 
 // True where no visible surface can turn its back to a diode: then nothing has to be asked in the sum.
 bool all_face_the_light(const CameraScene &camera, const std::vector<CameraIlluminator> &illuminators);
+// The same of anything within `box`, camera frame.
+bool all_face(const CameraScene &camera, const VisibleBox &box);
 
 } // namespace pmdsim

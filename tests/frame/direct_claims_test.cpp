@@ -2,10 +2,10 @@
 // frame's claim and the pixels that are summed again are the same whether the host finds them or the device.
 
 #include "tests/comparison/light_formula.h"
+#include "tests/frame/kept_bounds.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simulator.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -73,39 +73,24 @@ void check_the_same(const Measurement &host, const Measurement &device) {
     }
 }
 
-void print_heading() { fmt::print("\n{:30} {:>12} {:>12}\n", "records' pixels", "largest um", "bound um"); }
-
 void check_bounds(const std::string &name, const Room &at, std::string_view record) {
   Accuracy precise;
   precise.precision = Precision::fp64;
   const Measurement exact = measured(at, precise), frame = measured(at, within(1e-4), true, record);
   REQUIRE(frame.accuracy.precision == Precision::fp32);
-  double largest_m = 0.0, bound_m = 0.0;
-  for (std::size_t f = 0; f < frame.returns.size(); ++f)
-    for (std::size_t i = 0; i < frame.range_m.size(); ++i) {
-      const Return &is = frame.returns[f], &should = exact.returns[f];
-      if (!(should.amplitude[i] > 0.0f))
-        continue;
-      const double off_m = std::abs(double(is.distance_m[i]) - double(should.distance_m[i]));
-      REQUIRE(off_m <= double(is.error_bound_m[i]) + 0x1p-24 * double(should.distance_m[i]));
-      REQUIRE(double(is.error_bound_m[i]) <= *frame.accuracy.claimed_m);
-      largest_m = std::max(largest_m, off_m);
-      bound_m = std::max(bound_m, double(is.error_bound_m[i]));
-    }
-  CHECK(bound_m == Approx(*frame.accuracy.claimed_m));
-  fmt::print("{:30} {:12.4f} {:12.4f}\n", name, 1e6 * largest_m, 1e6 * bound_m);
+  check_kept_bounds(name, frame, exact);
 }
 
 } // namespace
 
 TEST_CASE("every pixel that goes to channels at once keeps its bound") {
-  print_heading();
+  print_heading_of_bounds("records' pixels");
   for (const double order : {1.0, 3.0})
     check_bounds(fmt::format("cos^{}", order), room(order), "to channels at once");
 }
 
 TEST_CASE("every pixel of records whose sums are stored keeps its bound") {
-  print_heading();
+  print_heading_of_bounds("records' pixels");
   Room at = room(1.0);
   at.sensor.waveform = {Waveform::Kind::harmonics, {1.0, 0.2, 0.1}};
   check_bounds("harmonics", at, "depth");
