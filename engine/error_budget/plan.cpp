@@ -87,19 +87,23 @@ std::optional<ErrorBound> bound_beforehand(const LightFacts &view, const Accurac
   return error_bound_of(accuracy, *rounding, whole_light(view.lights), at_one_range(view, plan.all, sum));
 }
 
-ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundingBound &rounding,
+ReducedLight light_within(const LightFacts &view, const Accuracy &accuracy, const RoundedSum &sum,
                           const TypicalLight &typical, double share) {
   if (share == 0.0 || view.modulation.waveform != shader::waveform_sine)
     return whole_light(view.lights);
-  const double rounding_m = std::min(rounding.distance_m(1.0, typical.dimming),
-                                     rounding.distance_m_at(typical.condition, typical.dimming));
+  const RoundingBound &rounding = sum.bound;
+  // In tables the error of a set grows as rounding does.
+  const double growth = sum.groups.near_polynomials ? sum.groups.near_polynomials->growth : 1.0;
+  const double rounding_m = std::min(rounding.distance_m(growth, typical.dimming),
+                                     rounding.distance_m_at(growth * typical.condition, typical.dimming));
   if (rounding_m >= accuracy.max_error_m) // where samples are farther apart than most pixels' are
     return whole_light(view.lights);
   return reduce_diodes(
       view.lights, view.visible, view.backscatter, wavenumbers_rad_m(view.modulation),
       std::min(share * (accuracy.max_error_m - rounding_m),
-               std::max(least_share_of_reduction * accuracy.max_error_m, share_of_rounding * rounding_m)),
-      share * (accuracy.max_amplitude_error - rounding.amplitude(1.0, typical.dimming)));
+               std::max(least_share_of_reduction * accuracy.max_error_m, share_of_rounding * rounding_m)) /
+          growth,
+      share * (accuracy.max_amplitude_error - rounding.amplitude(growth, typical.dimming)) / growth);
 }
 
 // Where nothing cancels, however dim beams are.
@@ -228,7 +232,7 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   const TypicalLight typical =
       typical_light(view.lights, view.visible, view.modulation.largest_wavenumber_rad_m());
   RoundedSum sum = choose_precision(view, accuracy, typical, attempt);
-  const ReducedLight light = light_within(view, accuracy, sum.bound, typical, share_of_reduction[attempt]);
+  const ReducedLight light = light_within(view, accuracy, sum, typical, share_of_reduction[attempt]);
   plan.precision = sum.precision;
   plan.all = std::move(sum.groups);
   plan.reduced =
