@@ -16,10 +16,7 @@ SourceGroups in_runs_of(std::uint32_t most_blocks, const LightFacts &view,
   SourceGroups groups =
       group_diodes(lights, view.visible, wavenumber_rad_m, precision, most_blocks, tolerance);
   groups.near_growth = near_growth;
-  // Within an error mixed and narrow beams take roots, as tables would let their claims grow two- to
-  // threefold.
-  const bool by_roots = view.model.pattern == shader::pattern_general && view.modulation.keeps_terms;
-  const bool host_sums = view.on_host && view.sensor.samples == 1 && near_growth > 1.0 && !by_roots &&
+  const bool host_sums = view.on_host && view.sensor.samples == 1 && near_growth > 1.0 &&
                          view.modulation.waveform == shader::waveform_sine;
   if (precision == Precision::fp32 && view.modulation.by_moments())
     choose_polynomials(groups, view.model, wavenumber_rad_m, view.allowed, host_sums);

@@ -67,11 +67,14 @@ double growth_within(const LightFacts &view, const Accuracy &accuracy, const Sou
                   (accuracy.max_amplitude_error - fixed) / (bound->amplitude(1.0, dimming) - fixed));
 }
 
-// By tables in place of roots, as far as those have room.
+// By tables in place of roots, as far as those have room; but mixed and narrow beams by roots, as tables
+// would let their claims grow two- to threefold.
 SourceGroups groups_for(const LightFacts &view, const Accuracy &accuracy, Precision precision,
                         std::uint32_t attempt) {
   const double tolerance = tolerance_of(view, precision, accuracy, share_of_series[attempt]);
-  SourceGroups groups = groups_of(view, view.lights, precision, tolerance);
+  const bool by_roots = view.model.pattern == shader::pattern_general;
+  SourceGroups groups =
+      groups_of(view, view.lights, precision, tolerance, by_roots ? 1.0 : largest_near_growth);
   if (!groups.near_polynomials)
     return groups;
   const double within = growth_within(view, accuracy, groups);

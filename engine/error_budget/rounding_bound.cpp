@@ -1,9 +1,8 @@
 #include "engine/error_budget/rounding_bound.h"
 
+#include "engine/error_budget/term_rounding.h"
 #include "engine/light/path_difference.h"
-#include "engine/light/point_polynomials.h"
 #include "engine/light/radiation_laws.h"
-#include "engine/light/rounding_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,8 @@
 // since arg z lies among the phi_m. Errors of all weights by the same part have about half of that effect,
 // since w sin(phi - arg z) sums to 0, so that the mean of |sin| is at most half of the sines' range; where a
 // run's sum is off as a whole, its reference point counts as its phase. An error of each path by b_m metres
-// turns it by condition * kappa * b. Half of the angle over kappa is distance. Below, a and b are counted
-// operation by operation in units of u (engine/light/rounding_units.h).
+// turns it by condition * kappa * b. Half of the angle over kappa is distance. Both errors are counted
+// operation by operation (term_rounding.h), in units of u (engine/light/rounding_units.h).
 
 namespace pmdsim {
 namespace {
@@ -79,69 +78,6 @@ Lengths lengths_of(const SourceGroups &groups, const std::vector<VisibleBox> &vi
   if (scope.samples > 1)
     result.sample_spread_m = scope.sample_spread_m.value_or(std::max(0.0, result.range_m - nearest));
   return result;
-}
-
-LawRounding law_rounding(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
-  return {model.pattern, groups.radius_over_range,
-          scope.beam_edges_are_terms ? beam_cosine : scope.emission_cosine, scope.beams_are_terms};
-}
-
-// The rounding of q / rho^2, u: |q| <= 2 rho R + R^2 has six roundings in its larger part and three in its
-// smaller; 1 / rho^2 is a product and a division of the rounded rho.
-constexpr double inverse_square = division_u + 3.0;
-double stretch_error(double t) { return 12.0 * t + 3.0 * t * t + inverse_square * (2.0 * t + t * t); }
-
-// The rounding of a polynomial's terms, u: the i-th takes i products in the loop over the diodes, then i
-// times 1 / rho^2 and as many sums. Summed beforehand, a coefficient is rounded, and in place of the loop's
-// products come those of the point's coordinates, two sums and a product each, and for heights the sum over
-// the axes.
-double polynomial_error(const SourceGroups &groups, const RoundingScope &scope) {
-  if (scope.beforehand)
-    return beforehand_error_u(groups.polynomials.powers) + 2.0 * groups.polynomials.powers;
-  // The host may take one or two more.
-  const std::vector<std::uint32_t> near = near_powers(groups.polynomials.powers);
-  return 3.0 * *std::ranges::lower_bound(near, groups.polynomials.powers);
-}
-
-// a of I J cos / r^2 by powers of u (moment_polynomials.h): its factors, the polynomial, and u in (1 +
-// u)^(-p/2).
-double power_weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope,
-                          double inverse_powers) {
-  const auto [form, t, least_cosine, beams_are_apart] = law_rounding(groups, model, scope);
-  double error = 4.0 + inverse_square + (inverse_powers - 2.0) * (division_u + 2.0) +
-                 polynomial_error(groups, scope) +
-                 0.5 * inverse_powers * stretch_error(t) / ((1.0 - t) * (1.0 - t));
-  if (model.pattern == shader::pattern_power)
-    error += model.order * (along_error_u(t) / least_cosine + 1.0) +
-             fraction_error_u(model.order, t, least_cosine);
-  else
-    error += law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
-  if (model.backscatter == shader::backscatter_lambert)
-    error += 2.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
-  return error;
-}
-
-// a of I J cos / r^2, u.
-double weight_error(const SourceGroups &groups, const SumModel &model, const RoundingScope &scope) {
-  const double t = groups.radius_over_range, r2 = squared_range_error_u(t);
-  if (groups.polynomials.powers > 0)
-    return power_weight_error(groups, model, scope, inverse_powers(model));
-  const double inverse_square_u = std::max(division_u + 4.0, 2.0 * (host_root_u + 1.0) + 6.0);
-  double error = r2 + inverse_square_u + law_rounding_u(groups.diodes, law_rounding(groups, model, scope));
-  if (model.backscatter == shader::backscatter_lambert)
-    error += 0.5 * r2 + root_u + division_u + 6.0 + cosine_error_u(9.0 + 5.0 * t, t) / scope.incidence_cosine;
-  return error;
-}
-
-// b of e = q / (r + rho), m over u: the rounding of q, R the largest radius, and the rest.
-double excess_error_m(const SourceGroups &groups, const RoundingScope &scope) {
-  const double t = groups.radius_over_range;
-  if (groups.polynomials.powers > 0) // of rho (sqrt(1 + u) - 1), and of the polynomial
-    return groups.radius_m * (6.0 + 1.5 * t) / (1.0 - t) +
-           groups.polynomials.path_terms_m * (polynomial_error(groups, scope) + 3.0) +
-           groups.path_difference_m * inverse_square / (1.0 - t);
-  return groups.radius_m * (12.0 + 2.0 * t) / (2.0 - t) +
-         groups.path_difference_m * (0.25 * squared_range_error_u(t) + 0.5 * root_u + division_u + 4.5);
 }
 
 // The errors of every term: of its weight, relative, with the part of it that no other tone of the frequency
@@ -333,8 +269,7 @@ private:
   std::vector<std::uint32_t> shown_harmonics() const {
     std::vector<std::uint32_t> shown;
     for (std::uint32_t h = 1; h <= modulation_.tones; ++h)
-      if ((h % modulation_.taps == 1 || h % modulation_.taps == modulation_.taps - 1) &&
-          amplitude_of(h) > 0.0)
+      if (taps_show(h, modulation_.taps) && amplitude_of(h) > 0.0)
         shown.push_back(h);
     return shown;
   }
@@ -388,27 +323,6 @@ void raise_to(RoundingBound &largest, const Bound &bound, const Modulation &modu
   }
 }
 
-// A lower bound of the cosine to `axis` of all that lies in `box`, seen from diodes within `from`.
-double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const VisibleBox &box) {
-  const glm::dvec3 low_m = box.low_m - from.high_m, high_m = box.high_m - from.low_m;
-  const glm::dvec3 along_m = glm::min(axis * low_m, axis * high_m);
-  const double height_m = along_m.x + along_m.y + along_m.z;
-  return height_m / glm::length(glm::max(glm::abs(low_m), glm::abs(high_m)));
-}
-
-// At most `most` boxes that hold all of `boxes`.
-std::vector<VisibleBox> merged(const std::vector<VisibleBox> &boxes, std::size_t most) {
-  const std::size_t each = (boxes.size() + most - 1) / most;
-  std::vector<VisibleBox> result;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (i % each == 0)
-      result.emplace_back();
-    result.back().add(boxes[i].low_m);
-    result.back().add(boxes[i].high_m);
-  }
-  return result;
-}
-
 } // namespace
 
 std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
@@ -429,20 +343,6 @@ std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
   if (groups.polynomials.powers > 0 && !scope.beforehand) // the host draws roots where no table does
     raise_to_sums_by({});
   return largest;
-}
-
-double least_emission_cosine(const SourceGroups &groups, const std::vector<VisibleBox> &visible) {
-  constexpr std::size_t most_boxes = 64;
-  const std::vector<VisibleBox> boxes = merged(visible, most_boxes);
-  double least = 1.0;
-  for (std::size_t i = 0; i < groups.diodes.size() && least > grazing_cosine; ++i) {
-    const glm::dvec3 &place_m = groups.positions[i].position_m;
-    if (groups.positions[i].number == no_id || law_of(groups.diodes[i]).edge == nullptr)
-      continue;
-    for (const VisibleBox &box : boxes)
-      least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));
-  }
-  return std::max(least, grazing_cosine);
 }
 
 } // namespace pmdsim

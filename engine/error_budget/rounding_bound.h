@@ -2,6 +2,7 @@
 // A bound of the rounding of a frame, from theory: known before the frame, from the light and from boxes
 // around what is visible.
 
+#include "engine/error_budget/emission_cosine.h"
 #include "engine/light/sum_model.h"
 #include "engine/model/accuracy.h"
 #include "engine/view/camera_scene.h"
@@ -57,7 +58,6 @@ struct RoundingBound {
   }
 };
 
-inline constexpr double grazing_cosine = 0.01;
 inline constexpr double beam_cosine = std::numbers::sqrt2 / 2.0; // beside it a beam's rim begins
 
 // The pixels that the bound is for, and how they are summed.
@@ -85,9 +85,5 @@ struct RoundingScope {
 std::optional<RoundingBound> rounding_bound(const SourceGroups &groups,
                                             const std::vector<VisibleBox> &visible, const SumModel &model,
                                             const Modulation &modulation, const RoundingScope &scope);
-
-// For RoundingScope: a lower bound of the emission cosine over all that is visible, but at least
-// grazing_cosine. Pixels with a smaller one have no bound.
-double least_emission_cosine(const SourceGroups &groups, const std::vector<VisibleBox> &visible);
 
 } // namespace pmdsim

@@ -138,18 +138,16 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
   return classes;
 }
 
-// Whether every sample faces the reduced set's extent, and all of it reaches the sample.
-bool all_in_full_light(const FrameFacts &facts, const FramePlan &plan) {
-  return !facts.modulation.lit && facts.model.all_facing &&
+// Whether the reduced set is worth it for every sample, as each faces all of its extent and all of it reaches
+// the sample. Sums beforehand do not depend on the number of sources; few sources are summed in no more runs
+// and moments than all.
+bool reduced_set_lights_all(const FrameFacts &facts, const FramePlan &plan) {
+  const bool is_worth_it = plan.all.polynomials.point_dimensions == 0 &&
+                           2 * plan.reduced.diodes.size() <= plan.all.diodes.size() &&
+                           plan.reduced.runs.size() <= plan.all.runs.size() &&
+                           plan.reduced.moments <= plan.all.moments;
+  return is_worth_it && !facts.modulation.lit && facts.model.all_facing &&
          (facts.model.backscatter == shader::backscatter_flat || all_face(facts.camera, plan.extent.box));
-}
-
-// Sums beforehand do not depend on the number of sources. Few sources are summed in no more runs and moments
-// than all.
-bool is_worth_reducing(const FramePlan &plan) {
-  return plan.all.polynomials.point_dimensions == 0 &&
-         2 * plan.reduced.diodes.size() <= plan.all.diodes.size() &&
-         plan.reduced.runs.size() <= plan.all.runs.size() && plan.reduced.moments <= plan.all.moments;
 }
 
 std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &plan,
@@ -157,7 +155,7 @@ std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &pla
                                    const PathForms &allowed) {
   const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
   if (unsorted) {
-    const bool reduced = is_worth_reducing(plan) && all_in_full_light(facts, plan);
+    const bool reduced = reduced_set_lights_all(facts, plan);
     std::vector<PixelClass> classes{{PixelsOf::all, reduced, samples, plan.precision, facts.modulation.lit,
                                      reduced ? plan.bound : plan.bound_of_all}};
     add_precise(facts, plan, samples, classes);
@@ -238,9 +236,9 @@ bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const Fr
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
                          uniform_points(facts, plan, request, allowed).has_value();
   const std::size_t all = plan.all.diodes.size(), reduced = plan.reduced.diodes.size();
-  const bool are_alike = is_worth_reducing(plan) && all_in_full_light(facts, plan);
   return !thins_out &&
-         (beforehand || 2 * reduced > all || (on_host && (are_alike || all <= reduced + sorting_sources)));
+         (beforehand || 2 * reduced > all ||
+          (on_host && (all <= reduced + sorting_sources || reduced_set_lights_all(facts, plan))));
 }
 
 // Whether the sums of records can be held against what was asked for.

@@ -51,6 +51,12 @@ struct Waveform {
   std::vector<double> harmonics; // harmonics only, at least one
 };
 
+// Whether N taps take that harmonic for the fundamental: one that is not next to a multiple of N they make 0
+// of (docs/theory.md, "Tones, harmonics and taps").
+constexpr bool taps_show(std::size_t harmonic, std::size_t taps) {
+  return harmonic % taps == 1 || harmonic % taps == taps - 1;
+}
+
 struct Sensor {
   std::string name = "pmd";
   glm::uvec2 resolution{640, 640};        // columns, rows

@@ -364,7 +364,7 @@ struct Frequency {
   vec2 turns_per_m;      // of range, 2 f / c: hi, lo
   vec2 ambiguity_m;      // c / (2 f): hi, lo
   vec2 below;            // the largest floats below 2 pi and below c / (2 f)
-  uvec2 harmonics;       // float[], the amplitudes of the correlation function's
+  uvec2 harmonics;       // float[]: their amplitudes in the correlation function
   float amplitude_scale; // amplitude per unit of the mean return
   uint first_channel;
   float limit_m, fixed_m, per_condition_m;

@@ -69,18 +69,12 @@ void refuse_doubled_names(const std::vector<Named> &all, const char *kind, const
                                                         kind, in_quotes(all[i].name)));
 }
 
-// N taps make 0 of harmonic h unless h is next to a multiple of N (docs/theory.md, "Tones, harmonics and
-// taps").
-bool shows(std::size_t harmonic, std::size_t taps) {
-  return harmonic % taps == 1 || harmonic % taps == taps - 1;
-}
-
 void warn_of_unseen_harmonics(Setup &setup) {
   for (const Sensor &sensor : setup.start.sensors) {
     const std::vector<double> &harmonics = sensor.waveform.harmonics;
     bool any = sensor.waveform.kind != Waveform::Kind::harmonics;
     for (std::size_t i = 0; i < harmonics.size(); ++i)
-      any = any || (harmonics[i] != 0.0 && shows(i + 1, sensor.taps));
+      any = any || (harmonics[i] != 0.0 && taps_show(i + 1, sensor.taps));
     if (!any)
       setup.warnings.push_back(
           fmt::format("sensor {}: none of its harmonics shows in {} taps (only number 1, {}, "
