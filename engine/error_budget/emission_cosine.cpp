@@ -8,9 +8,9 @@
 namespace pmdsim {
 namespace {
 
-// A lower bound of the cosine to `axis` of all that lies in `box`, seen from diodes within `from`.
-double least_cosine(const glm::dvec3 &axis, const VisibleBox &from, const VisibleBox &box) {
-  const glm::dvec3 low_m = box.low_m - from.high_m, high_m = box.high_m - from.low_m;
+// A lower bound of the cosine to `axis` of all that lies in `box`, seen from `place_m`.
+double least_cosine(const glm::dvec3 &axis, const glm::dvec3 &place_m, const VisibleBox &box) {
+  const glm::dvec3 low_m = box.low_m - place_m, high_m = box.high_m - place_m;
   const glm::dvec3 along_m = glm::min(axis * low_m, axis * high_m);
   const double height_m = along_m.x + along_m.y + along_m.z;
   return height_m / glm::length(glm::max(glm::abs(low_m), glm::abs(high_m)));
@@ -40,7 +40,7 @@ double least_emission_cosine(const SourceGroups &groups, const std::vector<Visib
     if (groups.positions[i].number == no_id || law_of(groups.diodes[i]).edge == nullptr)
       continue;
     for (const VisibleBox &box : boxes)
-      least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), {place_m, place_m}, box));
+      least = std::min(least, least_cosine(glm::dvec3(groups.diodes[i].axis), place_m, box));
   }
   return std::max(least, grazing_cosine);
 }

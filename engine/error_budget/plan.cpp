@@ -67,13 +67,15 @@ std::optional<SureBound> sure_bound(const LightFacts &view, const ErrorBound &bo
                    bound.amplitude_fixed + relative};
 }
 
-// Where no bound is known before the frame, every pixel makes sure of the limits, so that these are claimed.
-void claim_within_limits(const LightFacts &view, const ErrorBound &bound, FramePlan &plan) {
+// Nothing where no bound is known before the frame, or that is beyond the limits: pixels are held against
+// them one by one then.
+void claim_what_is_sure(const LightFacts &view, const ErrorBound &bound, FramePlan &plan) {
   const auto sure = sure_bound(view, bound, plan);
-  plan.surely_kept = sure && sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit;
-  plan.claimed_m = plan.surely_kept ? sure->distance_m : bound.limit_m;
-  if (sure || std::isfinite(bound.amplitude_limit))
-    plan.claimed_amplitude = std::min(sure ? sure->amplitude : bound.amplitude_limit, bound.amplitude_limit);
+  if (!sure || !(sure->distance_m <= bound.limit_m && sure->amplitude <= bound.amplitude_limit))
+    return;
+  plan.surely_kept = true;
+  plan.claimed_m = sure->distance_m;
+  plan.claimed_amplitude = sure->amplitude;
 }
 
 std::optional<ErrorBound> bound_beforehand(const LightFacts &view, const Accuracy &accuracy,
@@ -254,7 +256,7 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
     worst = worse_of(worst, *plan.bound_of_all);
   if (plan.bound_beforehand)
     worst = worse_of(worst, *plan.bound_beforehand);
-  claim_within_limits(view, worst, plan);
+  claim_what_is_sure(view, worst, plan);
   plan_precise_pixels(view, accuracy, typical, plan);
   return plan;
 }
