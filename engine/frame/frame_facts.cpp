@@ -17,7 +17,8 @@ Projection project_blocks(const vulkan::Device &device, const CameraScene &camer
                                                  : chip_blocks(sensor, fragments));
 }
 
-// With shadows, a quarter of the usual on GPUs: 7e7 rays of 256 diodes at a time, which takes none 100 ms.
+// With shadows, a quarter of the usual on GPUs: 7e7 pairs of sample and diode at a time, which takes none 100
+// ms.
 std::uint32_t largest_strip(const vulkan::Device &device, const Modulation &modulation,
                             const Sensor &sensor) {
   const std::uint32_t usual = modulation.lit && !device.is_cpu() ? 1u << 18 : 1u << 20;

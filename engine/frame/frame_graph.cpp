@@ -4,7 +4,6 @@
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <set>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 
 #include "engine/error_budget/plan.h"
 #include "engine/frame/frame_facts.h"
-#include "engine/light/source_windows.h"
 
 #include <optional>
 #include <string>

@@ -4,7 +4,6 @@
 #include "engine/light/radiation_laws.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pmdsim {
 SumModel sum_model(const std::vector<CameraIlluminator> &illuminators, Backscatter backscatter,

@@ -125,9 +125,6 @@ constexpr bool is_of_taps(const ChannelRow &row) {
 constexpr bool is_of_frequency(const ChannelRow &row) {
   return std::holds_alternative<std::vector<float> Return::*>(row.at) || is_of_taps(row);
 }
-constexpr bool is_id(const ChannelRow &row) {
-  return std::holds_alternative<std::vector<std::uint32_t> Measurement::*>(row.at);
-}
 
 constexpr const ChannelRow &row_of(const ChannelMember &at) {
   return *std::ranges::find(channel_rows, at, &ChannelRow::at);

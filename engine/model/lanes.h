@@ -65,6 +65,16 @@ inline Floats larger(const Floats &a, const Floats &b) {
   return reinterpret_cast<Floats>(_mm256_max_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
 }
 #endif
+
+// Over the lanes.
+inline float least_of(const Floats &v) {
+  float least = v[0];
+  for (int lane = 1; lane < lanes; ++lane)
+    least = v[lane] < least ? v[lane] : least;
+  return least;
+}
+inline float most_of(const Floats &v) { return -least_of(-v); }
+
 inline Floats absolute(const Floats &v) {
   return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & 0x7fffffff);
 }

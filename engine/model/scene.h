@@ -80,6 +80,12 @@ struct Scene {
   std::uint32_t object_of(std::uint32_t id) const {
     return id < triangles.size() ? triangles[id].object : discs[id - triangles.size()].object;
   }
+  bool is_disc(std::uint32_t id) const { return id >= triangles.size(); }
+  // Whether a shape's surface may not be there everywhere.
+  bool is_masked(std::uint32_t id) const {
+    const std::optional<Paint> &paint = surfaces[surface_of(id)].paint;
+    return paint && paint->alpha_cutoff > 0.0;
+  }
 };
 
 // Backscatter B of a point lit from direction w, n the normal turned to the lens (1/sr):

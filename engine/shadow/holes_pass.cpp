@@ -69,12 +69,6 @@ HoleBoxes boxes_over(const std::vector<shader::Occluder> &shapes) {
   return made;
 }
 
-template <class T>
-vulkan::Buffer upload_hole_texels(const vulkan::Device &device, const std::vector<T> &texels) {
-  return vulkan::upload(device, std::as_bytes(std::span(texels)),
-                        vk::BufferUsageFlagBits::eUniformTexelBuffer);
-}
-
 } // namespace
 
 struct HolesPass::State {
@@ -127,8 +121,8 @@ void HolesPass::State::upload_shapes(const PassSetup &on, const std::vector<shad
   const std::vector<shader::Occluder> ordered = ordered_by_place(unordered);
   const HoleBoxes boxes = boxes_over(ordered);
   ranges = boxes.ranges;
-  shapes = upload_hole_texels(on.device, ordered);
-  shape_boxes = upload_hole_texels(on.device, boxes.all);
+  shapes = vulkan::upload_texels(on.device, ordered);
+  shape_boxes = vulkan::upload_texels(on.device, boxes.all);
   record.paints = on.scene.paint.shapes.words();
   record.surfaces = on.scene.paint.surfaces.words();
   record.shapes = static_cast<std::uint32_t>(ordered.size());
@@ -159,7 +153,7 @@ void HolesPass::State::add_window(const PassSetup &on, const SourceWindow &windo
     places.insert(places.end(), std::begin(bundle.places), std::end(bundle.places));
   Window &made = windows.emplace_back();
   made.bundles = vulkan::upload(on.device, diodes.bundles);
-  made.places = upload_hole_texels(on.device, places);
+  made.places = vulkan::upload_texels(on.device, places);
   shader::HolesWindow of_window = record;
   of_window.box = diodes.box;
   of_window.bundles = made.bundles.words();

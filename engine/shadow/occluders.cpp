@@ -39,10 +39,7 @@ std::vector<glm::dvec3> all_diodes_m(const std::vector<CameraIlluminator> &illum
   return positions_m;
 }
 
-bool may_have_holes(const Scene &scene, std::uint32_t id) {
-  const auto &paint = scene.surfaces[scene.surface_of(id)].paint;
-  return id >= scene.triangles.size() || (paint && paint->alpha_cutoff > 0.0);
-}
+bool may_have_holes(const Scene &scene, std::uint32_t id) { return scene.is_disc(id) || scene.is_masked(id); }
 
 shader::Occluder occluder_of(const CameraTriangle &triangle, const Plane &plane) {
   const auto &[a, b, c] = triangle.corners_m;

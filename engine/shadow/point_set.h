@@ -3,7 +3,6 @@
 
 #include "engine/view/camera_scene.h"
 
-#include <span>
 #include <vector>
 
 namespace pmdsim {

@@ -32,12 +32,6 @@ Buffer sweep_storage(const vulkan::Device &device, vk::DeviceSize bytes, vk::Buf
   return {device, bytes, vk::BufferUsageFlagBits::eStorageBuffer | more, vulkan::Memory::device};
 }
 
-template <class T>
-Buffer upload_texels(const vulkan::Device &device, const std::vector<T> &texels) {
-  return vulkan::upload(device, std::as_bytes(std::span(texels)),
-                        vk::BufferUsageFlagBits::eUniformTexelBuffer);
-}
-
 shader::SweepBoard board_record(const Board &board, const SweepItems &items, const TreeLevels &levels,
                                 double world_rounding_m) {
   shader::SweepBoard record{};
@@ -242,9 +236,10 @@ void SweepPass::State::add_board(const PassSetup &on, const Board &board, const 
   most_items = std::max(most_items, edges.items.size() + hidden.items.size());
   std::vector<shader::SweepPlanes> planes = items.planes;
   planes.resize(edges.items.size());
-  boards.push_back({upload_texels(device, edges.items), upload_texels(device, edges.boxes),
-                    vulkan::upload(device, planes), upload_texels(device, hidden.items),
-                    upload_texels(device, hidden.boxes), edges.levels, hidden.levels, !items.hidden.empty()});
+  boards.push_back({vulkan::upload_texels(device, edges.items), vulkan::upload_texels(device, edges.boxes),
+                    vulkan::upload(device, planes), vulkan::upload_texels(device, hidden.items),
+                    vulkan::upload_texels(device, hidden.boxes), edges.levels, hidden.levels,
+                    !items.hidden.empty()});
   specialization.set(shader::constant_lens_apart, std::abs(board.lens_z_m) > 1e-9);
 }
 
@@ -281,10 +276,10 @@ void SweepPass::State::add_window(const PassSetup &on, const Board &board, const
   const vulkan::Device &device = on.device;
   const SweepTables tables = sweep_tables(board, places_of(windows[window], groups));
   WindowBuffers &of = of_window[window];
-  of.ranks = upload_texels(device, tables.ranks);
-  of.prefixes = upload_texels(device, tables.prefixes);
-  of.lines = upload_texels(device, tables.lines);
-  of.diodes = upload_texels(device, tables.diodes);
+  of.ranks = vulkan::upload_texels(device, tables.ranks);
+  of.prefixes = vulkan::upload_texels(device, tables.prefixes);
+  of.lines = vulkan::upload_texels(device, tables.lines);
+  of.diodes = vulkan::upload_texels(device, tables.diodes);
   of.rank_bins = static_cast<std::uint32_t>(tables.ranks.size());
   of.board = boards.size() - 1;
   of.first_of_board = window == 0 || !std::ranges::binary_search(board.windows, window - 1);

@@ -2,11 +2,9 @@
 // A strip's samples as the shadow passes take them: in tiles.
 
 #include "engine/sampling/raster_blocks.h"
-#include "engine/sampling/sample_grid.h"
 #include "shaders/shared/interface.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace pmdsim {

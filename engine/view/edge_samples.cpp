@@ -62,11 +62,8 @@ public:
   }
 
 private:
-  bool is_disc(std::size_t index) const { return camera_.triangles[index].id >= scene_.triangles.size(); }
-  bool has_holes(std::size_t index) const {
-    const auto &paint = scene_.surfaces[scene_.surface_of(camera_.triangles[index].id)].paint;
-    return paint && paint->alpha_cutoff > 0.0;
-  }
+  bool is_disc(std::size_t index) const { return scene_.is_disc(camera_.triangles[index].id); }
+  bool is_masked(std::size_t index) const { return scene_.is_masked(camera_.triangles[index].id); }
 
   // Moved so that samples are in the middles of cells.
   Seen seen(std::size_t index) const {
@@ -113,7 +110,7 @@ private:
         if (along >= shape.nearest_m * (1.0 - depth_slack) &&
             along <= shape.farthest_m * (1.0 + depth_slack) &&
             (is_disc(index) ? is_in_disc(index, along * ray) : is_in_triangle(index, ray)))
-          (has_holes(index) ? holed_ : solid_)[sample].take(camera_.triangles[index].id, along);
+          (is_masked(index) ? holed_ : solid_)[sample].take(camera_.triangles[index].id, along);
       });
   }
 

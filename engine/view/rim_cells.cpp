@@ -104,7 +104,7 @@ public:
     for (const Side &side : sides)
       add_side(side);
     for (std::size_t i = 0; i < camera_.triangles.size(); ++i)
-      if (is_disc(i) || has_holes(i))
+      if (is_disc(i) || is_masked(i))
         add_shape(i);
     far_m_.assign(cells_.number(), std::numeric_limits<double>::infinity());
     if (!far_m_.empty())
@@ -119,11 +119,8 @@ private:
     shader::RimCandidate candidate;
   };
 
-  bool is_disc(std::size_t index) const { return camera_.triangles[index].id >= scene_.triangles.size(); }
-  bool has_holes(std::size_t index) const {
-    const auto &paint = scene_.surfaces[scene_.surface_of(camera_.triangles[index].id)].paint;
-    return paint && paint->alpha_cutoff > 0.0;
-  }
+  bool is_disc(std::size_t index) const { return scene_.is_disc(camera_.triangles[index].id); }
+  bool is_masked(std::size_t index) const { return scene_.is_masked(camera_.triangles[index].id); }
   Seen seen(std::size_t index) const { return seen_in(block_, camera_.triangles[index].corners_m); }
 
   void add_side(const Side &side) {
@@ -134,7 +131,7 @@ private:
 
   // Adds all cells that the shape touches, but for those within a disc.
   void add_shape(std::size_t index) {
-    const bool whole = has_holes(index);
+    const bool whole = is_masked(index);
     const OutlineCells shape(seen(index).outline, block_.fragments);
     for (std::int64_t row = shape.rows().first; row <= shape.rows().last; ++row) {
       const CellSpan columns = shape.touched(row);
@@ -181,7 +178,7 @@ private:
   void add_candidates(std::size_t index) {
     const Seen shape = seen(index);
     const DepthsInCells depths(shape, camera_.planes[index], camera_from_raster_);
-    const bool hides = !is_disc(index) && !has_holes(index);
+    const bool hides = !is_disc(index) && !is_masked(index);
     const OutlineCells outline(shape.outline, block_.fragments);
     for (std::int64_t row = outline.rows().first; row <= outline.rows().last; ++row) {
       const CellSpan touched = outline.touched(row);

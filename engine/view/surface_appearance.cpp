@@ -10,8 +10,6 @@
 namespace pmdsim {
 namespace {
 
-bool is_disc(const Scene &scene, std::uint32_t id) { return id >= scene.triangles.size(); }
-
 // Gradients of a triangle's barycentric coordinates of b and c.
 struct Barycentric {
   glm::dvec3 b, c;
@@ -28,7 +26,7 @@ Barycentric barycentric(const std::array<glm::dvec3, 3> &corners_m) {
 class Interpolation {
 public:
   Interpolation(const CameraTriangle &shape, const Scene &scene) {
-    if (is_disc(scene, shape.id)) {
+    if (scene.is_disc(shape.id)) {
       vertices_.fill(scene.discs[shape.id - scene.triangles.size()].vertex);
     } else {
       vertices_ = scene.triangles[shape.id].vertices;
@@ -75,7 +73,7 @@ void set_colours(shader::ShapePaint &record, const Interpolation &shape, const S
 }
 
 shader::ShapePaint shape_paint(const CameraTriangle &shape, const Scene &scene) {
-  const bool disc = is_disc(scene, shape.id);
+  const bool disc = scene.is_disc(shape.id);
   const DoublePair4 origin(disc ? (shape.corners_m[0] + shape.corners_m[1] + shape.corners_m[2]) / 3.0
                                 : shape.corners_m[0],
                            disc ? scene.discs[shape.id - scene.triangles.size()].radius_m : 0.0);
@@ -151,18 +149,15 @@ void TextureCache::drop_unused() {
 }
 
 PaintUse paint_use(const CameraScene &camera, const Scene &scene) {
-  const auto has_holes = [&](const CameraTriangle &shape) {
-    const auto &paint = scene.surfaces[scene.surface_of(shape.id)].paint;
-    return paint && paint->alpha_cutoff > 0.0;
-  };
+  const auto is_masked = [&](const CameraTriangle &shape) { return scene.is_masked(shape.id); };
   PaintUse use;
   for (const CameraTriangle &shape : camera.triangles) {
-    const bool disc = is_disc(scene, shape.id);
+    const bool disc = scene.is_disc(shape.id);
     use.painted = use.painted || disc || scene.surfaces[scene.surface_of(shape.id)].paint;
-    use.cutouts = use.cutouts || disc || has_holes(shape);
+    use.cutouts = use.cutouts || disc || is_masked(shape);
   }
   // Holes that the lens does not see let light through all the same.
-  use.holes_in_the_light = std::ranges::any_of(camera.hidden, has_holes);
+  use.holes_in_the_light = std::ranges::any_of(camera.hidden, is_masked);
   return use;
 }
 

@@ -64,5 +64,9 @@ template <class T>
 Buffer upload(const Device &device, const std::vector<T> &values) {
   return upload(device, std::as_bytes(std::span(values)));
 }
+template <class T>
+Buffer upload_texels(const Device &device, const std::vector<T> &texels) {
+  return upload(device, std::as_bytes(std::span(texels)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+}
 
 } // namespace pmdsim::vulkan

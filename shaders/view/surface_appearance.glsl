@@ -81,10 +81,4 @@ Look look_of(uvec2 shape_paints, uvec2 surface_paints, uint id, Real3 point) {
   return look_of(shape, SurfacePaints(surface_paints).at[shape.surface], point);
 }
 
-// Whether the shape may have holes or is less than its triangle.
-bool may_be_absent(uvec2 shape_paints, uvec2 surface_paints, uint id) {
-  ShapePaint shape = ShapePaints(shape_paints).at[id];
-  return shape.origin_hi.w > 0.0 || SurfacePaints(surface_paints).at[shape.surface].alpha_cutoff > 0.0;
-}
-
 #endif

@@ -54,6 +54,10 @@ std::vector<std::string> documented_rows() {
   return rows;
 }
 
+bool is_id(const ChannelRow &row) {
+  return std::holds_alternative<std::vector<std::uint32_t> Measurement::*>(row.at);
+}
+
 std::string documented(const ChannelRow &row) {
   const std::string name(row.name);
   const std::string names = is_of_taps(row) ? "`" + name + "0`, `" + name + "1`, ..." : "`" + name + "`";

@@ -74,27 +74,19 @@ void add_sources(const SourceBatch &batch, const BatchView &at, const Law &law, 
   }
 }
 
-inline float least(const Floats &v) {
-  float result = v[0];
-  for (int i = 1; i < lanes; ++i)
-    result = std::min(result, v[i]);
-  return result;
-}
-inline float most(const Floats &v) { return -least(-v); }
-
 // Limits of the angles between a batch's axis and the ways from its sources to the samples.
 struct Tangents {
   float least, most;
 };
 
 inline Tangents tangents_of(const SourceBatch &batch, const BatchView &at) {
-  if (!(least(at.along_m) > 0.0f))
+  if (!(least_of(at.along_m) > 0.0f))
     return {0.0f, 1e9f};
   const Floats inverse = 1.0f / at.along_m;
   const Floats off_axis = root(larger(at.x_m * at.x_m + at.y_m * at.y_m, all(tiny)));
   constexpr float slack = 1e-5f;
-  return {least(larger(off_axis - batch.radius_m, all(0.0f)) * inverse) * (1.0f - slack),
-          most((off_axis + batch.radius_m) * inverse) * (1.0f + slack)};
+  return {least_of(larger(off_axis - batch.radius_m, all(0.0f)) * inverse) * (1.0f - slack),
+          most_of((off_axis + batch.radius_m) * inverse) * (1.0f + slack)};
 }
 
 // The first step of a stretch of NearAngles::width that holds all angles, if there is one.

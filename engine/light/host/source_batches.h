@@ -8,7 +8,6 @@
 #include <deque>
 #include <map>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace pmdsim {

@@ -6,7 +6,7 @@
 
 namespace pmdsim {
 
-// The sum and the demodulation of `groups`, which are one run, within a scope of depth records: summed
+// The sum and the demodulation of `groups`, of any number of runs, within a scope of depth records: summed
 // beforehand where the scope is, else source by source, with the bits of the only window where it is
 // shadowed. Nothing may be painted.
 Pass host_pixels_pass(const PassSetup &on, const SourceGroups &groups, const SumScope &scope);

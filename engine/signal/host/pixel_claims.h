@@ -10,13 +10,6 @@
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
-inline float most_of(const Floats &v) {
-  float most = v[0];
-  for (int lane = 1; lane < lanes; ++lane)
-    most = std::max(most, v[lane]);
-  return most;
-}
-
 // Of the vectors of one part of a strip, one after the other.
 class HeldPixels {
 public:
