@@ -1,6 +1,7 @@
 #include "engine/error_budget/plan.h"
 
 #include "engine/error_budget/planned_bounds.h"
+#include "engine/error_budget/planned_field.h"
 #include "engine/error_budget/planned_groups.h"
 #include "engine/error_budget/planned_precision.h"
 #include "engine/light/radiation_laws.h"
@@ -249,10 +250,14 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
     plan.bound = error_bound_of(accuracy, *of_reduced, light, at_one_range(view, plan.reduced, whole));
   else
     plan.bound = error_bound_of(accuracy, sum.bound, light, of_all);
+  if (accuracy.mode == Mode::automatic && attempt == 0 && plan.precision == Precision::fp32)
+    plan.field = plan_field(view, plan.all, *plan.bound_of_all, typical);
   plan.bound_beforehand = bound_beforehand(view, accuracy, plan);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));
-  if (view.modulation.lit || view.model.backscatter != shader::backscatter_flat)
+  if (plan.field)
+    worst = worse_of(worst, plan.field->bound);
+  if (plan.field || view.modulation.lit || view.model.backscatter != shader::backscatter_flat)
     worst = worse_of(worst, *plan.bound_of_all);
   if (plan.bound_beforehand)
     worst = worse_of(worst, *plan.bound_beforehand);

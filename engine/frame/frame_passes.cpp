@@ -256,6 +256,7 @@ void list_class(const FrameBasis &on, PixelsOf who, const ClassLists &lists, con
                  .list = list,
                  .later = later,
                  .looped = who == PixelsOf::precise,
+                 .field = who == PixelsOf::all ? on.path.field : std::nullopt,
                  .bound = pixels->bound};
   const auto of_windows = pixels->reduced ? std::vector{all_runs(groups)} : on.windows;
   if (on.path.sums_records && who == PixelsOf::all) {

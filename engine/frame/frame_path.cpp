@@ -142,7 +142,7 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
 // the sample. Sums beforehand do not depend on the number of sources; few sources are summed in no more runs
 // and moments than all.
 bool reduced_set_lights_all(const FrameFacts &facts, const FramePlan &plan) {
-  const bool is_worth_it = plan.all.polynomials.point_dimensions == 0 &&
+  const bool is_worth_it = !plan.field && plan.all.polynomials.point_dimensions == 0 &&
                            2 * plan.reduced.diodes.size() <= plan.all.diodes.size() &&
                            plan.reduced.runs.size() <= plan.all.runs.size() &&
                            plan.reduced.moments <= plan.all.moments;
@@ -238,7 +238,8 @@ bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const Fr
   const std::size_t all = plan.all.diodes.size(), reduced = plan.reduced.diodes.size();
   return !thins_out &&
          (beforehand || 2 * reduced > all ||
-          (on_host && (all <= reduced + sorting_sources || reduced_set_lights_all(facts, plan))));
+          (on_host &&
+           (plan.field || all <= reduced + sorting_sources || reduced_set_lights_all(facts, plan))));
 }
 
 // Whether the sums of records can be held against what was asked for.
@@ -273,7 +274,8 @@ constexpr std::array surface_names{"constant, all facing", "constant, tested", "
 constexpr std::array pattern_names{"isotropic", "one power of the cosine", "powers of the cosine",
                                    "diagram around the axis", "any"};
 std::string host_sum_text(const FramePath &path) {
-  return path.host_sum == HostSum::all       ? ", on the host"
+  return path.field ? fmt::format(", on the host at nodes of {0} x {0} pixels", path.field->grid.side)
+         : path.host_sum == HostSum::all     ? ", on the host"
          : path.host_sum != HostSum::partial ? ""
          : path.windows > 0                  ? ", shaded samples on the host"
                                              : ", samples that turn away on the host";
@@ -362,6 +364,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.point_dimensions = point_dimensions(path, facts, plan);
   path.host_pixels = can_make_pixels_on_host(path, facts, allowed);
   sum_facing_beforehand(facts, plan, path);
+  if (path.host_pixels && path.host_sum == HostSum::all)
+    path.field = plan.field;
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;

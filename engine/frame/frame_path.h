@@ -62,6 +62,7 @@ struct FramePath {
   std::uint32_t
       point_dimensions; // of the polynomials that unshadowed samples' sums are; 0: loops over sources
   HostSum host_sum;
+  std::optional<InterpolatedField> field; // in which the host's sums are interpolated
   bool single_run;       // all sources are one run
   bool one_backscatter;  // need not be looked up
   bool sums_records;     // the class of all pixels is summed from depth records

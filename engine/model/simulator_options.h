@@ -30,6 +30,7 @@ struct PathForms {
   bool host_sweep = true;             // and claims: on the host, where the device is its processor
   bool host_sum = true;               // of depth records that are not summed beforehand, likewise
   bool host_pixels = true;            // from depth records to channels at once, likewise
+  bool incident_field = true;         // within an error, the sums of those between nodes, not at each
 };
 
 struct SimulatorOptions {

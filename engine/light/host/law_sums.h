@@ -2,6 +2,7 @@
 // The data of the host's sums over the sources, as plain arrays: its loops are compiled once for each
 // instruction set, so they share no code with the rest of the program.
 
+#include "engine/light/field_grid.h"
 #include "engine/model/exponent.h"
 #include "engine/sampling/host/sample_source.h"
 
@@ -83,6 +84,7 @@ struct LawSums {
   // Out: for each run a plane for each moment, and one for the sum of W rho^-p, which the terms of
   // polynomials are relative to, or of w where roots are drawn. nullptr where the host makes the pixels.
   float *run_moments;
+  const FieldGrid *field; // nullptr: each sample has sums of its own
 };
 
 // Sums for some rows of all samples, or for listed blocks, the last one excluded. One for each instruction

@@ -33,7 +33,8 @@ void sum_vector(const LawSums &of, VectorSamples &samples) {
 }
 
 void sum_rows(const LawSums &of, std::uint32_t first, std::uint32_t last) {
-  for_each_vector_of_rows(of.samples.strip.columns, first, last,
+  const std::uint32_t columns = of.samples.strip.columns;
+  for_each_vector_of_rows(columns, {0, columns}, {first, last},
                           [&](VectorSamples &samples) { sum_vector(of, samples); });
 }
 

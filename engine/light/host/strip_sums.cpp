@@ -25,7 +25,7 @@ StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumS
                      bool bounds_growth)
     : buffers_(on.buffers), samples_(on.buffers, on.scene.planes, on.sensor, scope.depth_records,
                                      vulkan::uses_fp64(on.device, on.options.precision)),
-      blocks_(scope.blocks), lambert_(on.model.backscatter == shader::backscatter_lambert),
+      blocks_(scope.blocks), field_(scope.field), lambert_(on.model.backscatter == shader::backscatter_lambert),
       shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
       shining_(shining_diodes(groups)), batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
                                                  takes_powers(on, groups, scope, bounds_growth)) {}
@@ -45,7 +45,27 @@ LawSums StripSums::of(const shader::Strip &strip) const {
               shadowed_ ? bundles_per_run_ * static_cast<std::uint32_t>(batches_.runs().size()) : 0,
           .shining = shining_,
           .plane = sample_count(strip),
-          .run_moments = nullptr};
+          .run_moments = nullptr,
+          .field = field_ ? &field_->grid : nullptr};
+}
+
+namespace {
+
+// The cells that a stretch of samples meets.
+std::uint32_t cells_of(std::uint32_t first, std::uint32_t count, std::uint32_t side) {
+  return (first + count + side - 1) / side - first / side;
+}
+
+} // namespace
+
+std::uint32_t StripSums::cells_across(const shader::Strip &strip) const {
+  return field_ ? cells_of(strip.column, strip.columns, field_->grid.side) : 0;
+}
+
+void StripSums::for_each_cell(const shader::Strip &strip, const LoopOverPart &of_cells) const {
+  const std::uint32_t count = cells_across(strip) * cells_of(strip.row, strip.rows, field_->grid.side);
+  using Range = tbb::blocked_range<std::uint32_t>;
+  tbb::parallel_for(Range(0, count), [&](const Range &cells) { of_cells(cells.begin(), cells.end()); });
 }
 
 void StripSums::for_each_part(const LawSums &sums, const LoopOverPart &of_rows,

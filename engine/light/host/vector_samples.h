@@ -92,12 +92,15 @@ private:
 
 // Vectors begin with rows: a law may depend on a vector's other samples, and these must be the same however
 // strips and threads part them.
+struct Stretch {
+  std::uint32_t first, last; // excluded
+};
 template <class Each>
-void for_each_vector_of_rows(std::uint32_t columns, std::uint32_t first, std::uint32_t last,
+void for_each_vector_of_rows(std::uint32_t columns, const Stretch &of_columns, const Stretch &of_rows,
                              const Each &each) {
   Gathering gathering(each);
-  for (std::uint32_t row = first; row < last; ++row) {
-    for (std::uint32_t column = 0; column < columns; ++column)
+  for (std::uint32_t row = of_rows.first; row < of_rows.last; ++row) {
+    for (std::uint32_t column = of_columns.first; column < of_columns.last; ++column)
       gathering.add(row * columns + column);
     gathering.end();
   }

@@ -37,6 +37,7 @@ public:
 
 private:
   void report(const PixelClaims &claims) const;
+  void add_field(const PassSetup &on, const SourceGroups &groups, const InterpolatedField &field);
   void add_coefficients(const SourceGroups &groups, const SumModel &model, const RunForm &form);
 
   const StripBuffers &buffers_;
@@ -47,6 +48,9 @@ private:
   std::vector<RunForm> forms_;
   std::vector<shader::Tone> tones_;
   std::vector<shader::Frequency> frequencies_;
+  std::vector<shader::LightRun> field_runs_; // these and what follows: where the field is interpolated
+  std::vector<RunForm> field_forms_;
+  std::vector<shader::Frequency> field_frequencies_;
   std::optional<float> backscatter_;
   bool vignetting_, lit_, holds_, keeps_bounds_, reports_kept_;
   const vulkan::Buffer *later_;
@@ -110,6 +114,17 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
     of_run.coefficients = coefficients_[i].data();
     of_run.dimensions = groups.polynomials.point_dimensions;
   }
+  if (scope.field)
+    add_field(on, groups, *scope.field);
+}
+
+void PixelsOnHost::add_field(const PassSetup &on, const SourceGroups &groups, const InterpolatedField &field) {
+  field_runs_ = light_runs(groups, field.bound, false);
+  field_forms_ = forms_;
+  for (std::size_t i = 0; i < field_forms_.size(); ++i)
+    field_forms_[i].run = &field_runs_[i];
+  field_frequencies_ =
+      frequency_records(on.modulation, groups.largest_intensity_w_sr, field.bound, groups.diode_count);
 }
 
 // The coefficients of a sum of powers in the order of Horner's rule: those of the highest powers first, of z,
@@ -163,7 +178,10 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
                        .first_tap = first_tap_,
                        .bound = bound_,
                        .kept_taps = static_cast<std::uint32_t>(tap_phasors_.size()),
-                       .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data())};
+                       .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data()),
+                       .cells_across = sums_.cells_across(strip),
+                       .field_forms = field_forms_.data(),
+                       .field_frequencies = field_frequencies_.data()};
   std::mutex reporting;
   const auto make_with = [&](const auto &loop) {
     return [&, loop](std::uint32_t first, std::uint32_t last) {
@@ -172,6 +190,8 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
       report(claims);
     };
   };
+  if (sums_.has_field())
+    return sums_.for_each_cell(strip, make_with(loops_.of_cells));
   sums_.for_each_part(sums, make_with(loops_.of_rows), make_with(loops_.of_blocks));
 }
 

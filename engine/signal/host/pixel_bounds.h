@@ -46,8 +46,8 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
                         const Floats &distance_m, const Terms &turned) {
   const Floats none = all(0.0f), infinite = all(std::numeric_limits<float>::infinity());
   const Floats inverse_size = size > smallest ? at_least * inverse(size) : infinite;
-  const Floats condition = terms.light > 0.0f ? terms.light * inverse_size : none,
-               weights = terms.weights > 0.0f ? terms.weights * inverse_size : none;
+  const auto over = [&](const Floats &part) { return part > 0.0f ? part * inverse_size : none; };
+  const Floats condition = over(terms.light), weights = over(terms.weights);
   const Floats of_beams =
       ((terms.light > 0.0f) & (terms.beams > 0.0f)) ? at_least * root(terms.beams / terms.light) : none;
   const Floats relative = frequency.amplitude_per_condition * condition +
@@ -56,8 +56,7 @@ inline Errors errors_of(const shader::Frequency &frequency, const Terms &terms, 
   // As large as has a square: what grows without end is unbounded by `grown` itself.
   const Floats largest = smaller(condition * (1.0f + relative + 1e-6f) * grown, all(1e18f)),
                turning = at_least * root(larger(largest * largest - 1.0f, all(tiny)));
-  const Terms over_size{turned.light * inverse_size, turned.weights * inverse_size,
-                        turned.beams * inverse_size};
+  const Terms over_size{over(turned.light), over(turned.weights), over(turned.beams)};
   const auto bound_m = [&](float fixed_m, float per_condition_m, float per_weight_m, float even_part) {
     const Floats growing_m =
         per_condition_m * condition +

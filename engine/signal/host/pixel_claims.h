@@ -10,16 +10,18 @@
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 
+inline Ints keeps(const shader::Frequency &frequency, const Errors &errors) {
+  return (errors.distance_m <= frequency.limit_m) & (errors.amplitude <= frequency.amplitude_limit);
+}
+
 // Of the vectors of one part of a strip, one after the other.
 class HeldPixels {
 public:
   explicit HeldPixels(const PixelWork &of) : of_(of) {}
 
-  // One of the returns of each of the vector's pixels.
-  void add(const shader::Frequency &frequency, const VectorSamples &samples, const Errors &errors) {
+  // One of the returns of each of the vector's pixels; `is_kept`: what was asked for is.
+  void add(const VectorSamples &samples, const Errors &errors, const Ints &is_kept) {
     const Floats none = all(0.0f);
-    const Ints is_kept =
-        (errors.distance_m <= frequency.limit_m) & (errors.amplitude <= frequency.amplitude_limit);
     kept_m_ = larger(kept_m_, is_kept ? errors.distance_m : none);
     kept_amplitude_ = larger(kept_amplitude_, is_kept ? errors.amplitude : none);
     const std::uint32_t beyond = bits_of(~is_kept);

@@ -1,6 +1,7 @@
 // The host's way from depth records to channels, a lane a pixel. Compiled once for each instruction set,
 // PMDSIM_INSTRUCTION_SET its name; see engine/CMakeLists.txt. It does what shaders/frame/direct_pixels.comp
 // does.
+#include "engine/light/host/incident_field.h"
 #include "engine/light/host/point_sums.h"
 #include "engine/light/host/vector_sum.h"
 #include "engine/signal/host/pixel_claims.h"
@@ -24,6 +25,7 @@ struct Light {
   Floats moment[most_host_sums]; // as many as there are
   Floats weights;                // their sum
   Floats growth = all(1.0f);     // of rounding, where tables stand for roots
+  Ints by_field{};               // samples whose sums are interpolated
 };
 
 void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
@@ -35,23 +37,49 @@ void sum_beforehand(const RunForm &form, const PointView &view, Light &light) {
 // A vector's samples as their sums take them: what they have in common is found once, where it is needed.
 class VectorSources {
 public:
-  VectorSources(const PixelWork &of, VectorSamples &samples) : of_(of), samples_(samples) {}
+  // `field`: nullptr where each sample has sums of its own.
+  VectorSources(const PixelWork &of, VectorSamples &samples, IncidentField *field)
+      : of_(of), samples_(samples), field_(field) {}
 
-  void sum(std::uint32_t run, Light &light) {
+  void sum(std::uint32_t run, const PointView &view, Light &light) {
+    const Ints takes = field_ ? takes_field(of_.forms[run], view) : Ints{};
+    const Ints others = (load<Ints>(samples_.sees) != 0) & ~takes;
+    light.by_field = takes;
+    std::ranges::fill(light.moment, Floats{});
+    if (bits_of(others) != 0)
+      sum_at_samples(run, light);
+    if (bits_of(takes) != 0) {
+      field_->find(run, samples_, view, takes, light.moment, light.growth);
+      light.weights = light.moment[of_.forms[run].moments];
+    }
+  }
+
+private:
+  // The samples that all sources reach and that face all of them well.
+  Ints takes_field(const RunForm &form, const PointView &view) const {
+    const float height = form.lambert ? static_cast<float>(field_height) : 1.001f;
+    const Ints takes = (load<Ints>(samples_.sees) != 0) &
+                       (view.height > height * form.run->radius_m + 1e-6f * view.rho);
+    return of_.sums.visibility ? takes & (gathered(reinterpret_cast<const std::int32_t *>(of_.sums.lit),
+                                                   load<Ints>(samples_.number)) ==
+                                          static_cast<std::int32_t>(of_.sums.shining))
+                               : takes;
+  }
+
+  void sum_at_samples(std::uint32_t run, Light &light) {
     if (!sum_) {
       find_surfaces(of_.sums.samples, samples_);
       sum_.emplace(of_.sums, samples_);
     }
     const RunForm &form = of_.forms[run];
-    std::ranges::fill(light.moment, Floats{});
     const bool asks_growth = of_.holds && form.powers == 0;
     sum_->sum(of_.sums.runs[run], light.moment, asks_growth ? &light.growth : nullptr);
     light.weights = light.moment[form.moments];
   }
 
-private:
   const PixelWork &of_;
   VectorSamples &samples_;
+  IncidentField *field_;
   std::optional<VectorSum> sum_;
 };
 
@@ -59,13 +87,13 @@ void sum_light(const PixelWork &of, std::uint32_t run, const VectorSamples &samp
                VectorSources &sources, Light &light) {
   const RunForm &form = of.forms[run];
   if (!form.beforehand)
-    return sources.sum(run, light);
+    return sources.sum(run, view, light);
   const Ints sees = load<Ints>(samples.sees) != 0,
              faces = view.height > 1.001f * form.run->radius_m + 1e-6f * view.rho; // all sources
   const Ints apart = form.tests_facing ? sees & ~faces : Ints{};
   if (bits_of(apart) == 0)
     return sum_beforehand(form, view, light);
-  sources.sum(run, light);
+  sources.sum(run, view, light);
   if (bits_of(sees & faces) == 0)
     return;
   Light facing;
@@ -157,15 +185,23 @@ Floats store_phase(const PixelWork &of, const shader::Frequency &frequency, cons
   return is_known ? distance_m : none;
 }
 
-// What the pixels' returns may be off by.
-void hold(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-          const Terms &terms, const Floats &size, const Floats &distance_m, const Terms &turned,
+// What the pixels' returns may be off by; `by_field`: pixels whose sums are interpolated.
+void hold(const PixelWork &of, std::uint32_t f, const VectorSamples &samples, const Terms &terms,
+          const Floats &size, const Floats &distance_m, const Terms &turned, const Ints &by_field,
           HeldPixels &held) {
-  const Errors errors = errors_of(frequency, terms, size, distance_m, turned);
+  const shader::Frequency &frequency = of.frequencies[f];
+  Errors errors = errors_of(frequency, terms, size, distance_m, turned);
+  Ints is_kept = keeps(frequency, errors);
+  if (bits_of(by_field) != 0) {
+    const Errors others = errors_of(of.field_frequencies[f], terms, size, distance_m, turned);
+    errors = {by_field != 0 ? others.distance_m : errors.distance_m,
+              by_field != 0 ? others.amplitude : errors.amplitude};
+    is_kept = by_field != 0 ? keeps(of.field_frequencies[f], others) : is_kept;
+  }
   if (of.keeps_bounds)
     store_channels(of, frequency.first_channel + of.bound, samples,
                    size > 0.0f ? errors.distance_m : all(std::numeric_limits<float>::quiet_NaN()), all(0.0f));
-  held.add(frequency, samples, errors);
+  held.add(samples, errors, is_kept);
 }
 
 // B over the surface's cosine, with the lens's vignetting.
@@ -197,7 +233,7 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
     store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
     store_taps(of, of.frequencies[f], samples, Complex());
     if (of.holds)
-      hold(of, of.frequencies[f], samples, Terms(), none, none, Terms(), held);
+      hold(of, f, samples, Terms(), none, none, Terms(), Ints{}, held);
   }
   if (of.lit)
     store_lit(of, samples);
@@ -208,24 +244,32 @@ constexpr std::uint32_t most_kept_runs = 4;
 struct Returns {
   Complex z[most_pixel_frequencies]; // relative to twice the sample's own range
   Terms terms;
+  Ints by_field; // some run's sums are interpolated
   Wide range;
   Complex of_run[most_kept_runs][most_pixel_frequencies];
   Terms terms_of_run[most_kept_runs];
 };
 
+Terms either(const Ints &lanes_of, const Terms &a, const Terms &b) {
+  return {lanes_of != 0 ? a.light : b.light, lanes_of != 0 ? a.weights : b.weights,
+          lanes_of != 0 ? a.beams : b.beams};
+}
+
 bool keeps_runs(const PixelWork &of) {
   return of.holds && of.sums.run_count > 1 && of.sums.run_count <= most_kept_runs;
 }
 
-Returns returns_of(const PixelWork &of, VectorSamples &samples) {
+Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *field) {
   Returns returns;
   std::fill_n(returns.z, of.frequency_count, Complex{});
   returns.terms = Terms();
-  VectorSources sources(of, samples);
+  returns.by_field = Ints{};
+  VectorSources sources(of, samples, field);
+
   for (std::uint32_t run = 0; run < of.sums.run_count; ++run) {
     const RunForm &form = of.forms[run];
     const PointView view =
-        see_points(samples, of.sums.samples.planes, *form.run, form.lambert || form.tests_facing);
+        see_points(samples, of.sums.samples.planes, *form.run, form.lambert || form.tests_facing || field);
     Light light;
     sum_light(of, run, samples, view, sources, light);
     for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
@@ -235,11 +279,14 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples) {
         returns.of_run[run][f] = z;
     }
     if (of.holds) {
-      const Terms terms = terms_of(form, view, light.weights, light.growth);
+      Terms terms = terms_of(form, view, light.weights, light.growth);
+      if (bits_of(light.by_field) != 0)
+        terms = either(light.by_field, terms_of(of.field_forms[run], view, light.weights, light.growth), terms);
       returns.terms = returns.terms + terms;
       if (keeps_runs(of))
         returns.terms_of_run[run] = terms;
     }
+    returns.by_field |= light.by_field;
     returns.range = view.range;
   }
   return returns;
@@ -292,27 +339,65 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
     const Floats distance_m = store_phase(of, frequency, samples, frequency.amplitude_scale * size,
                                           of_range + wide(angle_turns(z)), range_m);
     if (of.holds)
-      hold(of, frequency, samples, terms, size, distance_m, scaled(backscatter, turned_terms(of, returns, f)),
-           held);
+      hold(of, f, samples, terms, size, distance_m, scaled(backscatter, turned_terms(of, returns, f)),
+           returns.by_field, held);
   }
   if (of.lit)
     store_lit(of, samples);
 }
 
-void make_pixels(const PixelWork &of, VectorSamples &samples, HeldPixels &held) {
+// Whether all that is interpolated keeps what was asked for.
+bool field_is_enough(const PixelWork &of, const Returns &returns) {
+  for (std::uint32_t f = 0; f < of.frequency_count && bits_of(returns.by_field) != 0; ++f) {
+    const shader::Frequency &frequency = of.field_frequencies[f];
+    const Errors errors = errors_of(frequency, returns.terms, magnitude(returns.z[f]), all(frequency.below.y),
+                                    turned_terms(of, returns, f));
+    if (bits_of(returns.by_field & ~keeps(frequency, errors)) != 0)
+      return false;
+  }
+  return true;
+}
+
+void make_pixels(const PixelWork &of, VectorSamples &samples, HeldPixels &held,
+                 IncidentField *field = nullptr) {
   find_samples(of.sums.samples, samples);
   const int seen = static_cast<int>(std::find(samples.sees, samples.sees + lanes, 1) - samples.sees);
   if (seen == lanes)
     return store_nothing(of, samples, held);
   fill_gaps(samples, seen);
-  store_pixels(of, samples, returns_of(of, samples), held);
+  Returns returns = returns_of(of, samples, field);
+  if (of.holds && !field_is_enough(of, returns))
+    returns = returns_of(of, samples, nullptr);
+  store_pixels(of, samples, returns, held);
   held.end_vector(samples);
 }
 
 PixelClaims make_rows(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
   HeldPixels held(of);
-  for_each_vector_of_rows(of.sums.samples.strip.columns, first, last,
+  const std::uint32_t columns = of.sums.samples.strip.columns;
+  for_each_vector_of_rows(columns, {0, columns}, {first, last},
                           [&](VectorSamples &samples) { make_pixels(of, samples, held); });
+  return held.claims();
+}
+
+// Cells of the field are numbered row by row of the strip.
+PixelClaims make_cells(const PixelWork &of, std::uint32_t first, std::uint32_t last) {
+  HeldPixels held(of);
+  IncidentField field(of.sums);
+  const shader::Strip &strip = of.sums.samples.strip;
+  const std::uint32_t side = of.sums.field->side;
+  for (std::uint32_t i = first; i < last; ++i) {
+    const std::uint32_t column = strip.column / side + i % of.cells_across,
+                        row = strip.row / side + i / of.cells_across;
+    field.go_to(column, row);
+    const auto in_strip = [side](std::uint32_t cell, std::uint32_t begin, std::uint32_t count) {
+      return std::pair(std::max(cell * side, begin) - begin, std::min((cell + 1) * side - begin, count));
+    };
+    const auto [first_column, last_column] = in_strip(column, strip.column, strip.columns);
+    const auto [first_row, last_row] = in_strip(row, strip.row, strip.rows);
+    for_each_vector_of_rows(strip.columns, {first_column, last_column}, {first_row, last_row},
+                            [&](VectorSamples &samples) { make_pixels(of, samples, held, &field); });
+  }
   return held.claims();
 }
 
@@ -326,6 +411,6 @@ PixelClaims make_blocks(const PixelWork &of, std::uint32_t first, std::uint32_t 
 } // namespace
 
 extern const PixelLoops pixel_loops;
-const PixelLoops pixel_loops{make_rows, make_blocks};
+const PixelLoops pixel_loops{make_rows, make_cells, make_blocks};
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

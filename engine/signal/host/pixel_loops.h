@@ -31,6 +31,11 @@ struct PixelWork {
   std::uint32_t first_tap, bound;
   std::uint32_t kept_taps;       // 0: none are
   const float (*tap_phasors)[2]; // exp(j 2 pi k / N)
+  // Where the field is interpolated: its cells over a row of the strip, and in place of the forms and the
+  // frequencies those of the pixels that it does for.
+  std::uint32_t cells_across;
+  const RunForm *field_forms;
+  const shader::Frequency *field_frequencies;
 };
 
 // What the returns of some pixels may be off by, as distance and as relative amplitude: the worst of those
@@ -41,9 +46,11 @@ struct PixelClaims {
   float worst_m, worst_amplitude;
 };
 
-// Makes the channels of some rows, or of listed blocks, the last one excluded. One for each instruction set.
+// Makes the channels of some rows, of some of the field's cells, row by row of these, or of listed blocks, the
+// last one excluded. One for each instruction set.
 struct PixelLoops {
   PixelClaims (*of_rows)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
+  PixelClaims (*of_cells)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
   PixelClaims (*of_blocks)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
 };
 
