@@ -41,7 +41,9 @@ double relative_at(const Diagram &diagram, double theta_rad, double phi_rad) {
   if (theta_rad < diagram.theta_rad.front() || theta_rad > diagram.theta_rad.back())
     return 0.0;
   const Between theta = between(diagram.theta_rad, theta_rad), phi = between_turns(diagram.phi_rad, phi_rad);
-  const auto j = [&](std::size_t i, std::size_t k) { return diagram.relative[i * diagram.phi_rad.size() + k]; };
+  const auto j = [&](std::size_t i, std::size_t k) {
+    return diagram.relative[i * diagram.phi_rad.size() + k];
+  };
   const auto at_phi = [&](std::size_t i) { return std::lerp(j(i, phi.first), j(i, phi.next), phi.part); };
   return std::lerp(at_phi(theta.first), at_phi(theta.next), theta.part);
 }
@@ -55,9 +57,9 @@ double radiation(const Diode &diode, const glm::dvec3 &way) {
   if (diode.pattern.kind == Pattern::Kind::cosine)
     return along > 0.0 ? std::pow(along / glm::length(way), diode.pattern.order) : 0.0;
   const glm::dvec3 across = way - along * diode.axis;
-  return relative_at(*diode.pattern.diagram, std::atan2(glm::length(across), along),
-                     std::atan2(glm::dot(across, glm::cross(diode.axis, diode.across)),
-                                glm::dot(across, diode.across)));
+  return relative_at(
+      *diode.pattern.diagram, std::atan2(glm::length(across), along),
+      std::atan2(glm::dot(across, glm::cross(diode.axis, diode.across)), glm::dot(across, diode.across)));
 }
 
 } // namespace pmdsim

@@ -2,7 +2,6 @@
 // How a frame is summed within the error asked for: which diodes stand in for all, in which precision, and
 // what can be promised of it; and whether that was kept.
 
-#include "engine/light/interpolated_field.h"
 #include "engine/light/source_groups.h"
 #include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
@@ -56,8 +55,8 @@ struct FramePlan {
   std::optional<ErrorBound> uniform_bound;
   // Likewise for pixels of several samples that it sums at four points.
   std::optional<ErrorBound> refined_bound;
-  // In which the sums over all are interpolated where they are loops (planned_field.h); nothing where each sample
-  // has sums of its own. Pixels that it does not do for have those, too.
+  // In which the sums over all are interpolated where they are loops (planned_field.h); nothing where each
+  // sample has sums of its own. Pixels that it does not do for have those, too.
   std::optional<InterpolatedField> field;
   bool surely_kept = false; // every pixel's error is within the limits, as is known before the frame
   // The errors claimed before the frame; nothing where theory knows no bound.

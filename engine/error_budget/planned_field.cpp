@@ -1,209 +1,12 @@
 #include "engine/error_budget/planned_field.h"
 
-#include "engine/error_budget/diode_radiation.h"
+#include "engine/error_budget/emission_cosine.h"
+#include "engine/error_budget/field_error.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <functional>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
-#include <random>
 
 namespace pmdsim {
-namespace {
-
-// A diode and the reference point of its run.
-struct RunDiode {
-  const Diode *diode;
-  glm::dvec3 reference_m;
-};
-
-std::vector<RunDiode> diodes_of(const LightFacts &view, const SourceGroups &groups) {
-  std::vector<const Diode *> all;
-  for (const CameraIlluminator &light : view.lights)
-    for (const Diode &diode : light.diodes)
-      all.push_back(&diode);
-  std::vector<RunDiode> diodes;
-  for (const SourceRun &run : groups.runs)
-    for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
-      if (const SourcePosition &place = groups.positions[run.first + i];
-          place.number != no_id && all[place.number]->intensity_w_sr > 0.0)
-        diodes.push_back({all[place.number], run.reference_m});
-  return diodes;
-}
-
-// What is interpolated of a diode's term at a place: its weight without the surface, and that times the path
-// difference, in units of rho.
-struct Term {
-  double weight, path;
-};
-
-class FieldTerms {
-public:
-  FieldTerms(const RunDiode &of, bool lambert) : of_(of), lambert_(lambert) {}
-
-  double rho_m(const glm::dvec3 &place_m) const { return glm::distance(place_m, of_.reference_m); }
-  Term at(const glm::dvec3 &place_m) const {
-    const glm::dvec3 way_m = place_m - of_.diode->position_m;
-    const double stretch = glm::length(way_m) / rho_m(place_m);
-    const double weight = radiation(*of_.diode, way_m) / (stretch * stretch * (lambert_ ? stretch : 1.0));
-    return {weight, weight * (stretch - 1.0)};
-  }
-
-private:
-  const RunDiode &of_;
-  bool lambert_;
-};
-
-// A cell of the view: x, y and s of its middle, and half of its extent along each; places are (x, y, 1) / s.
-struct ViewCell {
-  glm::dvec3 middle, half;
-
-  glm::dvec3 place_m(const glm::dvec3 &within) const { // each in [-1, 1]
-    const glm::dvec3 at = middle + half * within;
-    return glm::dvec3(at.x, at.y, 1.0) / at.z;
-  }
-};
-
-constexpr std::size_t nodes = field_nodes, places = 5; // along each axis
-
-double node(std::size_t i) { return field_node_places[i]; }
-double place(std::size_t i) { return 1.8 * static_cast<double>(i) / (places - 1) - 0.9; }
-
-// Lagrange's polynomials of the nodes at each place.
-using Weights = std::array<std::array<double, nodes>, places>;
-Weights lagrange_weights() {
-  Weights weights;
-  for (std::size_t p = 0; p < places; ++p)
-    for (std::size_t i = 0; i < nodes; ++i) {
-      weights[p][i] = 1.0;
-      for (std::size_t k = 0; k < nodes; ++k)
-        weights[p][i] *= k == i ? 1.0 : (place(p) - node(k)) / (node(i) - node(k));
-    }
-  return weights;
-}
-
-// A cell's nodes, or places, the last axis first.
-template <std::size_t count, class Function>
-void for_each_of(const Function &function) {
-  for (std::size_t x = 0; x < count; ++x)
-    for (std::size_t y = 0; y < count; ++y)
-      for (std::size_t z = 0; z < count; ++z)
-        function(x, y, z);
-}
-
-// The worst of a diode's term in a cell.
-FieldError error_in(const ViewCell &cell, const FieldTerms &terms) {
-  static const Weights weights = lagrange_weights();
-  std::array<std::array<std::array<Term, nodes>, nodes>, nodes> at;
-  for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
-    at[x][y][z] = terms.at(cell.place_m({node(x), node(y), node(z)}));
-  });
-  FieldError worst{0.0, 0.0, 1.0};
-  for_each_of<places>([&](std::size_t px, std::size_t py, std::size_t pz) {
-    Term sum{0.0, 0.0};
-    double sizes = 0.0;
-    for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
-      const double weight = weights[px][x] * weights[py][y] * weights[pz][z];
-      sum.weight += weight * at[x][y][z].weight;
-      sum.path += weight * at[x][y][z].path;
-      sizes += std::abs(weight) * at[x][y][z].weight;
-    });
-    const glm::dvec3 place_m = cell.place_m({place(px), place(py), place(pz)});
-    const Term exact = terms.at(place_m);
-    const double inverse = 1.0 / exact.weight;
-    worst.relative = std::max(std::abs(sum.weight * inverse - 1.0), worst.relative);
-    worst.path_m = std::max(worst.path_m, 0.5 * terms.rho_m(place_m) * inverse *
-                                              std::abs(sum.path - exact.path * inverse * sum.weight));
-    worst.rounding_growth = std::max(worst.rounding_growth, sizes * inverse);
-  });
-  return worst;
-}
-
-// The cell that a place is in; nothing where that is out of the frame.
-std::optional<ViewCell> cell_of(const Sensor &sensor, const FieldGrid &grid, const glm::dvec3 &place_m) {
-  const glm::dvec2 half_cell =
-      0.5 * static_cast<double>(grid.side) * sensor.pixel_pitch_m / sensor.image_distance_m();
-  const glm::dvec2 edge = 0.5 * sensor.pixel_pitch_m * glm::dvec2(sensor.resolution) / sensor.image_distance_m();
-  const glm::dvec2 ray = glm::dvec2(place_m) / place_m.z;
-  if (!(place_m.z > 0.0) || std::abs(ray.x) > edge.x || std::abs(ray.y) > edge.y)
-    return std::nullopt;
-  const double half_s = 0.5 / grid.cells_m;
-  const glm::dvec2 number = glm::floor((ray + edge) / (2.0 * half_cell));
-  const double farthest = 1.0 / grid.farthest_m,
-               deep = std::max(std::floor(grid.cells_m * (1.0 / place_m.z - farthest)), 0.0);
-  return ViewCell{{glm::dvec2(2.0 * number + 1.0) * half_cell - edge, farthest + (2.0 * deep + 1.0) * half_s},
-                  {half_cell, half_s}};
-}
-
-// Places that are seen, most of them at random, at first those at the edges of the frame.
-std::vector<glm::dvec3> places_of(const LightFacts &view) {
-  constexpr std::size_t most_boxes = 32, most_places = 160;
-  std::mt19937 random(1);
-  const auto part = [&] { return std::generate_canonical<double, 32>(random); };
-  std::vector<glm::dvec3> all;
-  const std::size_t step = (view.visible.size() + most_boxes - 1) / most_boxes,
-                    of_box = most_places / std::min(view.visible.size(), most_boxes);
-  for (std::size_t i = 0; i < view.visible.size(); i += step) {
-    const VisibleBox &box = view.visible[i];
-    const auto at = [&](double x, double y, double z) {
-      all.push_back(glm::mix(box.low_m, box.high_m, glm::dvec3(x, y, z)));
-    };
-    for (const double x : {0.001, 0.999})
-      for (const double y : {0.001, 0.999})
-        for (const double z : {0.001, 0.999})
-          at(x, y, z);
-    for (std::size_t k = 0; k < of_box; ++k)
-      at(part(), part(), part());
-  }
-  return all;
-}
-
-} // namespace
-
-FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldGrid &grid,
-                       const std::function<bool(const FieldError &)> &is_enough) {
-  // Of what lies between the places and diodes that are looked at; and of the sums at nodes by a surface that is
-  // no nearer to grazing than field_height allows.
-  constexpr double margin = 2.0, by_surface = (field_height + 1.0) / (field_height - 1.0);
-  const bool lambert = view.model.backscatter == shader::backscatter_lambert;
-  const std::vector<RunDiode> diodes = diodes_of(view, groups);
-  FieldError worst{0.0, 0.0, by_surface};
-  std::size_t next = 0;
-  for (const glm::dvec3 &place_m : places_of(view)) {
-    const auto cell = cell_of(view.sensor, grid, place_m);
-    if (!cell)
-      continue;
-    const FieldError here = error_in(*cell, FieldTerms(diodes[next % diodes.size()], lambert));
-    worst = {std::max(margin * here.relative, worst.relative), std::max(margin * here.path_m, worst.path_m),
-             std::max(by_surface * here.rounding_growth, worst.rounding_growth)};
-    if (is_enough(worst))
-      break;
-    next += 1 + diodes.size() * 5 / 13;
-  }
-  return worst;
-}
-
-ErrorBound through_field(ErrorBound bound, const FieldError &error) {
-  // Products and sums of the nodes' values and weights.
-  constexpr double roundings = 40.0 * 0x1p-24;
-  const double growth = error.rounding_growth, relative = error.relative + growth * roundings;
-  bound.per_condition_m = growth * bound.per_condition_m + error.path_m;
-  bound.weight_error = growth * bound.weight_error + relative;
-  bound.amplitude_per_condition = growth * bound.amplitude_per_condition + relative;
-  bound.terms_per_weight_error *= growth;
-  bound.terms_of_beam_edges *= growth;
-  // A node may be dimmer than the sample, by the terms' change.
-  const double dimming = std::log(growth);
-  bound.weight_error += growth * bound.beams.at(dimming);
-  bound.beams.square *= growth * growth;
-  bound.beams.square_per_log *= growth * growth;
-  return bound;
-}
-
 namespace {
 
 // The share of the error asked for that sums by the field may claim where nothing cancels.
@@ -214,7 +17,7 @@ constexpr double node_cost = 1.5, interpolated_sources = 24.0;
 // What all of the frame's sums take, in sums over a source at a sample.
 double cost(const Sensor &sensor, const SourceGroups &groups, const FieldGrid &grid) {
   const glm::uvec2 cells = (sensor.resolution + grid.side - 1u) / grid.side;
-  constexpr double nodes_of_cell = nodes * nodes * nodes;
+  constexpr double nodes_of_cell = field_nodes * field_nodes * field_nodes;
   return groups.diode_count * nodes_of_cell * node_cost * cells.x * cells.y +
          static_cast<double>(groups.runs.size()) * interpolated_sources *
              static_cast<double>(sensor.pixel_count());
@@ -236,26 +39,67 @@ double farthest_m(const std::vector<VisibleBox> &visible) {
   return farthest;
 }
 
+// Whether the host would sum over the sources at each sample else.
 bool is_summed_at_samples(const LightFacts &view, const SourceGroups &groups) {
-  return view.on_host && view.allowed.host_pixels && view.allowed.incident_field && !view.painted &&
-         view.sensor.samples == 1 && !view.sensor.has_distortion() && view.sensor.chip.is_nominal() &&
+  const PathForms &allowed = view.allowed;
+  return view.on_host && allowed.host_pixels && allowed.host_sum && allowed.direct_pixels &&
+         allowed.depth_records && allowed.unsorted && !view.painted && view.sensor.samples == 1 &&
+         !view.sensor.has_distortion() && view.sensor.chip.is_nominal() &&
          view.modulation.waveform == shader::waveform_sine && groups.polynomials.point_dimensions == 0;
+}
+
+// Whether J is above 0 in all directions within `most_rad` of the axis, and no step.
+bool shines(const Diagram &diagram, double most_rad) {
+  const std::size_t phis = diagram.phi_rad.size();
+  const auto above = std::ranges::upper_bound(diagram.theta_rad, most_rad);
+  if (diagram.theta_rad.front() > 0.0 || above == diagram.theta_rad.end())
+    return false;
+  const auto count = static_cast<std::ptrdiff_t>(phis) * (above - diagram.theta_rad.begin() + 1);
+  return std::all_of(diagram.relative.begin(), diagram.relative.begin() + count,
+                     [](double j) { return j > 0.0; });
+}
+
+// The angle to a diode's axis is largest at a box's corner.
+double largest_angle_rad(const Diode &diode, const std::vector<VisibleBox> &visible) {
+  double least = 1.0;
+  for (const VisibleBox &box : visible)
+    for (int i = 0; i < 8; ++i) {
+      const glm::bvec3 high((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
+      const glm::dvec3 way_m = glm::mix(box.low_m, box.high_m, high) - diode.position_m;
+      least = std::min(least, glm::dot(diode.axis, way_m) / glm::length(way_m));
+    }
+  return std::acos(std::max(least, -1.0));
+}
+
+// Whether no diode's light ends within what is visible, or nearly does.
+bool all_shine(const LightFacts &view, const SourceGroups &groups) {
+  constexpr double least_cosine = 0.1;
+  if (least_emission_cosine(groups, view.visible) < least_cosine)
+    return false;
+  for (const CameraIlluminator &light : view.lights)
+    for (const Diode &diode : light.diodes)
+      if (diode.pattern.kind == Pattern::Kind::diagram &&
+          !shines(*diode.pattern.diagram, largest_angle_rad(diode, view.visible)))
+        return false;
+  return true;
 }
 
 } // namespace
 
 std::optional<InterpolatedField> plan_field(const LightFacts &view, const SourceGroups &groups,
-                                       const ErrorBound &bound, const TypicalLight &typical) {
+                                            const ErrorBound &bound, const TypicalLight &typical) {
+  // The error of a path is that of a phase's first power.
+  constexpr double largest_rad = 0.5;
+  const double farthest = farthest_m(view.visible);
+  if (!view.allowed.incident_field || !is_summed_at_samples(view, groups) || !(farthest > 0.0) ||
+      !std::isfinite(farthest) ||
+      view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m > largest_rad ||
+      !all_shine(view, groups))
+    return std::nullopt;
   const auto is_kept = [&](const ErrorBound &of) {
     return of.nearest_m(typical.condition, typical.dimming_of_most) <= share_of_field * of.limit_m &&
            of.amplitude_fixed + of.amplitude_per_condition <= share_of_field * of.amplitude_limit;
   };
-  if (!is_summed_at_samples(view, groups))
-    return std::nullopt;
-  struct Timer { std::chrono::steady_clock::time_point a = std::chrono::steady_clock::now(); ~Timer() { if (getenv("SHOW")) fprintf(stderr, "side planning %.2f ms\n", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - a).count()); } } timer;
-  const double farthest = farthest_m(view.visible);
-  if (!(farthest > 0.0 && std::isfinite(farthest)))
-    return std::nullopt;
   const double lamp_m = farthest_lamp_m(view.lights);
   const double at_samples = groups.diode_count * static_cast<double>(view.sensor.pixel_count());
   for (const std::uint32_t side : {64u, 32u, 16u})
@@ -265,7 +109,6 @@ std::optional<InterpolatedField> plan_field(const LightFacts &view, const Source
         break;
       const auto is_beyond = [&](const FieldError &error) { return !is_kept(through_field(bound, error)); };
       const FieldError error = field_error(view, groups, grid, is_beyond);
-      if (getenv("SHOW")) fprintf(stderr, "side %u cells %.3g: %.3g path %.3g um growth %.3g\n", side, grid.cells_m, error.relative, 1e6*error.path_m, error.rounding_growth);
       if (!is_beyond(error))
         return InterpolatedField{grid, through_field(bound, error)};
     }

@@ -141,8 +141,8 @@ std::vector<PixelClass> sorted_classes(const FrameFacts &facts, const FramePlan 
 // Whether the reduced set is worth it for every sample, as each faces all of its extent and all of it reaches
 // the sample. Sums beforehand do not depend on the number of sources; few sources are summed in no more runs
 // and moments than all.
-bool reduced_set_lights_all(const FrameFacts &facts, const FramePlan &plan) {
-  const bool is_worth_it = !plan.field && plan.all.polynomials.point_dimensions == 0 &&
+bool reduced_set_lights_all(const FramePath &path, const FrameFacts &facts, const FramePlan &plan) {
+  const bool is_worth_it = !path.field && plan.all.polynomials.point_dimensions == 0 &&
                            2 * plan.reduced.diodes.size() <= plan.all.diodes.size() &&
                            plan.reduced.runs.size() <= plan.all.runs.size() &&
                            plan.reduced.moments <= plan.all.moments;
@@ -150,12 +150,12 @@ bool reduced_set_lights_all(const FrameFacts &facts, const FramePlan &plan) {
          (facts.model.backscatter == shader::backscatter_flat || all_face(facts.camera, plan.extent.box));
 }
 
-std::vector<PixelClass> classes_of(const FrameFacts &facts, const FramePlan &plan,
+std::vector<PixelClass> classes_of(const FramePath &path, const FrameFacts &facts, const FramePlan &plan,
                                    const FrameRequest &request, std::size_t windows, bool unsorted,
                                    const PathForms &allowed) {
   const std::uint32_t samples = request.sensor.samples * request.sensor.samples;
   if (unsorted) {
-    const bool reduced = reduced_set_lights_all(facts, plan);
+    const bool reduced = reduced_set_lights_all(path, facts, plan);
     std::vector<PixelClass> classes{{PixelsOf::all, reduced, samples, plan.precision, facts.modulation.lit,
                                      reduced ? plan.bound : plan.bound_of_all}};
     add_precise(facts, plan, samples, classes);
@@ -236,10 +236,9 @@ bool is_better_unsorted(const FramePath &path, const FrameFacts &facts, const Fr
   const bool thins_out = request.sensor.samples > 1 && !facts.modulation.lit &&
                          uniform_points(facts, plan, request, allowed).has_value();
   const std::size_t all = plan.all.diodes.size(), reduced = plan.reduced.diodes.size();
-  return !thins_out &&
-         (beforehand || 2 * reduced > all ||
-          (on_host &&
-           (plan.field || all <= reduced + sorting_sources || reduced_set_lights_all(facts, plan))));
+  return !thins_out && (beforehand || 2 * reduced > all ||
+                        (on_host && (path.field || all <= reduced + sorting_sources ||
+                                     reduced_set_lights_all(path, facts, plan))));
 }
 
 // Whether the sums of records can be held against what was asked for.
@@ -346,13 +345,15 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.coplanar = plan.all.polynomials.coplanar;
   path.single_run = plan.all.runs.size() == 1;
   path.host_sum = host_sum_of(path, facts, plan, sensor, allowed);
+  if (fits_host_pixels(path, facts, plan, sensor, allowed))
+    path.field = plan.field;
   path.one_backscatter = one_backscatter && !facts.paint.painted && allowed.one_backscatter;
   const bool reports = facts.modulation.keeps_terms;
   const bool holds = reports && allowed.unsorted && can_hold_records(facts, request) &&
                      can_sort(facts, windows) && is_better_unsorted(path, facts, plan, request, allowed) &&
                      can_sum_records(path, plan, sensor, allowed);
   const bool direct = can_be_direct(path, facts, plan, sensor, allowed) && (!reports || holds);
-  path.classes = classes_of(facts, plan, request, windows, direct || holds, allowed);
+  path.classes = classes_of(path, facts, plan, request, windows, direct || holds, allowed);
   path.sums_records =
       direct || holds ||
       (!reports && !path.is_sorted() && !plan.is_reduced() && can_sum_records(path, plan, sensor, allowed));
@@ -364,8 +365,8 @@ FramePath choose_path(const FrameFacts &facts, const FramePlan &plan, const Fram
   path.point_dimensions = point_dimensions(path, facts, plan);
   path.host_pixels = can_make_pixels_on_host(path, facts, allowed);
   sum_facing_beforehand(facts, plan, path);
-  if (path.host_pixels && path.host_sum == HostSum::all)
-    path.field = plan.field;
+  if (!path.host_pixels || path.host_sum != HostSum::all)
+    path.field.reset();
   path.points_first = path.record == SampleRecord::point &&
                       (!path.is_sorted() || facts.modulation.lit || sensor.has_distortion());
   path.host_reads_truth = path.record == SampleRecord::depth && sensor.samples == 1;

@@ -63,12 +63,12 @@ struct FramePath {
       point_dimensions; // of the polynomials that unshadowed samples' sums are; 0: loops over sources
   HostSum host_sum;
   std::optional<InterpolatedField> field; // in which the host's sums are interpolated
-  bool single_run;       // all sources are one run
-  bool one_backscatter;  // need not be looked up
-  bool sums_records;     // the class of all pixels is summed from depth records
-  bool direct;           // and goes to channels at once
-  bool host_pixels;      // which the host does
-  bool host_reads_truth; // coverage, depth and IDs come off the records
+  bool single_run;                        // all sources are one run
+  bool one_backscatter;                   // need not be looked up
+  bool sums_records;                      // the class of all pixels is summed from depth records
+  bool direct;                            // and goes to channels at once
+  bool host_pixels;                       // which the host does
+  bool host_reads_truth;                  // coverage, depth and IDs come off the records
   // The classes in the order in which they are summed: one of all pixels, or several that pixels are sorted
   // into. Pixels that the first ones leave are listed for those that follow.
   std::vector<PixelClass> classes;

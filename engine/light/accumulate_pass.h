@@ -3,7 +3,6 @@
 // order. It sums by moments, which serve every tone at once, or, where light is square, diode by diode for
 // one frequency at a time.
 
-#include "engine/light/interpolated_field.h"
 #include "engine/light/source_windows.h"
 #include "engine/light/sum_model.h"
 #include "engine/light/tones.h"
@@ -51,10 +50,10 @@ struct SumScope {
   Precision precision = Precision::fp32; // of the groups and of the surfaces' vectors
   const vulkan::Buffer *list = nullptr;  // of pixels; else all
   const vulkan::Buffer *later =
-      nullptr;                       // of pixels that may be beyond the bound, for a later class; else none
-  bool looped = false;               // a loop, as few pixels are not worth compiling a straight line
-  std::optional<InterpolatedField> field{}; // else each sample has sums of its own
-  std::optional<ErrorBound> bound{}; // the bound that the sum's error is held against
+      nullptr;         // of pixels that may be beyond the bound, for a later class; else none
+  bool looped = false; // a loop, as few pixels are not worth compiling a straight line
+  std::optional<InterpolatedField> field{};  // else each sample has sums of its own
+  std::optional<ErrorBound> bound{};         // the bound that the sum's error is held against
   std::optional<ChipGrid> depth_records{};   // where these are all that is known of the samples
   std::optional<SampleBlocks> blocks{};      // of depth records, only these
   std::shared_ptr<const SumOutput> output{}; // of depth records

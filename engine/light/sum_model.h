@@ -7,6 +7,7 @@
 #include "engine/model/accuracy.h"
 #include "engine/model/scene.h"
 #include "engine/model/simulator_options.h"
+#include "engine/view/field_grid.h"
 #include "shaders/shared/interface.h"
 
 #include <vector>
@@ -24,6 +25,13 @@ struct SumModel {
   std::uint32_t surface_vectors(Precision precision) const {
     return backscatter == shader::backscatter_flat ? 0 : precision == Precision::fp64 ? 2 : 1;
   }
+};
+
+// Sums over the sources that are interpolated in cells of the view (host/incident_field.h), and the bound of
+// pixels that are summed so.
+struct InterpolatedField {
+  FieldGrid grid;
+  ErrorBound bound;
 };
 
 // The powers of 1 / r in a diode's weight, beside factors of its own.

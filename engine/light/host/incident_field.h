@@ -1,11 +1,11 @@
 #pragma once
-// The sums over a run's sources as a field, interpolated in cells of the view (engine/light/field_grid.h), for
-// samples that all sources reach and that face all of them.
+// The sums over a run's sources as a field, interpolated in cells of the view (engine/view/field_grid.h),
+// for samples that all sources reach and that face all of them.
 //
 // With L a source's place from the run's reference point and lengths in units of rho, a sum over W has the
 // factor height + n . L of each source, n the normal of the sample's surface and height the reference point's
-// over it. So it follows from four sums that know no surface: of the terms, and of the terms times L. Those are
-// smooth in the place, and stand at the nodes of each cell that samples lie in.
+// over it. So it follows from four sums that know no surface: of the terms, and of the terms times L. Those
+// are smooth in the place, and stand at the nodes of each cell that samples lie in.
 #include "engine/light/host/point_view.h"
 #include "engine/light/host/vector_sum.h"
 
@@ -84,8 +84,8 @@ void add_batch(const SourceBatch &batch, const BatchView &at, std::uint32_t sums
   }
 }
 
-// The moments of a run at a vector's places, in units of rho, behind them the first sum, as VectorSum has them;
-// and what rounding grows by.
+// The moments of a run at a vector's places, in units of rho, behind them the first sum, as VectorSum has
+// them; and what rounding grows by.
 inline FieldSums field_at(const LawSums &of, const RunOfBatches &run, const VectorSamples &at,
                           Floats &growth) {
   const RunView view = view_from(at, run);
@@ -155,8 +155,8 @@ public:
     used_ = 0;
   }
 
-  // For the lanes of `takes`, all in one row of samples: the moments of a run, m^-2 m^k, behind them the weights'
-  // sum, and what rounding grows by.
+  // For the lanes of `takes`, all in one row of samples: the moments of a run, m^-2 m^k, behind them the
+  // weights' sum, and what rounding grows by.
   void find(std::uint32_t run, const VectorSamples &samples, const PointView &view, const Ints &takes,
             Floats *moment, Floats &growth) {
     const std::uint32_t columns = of_.samples.strip.columns;
@@ -192,9 +192,9 @@ private:
   // The values of a node are the sums of its components, one component after the other.
   struct Cell {
     std::uint32_t run;
-    std::int32_t number_deep; // in depth
-    std::uint32_t row; // of samples, that `of_row` is for
-    float growth;      // of rounding, at most
+    std::int32_t number_deep;            // in depth
+    std::uint32_t row;                   // of samples, that `of_row` is for
+    float growth;                        // of rounding, at most
     std::vector<float> of_nodes, of_row; // [row][depth][column][value], [depth][column][value]
   };
 

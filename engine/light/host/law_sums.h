@@ -2,9 +2,9 @@
 // The data of the host's sums over the sources, as plain arrays: its loops are compiled once for each
 // instruction set, so they share no code with the rest of the program.
 
-#include "engine/light/field_grid.h"
 #include "engine/model/exponent.h"
 #include "engine/sampling/host/sample_source.h"
+#include "engine/view/field_grid.h"
 
 #include <cstdint>
 

@@ -25,10 +25,11 @@ StripSums::StripSums(const PassSetup &on, const SourceGroups &groups, const SumS
                      bool bounds_growth)
     : buffers_(on.buffers), samples_(on.buffers, on.scene.planes, on.sensor, scope.depth_records,
                                      vulkan::uses_fp64(on.device, on.options.precision)),
-      blocks_(scope.blocks), field_(scope.field), lambert_(on.model.backscatter == shader::backscatter_lambert),
-      shadowed_(scope.shadowed), moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)),
-      shining_(shining_diodes(groups)), batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
-                                                 takes_powers(on, groups, scope, bounds_growth)) {}
+      blocks_(scope.blocks), field_(scope.field),
+      lambert_(on.model.backscatter == shader::backscatter_lambert), shadowed_(scope.shadowed),
+      moments_(groups.moments), bundles_per_run_(bundles_per_run(groups)), shining_(shining_diodes(groups)),
+      batches_(groups, on.model, on.modulation.largest_wavenumber_rad_m(),
+               takes_powers(on, groups, scope, bounds_growth)) {}
 
 LawSums StripSums::of(const shader::Strip &strip) const {
   return {.samples = samples_.of(strip),

@@ -118,7 +118,8 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
     add_field(on, groups, *scope.field);
 }
 
-void PixelsOnHost::add_field(const PassSetup &on, const SourceGroups &groups, const InterpolatedField &field) {
+void PixelsOnHost::add_field(const PassSetup &on, const SourceGroups &groups,
+                             const InterpolatedField &field) {
   field_runs_ = light_runs(groups, field.bound, false);
   field_forms_ = forms_;
   for (std::size_t i = 0; i < field_forms_.size(); ++i)

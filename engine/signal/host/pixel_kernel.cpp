@@ -58,8 +58,8 @@ private:
   // The samples that all sources reach and that face all of them well.
   Ints takes_field(const RunForm &form, const PointView &view) const {
     const float height = form.lambert ? static_cast<float>(field_height) : 1.001f;
-    const Ints takes = (load<Ints>(samples_.sees) != 0) &
-                       (view.height > height * form.run->radius_m + 1e-6f * view.rho);
+    const Ints takes =
+        (load<Ints>(samples_.sees) != 0) & (view.height > height * form.run->radius_m + 1e-6f * view.rho);
     return of_.sums.visibility ? takes & (gathered(reinterpret_cast<const std::int32_t *>(of_.sums.lit),
                                                    load<Ints>(samples_.number)) ==
                                           static_cast<std::int32_t>(of_.sums.shining))
@@ -281,7 +281,8 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *f
     if (of.holds) {
       Terms terms = terms_of(form, view, light.weights, light.growth);
       if (bits_of(light.by_field) != 0)
-        terms = either(light.by_field, terms_of(of.field_forms[run], view, light.weights, light.growth), terms);
+        terms =
+            either(light.by_field, terms_of(of.field_forms[run], view, light.weights, light.growth), terms);
       returns.terms = returns.terms + terms;
       if (keeps_runs(of))
         returns.terms_of_run[run] = terms;

@@ -46,8 +46,8 @@ struct PixelClaims {
   float worst_m, worst_amplitude;
 };
 
-// Makes the channels of some rows, of some of the field's cells, row by row of these, or of listed blocks, the
-// last one excluded. One for each instruction set.
+// Makes the channels of some rows, of some of the field's cells, row by row of these, or of listed blocks,
+// the last one excluded. One for each instruction set.
 struct PixelLoops {
   PixelClaims (*of_rows)(const PixelWork &of, std::uint32_t first, std::uint32_t last);
   PixelClaims (*of_cells)(const PixelWork &of, std::uint32_t first, std::uint32_t last);

@@ -1,6 +1,6 @@
 #pragma once
-// The cells in which the light's field is interpolated (host/incident_field.h): square in the view, even in
-// the inverse of the depth.
+// Cells of the view in which the light's field is interpolated (engine/light/host/incident_field.h): square in
+// the frame, even in the inverse of the depth.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +9,13 @@
 namespace pmdsim {
 
 // The nodes of a cell along columns, rows and depth: Chebyshev's, stretched so that the last ones lie at the
-// cell's ends. What the nodes are off by then grows to less than 1.43 times along each axis, not to 1.85 times.
+// cell's ends. What the nodes are off by then grows to less than 1.43 times along each axis, not to 1.85
+// times.
 inline constexpr std::size_t field_nodes = 4;
 inline constexpr double field_node_places[field_nodes] = {-1.0, 1.0 - std::numbers::sqrt2,
                                                           std::numbers::sqrt2 - 1.0, 1.0};
-// Lambert's surfaces that take it are so high under the sources' reference point, in radii of the sources about
-// it: the interpolated sums cancel the less, the higher.
+// Lambert's surfaces that take it are so high under the sources' reference point, in radii of the sources
+// about it: the interpolated sums cancel the less, the higher.
 inline constexpr double field_height = 6.0;
 
 struct FieldGrid {

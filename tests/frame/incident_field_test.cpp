@@ -1,0 +1,190 @@
+// Sums over the sources that are interpolated in cells of the view: every pixel keeps its bound, the same
+// bits come of any strips, and setups that it does not suit go another way.
+
+#include "tests/comparison/light_formula.h"
+#include "tests/frame/kept_bounds.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simulator.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <string>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+// A diagram of steps of so many degrees to 90, cos^order but for `part` of it, which varies around the axis.
+Pattern diagram_of(double step_deg, double order, double part = 0.0) {
+  auto diagram = std::make_shared<Diagram>();
+  const double radian = std::numbers::pi / 180.0;
+  for (double theta = 0.0; theta < 90.0; theta += step_deg)
+    diagram->theta_rad.push_back(theta * radian);
+  for (int phi = 0; phi < (part > 0.0 ? 12 : 1); ++phi)
+    diagram->phi_rad.push_back(phi * 30.0 * radian);
+  for (const double theta : diagram->theta_rad)
+    for (const double phi : diagram->phi_rad)
+      diagram->relative.push_back(std::pow(std::cos(theta), order) *
+                                  (1.0 + part * std::sin(theta) * std::cos(2.0 * phi)));
+  return {Pattern::Kind::diagram, 0.0, diagram};
+}
+
+// A wall, a board that shades it, a floor that light grazes, a bowl whose triangles are smaller than cells,
+// and nothing on the right.
+Scene room() {
+  SceneBuilder builder;
+  builder.add_wall({2.0, {}, {-10.0, -10.0}, {0.5, 10.0}});
+  builder.add_wall({1.1, {.reflectivity = 0.3}, {0.0, -0.1}, {0.12, 0.08}});
+  builder.add_triangle({-3, 0.5, 0.6}, {0, 0.6, 3}, {3, 0.5, 0.6});
+  const auto bowl = [](int i, int k) {
+    const glm::dvec2 at = 0.08 * glm::dvec2(i, k);
+    return glm::dvec3(at.x - 0.6, at.y - 0.5, 1.9 - 0.8 * glm::dot(at, at));
+  };
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) {
+      builder.add_triangle(bowl(i, k), bowl(i, k + 1), bowl(i + 1, k));
+      builder.add_triangle(bowl(i + 1, k + 1), bowl(i + 1, k), bowl(i, k + 1));
+    }
+  return builder.scene();
+}
+
+struct FieldSetup {
+  std::string name;
+  std::vector<Illuminator> lights;
+  Backscatter backscatter = Backscatter::lambert;
+  double max_error_m = 1e-4;
+};
+
+FieldSetup lit_by(std::string name, const Pattern &pattern, double max_error_m = 1e-4,
+                  double radius_m = 0.15) {
+  return {std::move(name), {light_at(ring(240, radius_m), 0.0, pattern)}, Backscatter::lambert, max_error_m};
+}
+
+FieldSetup two_boards() {
+  FieldSetup setup = lit_by("two boards, 40 degrees apart", diagram_of(1.0, 3.0), 5e-3);
+  std::vector<glm::dvec3> beside = ring(80, 0.1);
+  for (glm::dvec3 &place_m : beside)
+    place_m.x += 0.5;
+  setup.lights.push_back(light_at(beside, 0.7, diagram_of(2.0, 2.0)));
+  return setup;
+}
+
+FieldSetup flat_backscatter() {
+  FieldSetup setup = lit_by("diagram, constant backscatter", diagram_of(1.0, 3.0));
+  setup.backscatter = Backscatter::constant;
+  return setup;
+}
+
+struct FieldFrame {
+  Measurement frame;
+  std::string sum; // how the path describes it
+};
+
+FieldFrame measured_field(const FieldSetup &of, const Accuracy &accuracy, const SimulatorOptions &with = {}) {
+  Sensor sensor = wide_sensor();
+  sensor.resolution = {200, 150};
+  sensor.pixel_pitch_m *= 0.2; // 40 x 30 degrees
+  sensor.modulation_hz = {20e6};
+  SimulatorOptions options = with;
+  options.loop = DiodeLoop::looped; // compiles faster
+  options.keep_error_bound = true;
+  Simulator simulator = make_simulator(options);
+  simulator.prepare(room(), sensor, of.lights, of.backscatter, Shadows::automatic, accuracy);
+  std::string sum;
+  for (const auto &[name, value] : simulator.path())
+    if (name == "sum")
+      sum = value;
+  return {simulator.measure(), sum};
+}
+
+Accuracy auto_within(double max_error_m) {
+  Accuracy accuracy;
+  accuracy.mode = Mode::automatic;
+  accuracy.max_error_m = max_error_m;
+  return accuracy;
+}
+
+bool is_interpolated(const FieldFrame &of) { return of.sum.find("nodes") != std::string::npos; }
+
+bool are_same(const Measurement &a, const Measurement &b) {
+  const auto same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  const Return &first = a.returns[0], &second = b.returns[0];
+  return std::ranges::equal(first.distance_m, second.distance_m, same) &&
+         std::ranges::equal(first.amplitude, second.amplitude, same) &&
+         std::ranges::equal(first.error_bound_m, second.error_bound_m, same);
+}
+
+} // namespace
+
+TEST_CASE("interpolated sums keep every pixel's bound") {
+  print_heading_of_bounds("interpolated");
+  for (const FieldSetup &of : {lit_by("diagram, 1 degree", diagram_of(1.0, 3.0)),
+                               lit_by("diagram, 3 degrees", diagram_of(3.0, 3.0), 1e-3),
+                               lit_by("diagram with phi", diagram_of(1.0, 3.0, 0.02), 1e-3),
+                               lit_by("cos^33", {Pattern::Kind::cosine, 33.0}, 1e-3),
+                               lit_by("a board of 1.2 m", {Pattern::Kind::cosine, 3.5}, 1e-3, 0.6),
+                               flat_backscatter(), two_boards()}) {
+    Accuracy precise;
+    precise.precision = Precision::fp64;
+    const FieldFrame frame = measured_field(of, auto_within(of.max_error_m));
+    INFO(of.name << ": " << frame.sum);
+    CHECK(is_interpolated(frame));
+    check_kept_bounds(of.name, frame.frame, measured_field(of, precise).frame);
+  }
+}
+
+TEST_CASE("interpolated sums have the same bits in any strips, and each vector's width keeps the bound") {
+  const FieldSetup of = lit_by("diagram", diagram_of(1.0, 3.0));
+  const FieldFrame whole = measured_field(of, auto_within(1e-4));
+  REQUIRE(is_interpolated(whole));
+  for (const std::uint32_t rows : {1u, 7u, 40u}) {
+    SimulatorOptions options;
+    options.max_strip_samples = rows * 200;
+    CHECK(are_same(measured_field(of, auto_within(1e-4), options).frame, whole.frame));
+  }
+  SimulatorOptions narrow;
+  narrow.host_vector_bits = 128;
+  check_kept_bounds("vectors of 128 bits", measured_field(of, auto_within(1e-4), narrow).frame,
+                    measured_field(of, Accuracy{.precision = Precision::fp64}).frame);
+}
+
+TEST_CASE("sums are not interpolated where that does not suit them") {
+  const auto is_so = [](const FieldSetup &of, double max_error_m, const PathForms &allowed = {}) {
+    SimulatorOptions options;
+    options.allowed = allowed;
+    return is_interpolated(measured_field(of, auto_within(max_error_m), options));
+  };
+  const FieldSetup of = lit_by("diagram", diagram_of(1.0, 3.0));
+  REQUIRE(is_so(of, 1e-4));
+  CHECK_FALSE(is_so(of, 1e-4, {.incident_field = false}));
+  CHECK_FALSE(is_so(of, 2e-6)); // less than nodes' rounding comes to
+  CHECK_FALSE(is_interpolated(measured_field(of, {})));
+  CHECK_FALSE(is_so(lit_by("summed beforehand", {Pattern::Kind::cosine, 3.0}), 1e-4));
+  FieldSetup few = of;
+  few.lights = {light_at(ring(8, 0.15), 0.0, diagram_of(1.0, 3.0))};
+  CHECK_FALSE(is_so(few, 1e-4)); // nodes would be dearer than samples
+  // A diagram that ends within the view, and one that is dark there.
+  auto ends = std::make_shared<Diagram>(*of.lights[0].diodes[0].pattern.diagram);
+  ends->theta_rad.resize(20);
+  ends->relative.resize(20);
+  ends->relative.back() = 0.0;
+  CHECK_FALSE(is_so(lit_by("ends", {Pattern::Kind::diagram, 0.0, ends}), 1e-4));
+}
+
+TEST_CASE("pixels that see nothing keep every bound") {
+  // Light is dim enough to be summed again in double if a pixel did not keep the bound.
+  Accuracy in_float = auto_within(1e-4);
+  in_float.precision = Precision::fp32;
+  const Measurement frame = measured_field(lit_by("diagram", diagram_of(1.0, 3.0)), in_float).frame;
+  std::size_t unseen = 0;
+  for (std::size_t i = 0; i < frame.coverage.size(); ++i)
+    if (frame.coverage[i] == 0.0f) {
+      ++unseen;
+      CHECK(!(frame.returns[0].error_bound_m[i] > 0.0f)); // not a number
+    }
+  CHECK(unseen > 64);
+  CHECK(frame.accuracy.unpromised < unseen);
+}
