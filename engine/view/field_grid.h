@@ -1,6 +1,6 @@
 #pragma once
-// Cells of the view in which the light's field is interpolated (engine/light/host/incident_field.h): square in
-// the frame, even in the inverse of the depth.
+// Cells of the view in which the light's field is interpolated (engine/light/host/incident_field.h): square
+// in the frame, even in the inverse of the depth.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ inline constexpr double field_node_places[field_nodes] = {-1.0, 1.0 - std::numbe
                                                           std::numbers::sqrt2 - 1.0, 1.0};
 // Lambert's surfaces that take it are so high under the sources' reference point, in radii of the sources
 // about it: the interpolated sums cancel the less, the higher.
-inline constexpr double field_height = 6.0;
+inline constexpr double field_height = 3.0;
 
 struct FieldGrid {
   std::uint32_t side; // of a cell, samples
