@@ -9,10 +9,9 @@
 #include "engine/light/host/point_view.h"
 #include "engine/light/host/vector_sum.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
@@ -168,7 +167,9 @@ public:
       const std::uint32_t column =
           of_.samples.strip.column + static_cast<std::uint32_t>(samples.number[lane]) % columns;
       x[lane] = within_cell(column);
-      const double at = of_.field->cells_m * (1.0 / samples.point_m[2][lane] - 1.0 / of_.field->farthest_m);
+      constexpr double most = 1e9; // what is as near takes no field
+      const double at =
+          std::min(most, of_.field->cells_m * (1.0 / samples.point_m[2][lane] - 1.0 / of_.field->farthest_m));
       number_deep[lane] = static_cast<std::int32_t>(at);
       s[lane] = static_cast<float>(2.0 * (at - number_deep[lane]) - 1.0);
     }

@@ -122,8 +122,10 @@ void PixelsOnHost::add_field(const PassSetup &on, const SourceGroups &groups,
                              const InterpolatedField &field) {
   field_runs_ = light_runs(groups, field.bound, false);
   field_forms_ = forms_;
-  for (std::size_t i = 0; i < field_forms_.size(); ++i)
+  for (std::size_t i = 0; i < field_forms_.size(); ++i) {
     field_forms_[i].run = &field_runs_[i];
+    field_forms_[i].powers = 0; // rounding grows as at the nodes, which tell
+  }
   field_frequencies_ =
       frequency_records(on.modulation, groups.largest_intensity_w_sr, field.bound, groups.diode_count);
 }
