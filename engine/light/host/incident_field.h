@@ -175,7 +175,8 @@ public:
     }
     lagrange_.find(load<Floats>(x), weights_x_);
     lagrange_.find(load<Floats>(s), weights_s_);
-    for (Ints left = takes; const std::uint32_t bits = bits_of(left);) {
+    Ints left = takes;
+    for (std::uint32_t bits = bits_of(left); bits != 0; bits = bits_of(left)) {
       const std::int32_t first = number_deep[__builtin_ctz(bits)];
       const Ints here = left & (load<Ints>(number_deep) == first);
       left &= ~here;
