@@ -182,7 +182,7 @@ TEST_CASE("sums are not interpolated where that does not suit them") {
 }
 
 TEST_CASE("pixels that see nothing keep every bound") {
-  // Light is dim enough to be summed again in double if a pixel did not keep the bound.
+  // Without a class in double, pixels that do not keep the bound are counted.
   Accuracy in_float = auto_within(1e-4);
   in_float.precision = Precision::fp32;
   const Measurement frame = measured_field(lit_by("diagram", diagram_of(1.0, 3.0)), in_float).frame;
