@@ -131,11 +131,11 @@ void check_field_bounds(const FieldSetup &of) {
 TEST_CASE("interpolated sums keep every pixel's bound") {
   print_heading_of_bounds("interpolated");
   check_field_bounds(lit_by("diagram, 1 degree", diagram_of(1.0, 3.0)));
-  check_field_bounds(lit_by("cos^33", {Pattern::Kind::cosine, 33.0}, 1e-3));
 }
 
 TEST_CASE("interpolated sums keep every pixel's bound under more kinds of light", "[long]") {
   print_heading_of_bounds("interpolated");
+  check_field_bounds(lit_by("cos^33", {Pattern::Kind::cosine, 33.0}, 1e-3));
   check_field_bounds(lit_by("diagram, 3 degrees", diagram_of(3.0, 3.0), 1e-3));
   check_field_bounds(lit_by("diagram with phi", diagram_of(1.0, 3.0, 0.02), 1e-3));
   check_field_bounds(lit_by("a board of 1.2 m", {Pattern::Kind::cosine, 3.5}, 1e-3, 0.6));
@@ -147,7 +147,7 @@ TEST_CASE("interpolated sums have the same bits in any strips, and each vector's
   const FieldSetup of = lit_by("diagram", diagram_of(1.0, 3.0));
   const FieldFrame whole = measured_field(of, auto_within(1e-4));
   REQUIRE(is_interpolated(whole));
-  for (const std::uint32_t rows : {1u, 7u, 40u}) {
+  for (const std::uint32_t rows : {7u, 40u}) {
     SimulatorOptions options;
     options.max_strip_samples = rows * 200;
     CHECK(are_same(measured_field(of, auto_within(1e-4), options).frame, whole.frame));
