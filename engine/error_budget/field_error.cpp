@@ -1,6 +1,6 @@
 #include "engine/error_budget/field_error.h"
 
-#include "engine/error_budget/diode_radiation.h"
+#include "engine/light/radiation_laws.h"
 
 #include <algorithm>
 #include <array>
@@ -40,18 +40,20 @@ struct Term {
 
 class FieldTerms {
 public:
-  FieldTerms(const RunDiode &of, bool lambert) : of_(of), lambert_(lambert) {}
+  FieldTerms(const RunDiode &of, bool lambert)
+      : of_(of), value_(law_of(of.diode->pattern).value), lambert_(lambert) {}
 
   double rho_m(const glm::dvec3 &place_m) const { return glm::distance(place_m, of_.reference_m); }
   Term at(const glm::dvec3 &place_m) const {
     const glm::dvec3 way_m = place_m - of_.diode->position_m;
     const double stretch = glm::length(way_m) / rho_m(place_m);
-    const double weight = radiation(*of_.diode, way_m) / (stretch * stretch * (lambert_ ? stretch : 1.0));
+    const double weight = value_(*of_.diode, way_m) / (stretch * stretch * (lambert_ ? stretch : 1.0));
     return {weight, weight * (stretch - 1.0)};
   }
 
 private:
   const RunDiode &of_;
+  double (*value_)(const Diode &, const glm::dvec3 &);
   bool lambert_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/error_budget/emission_cosine.h"
 #include "engine/error_budget/field_error.h"
+#include "engine/light/radiation_laws.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +78,12 @@ bool all_shine(const LightFacts &view, const SourceGroups &groups) {
   if (least_emission_cosine(groups, view.visible) < least_cosine)
     return false;
   for (const CameraIlluminator &light : view.lights)
-    for (const Diode &diode : light.diodes)
-      if (diode.pattern.kind == Pattern::Kind::diagram &&
-          !shines(*diode.pattern.diagram, largest_angle_rad(diode, view.visible)))
+    for (const Diode &diode : light.diodes) {
+      const Diagram *diagram = diode.pattern.diagram.get();
+      if (law_of(diode.pattern).value == nullptr ||
+          (diagram && !shines(*diagram, largest_angle_rad(diode, view.visible))))
         return false;
+    }
   return true;
 }
 

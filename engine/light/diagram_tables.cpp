@@ -51,6 +51,17 @@ double place_among(const std::vector<double> &angles, double angle) {
   return static_cast<double>(above - angles.begin() - 1) + (angle - lower) / (*above - lower);
 }
 
+// As place_among; behind the last phi comes the first one of the next turn.
+double place_around(const std::vector<double> &phi_rad, double angle_rad) {
+  if (phi_rad.size() == 1)
+    return 0.0;
+  const double from_first_rad = angle_rad < phi_rad.front() ? angle_rad + turn_rad : angle_rad,
+               behind_rad = from_first_rad - phi_rad.back();
+  return behind_rad < 0.0 ? place_among(phi_rad, from_first_rad)
+                          : static_cast<double>(phi_rad.size() - 1) +
+                                behind_rad / (phi_rad.front() + turn_rad - phi_rad.back());
+}
+
 // The largest error of the even grid that holds `value_of` the place among `angles` at each of its steps: it
 // is found at one of the angles, where the value bends.
 template <class ValueOf>
@@ -166,6 +177,22 @@ void append_both(const Diagram &diagram, const ThetaPlace &theta_place, DiagramG
 }
 
 } // namespace
+
+double relative_at(const Diagram &diagram, double theta_rad, double phi_rad) {
+  if (theta_rad < diagram.theta_rad.front() || theta_rad > diagram.theta_rad.back())
+    return 0.0;
+  const std::size_t columns = diagram.phi_rad.size();
+  const double row = place_among(diagram.theta_rad, theta_rad),
+               column = place_around(diagram.phi_rad, phi_rad);
+  const auto at_theta = [&](std::size_t t) {
+    const auto first = static_cast<std::size_t>(column);
+    const auto j = [&](std::size_t p) { return diagram.relative[t * columns + p % columns]; };
+    return std::lerp(j(first), j(first + 1), column - static_cast<double>(first));
+  };
+  const auto above = static_cast<std::size_t>(row);
+  const std::size_t below = std::min(above + 1, diagram.theta_rad.size() - 1);
+  return std::lerp(at_theta(above), at_theta(below), row - static_cast<double>(above));
+}
 
 double diagram_slope(const Diagram &diagram) {
   return largest_change(diagram, [](double) { return std::numbers::pi; }) +

@@ -26,6 +26,9 @@ struct DiagramGrid {
   double error = 0.0;           // of J, at most, as the even grid makes it
 };
 
+// J at an angle to the axis and one about it, 0 to 2 pi; 0 where the diagram has none.
+double relative_at(const Diagram &diagram, double theta_rad, double phi_rad);
+
 // The largest change of J where each angle is off by a part of itself, over that part: pi |dJ/dtheta| +
 // |dJ/dphi| / sin theta, the latter as directions near the axis are uncertain in phi. Infinite where J varies
 // about the axis itself. Where a table ends it may jump to 0; that is an edge like a shadow's.

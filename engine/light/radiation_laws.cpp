@@ -179,6 +179,20 @@ double error_of_diagram(const Pattern &pattern, DiagramTables &tables, double ra
 
 double precise_error_of_diagram(const Pattern &pattern) { return precise_diagram_error(*pattern.diagram); }
 
+double cosine_value(const Diode &diode, const glm::dvec3 &way) {
+  const double along = glm::dot(diode.axis, way);
+  return along > 0.0 ? std::pow(along / glm::length(way), diode.pattern.order) : 0.0;
+}
+
+double diagram_value(const Diode &diode, const glm::dvec3 &way) {
+  const double along = glm::dot(diode.axis, way);
+  const glm::dvec3 across = way - along * diode.axis;
+  const double phi_rad =
+      std::atan2(glm::dot(across, glm::cross(diode.axis, diode.across)), glm::dot(across, diode.across));
+  return relative_at(*diode.pattern.diagram, std::atan2(glm::length(across), along),
+                     phi_rad < 0.0 ? phi_rad + 2.0 * std::numbers::pi : phi_rad);
+}
+
 constexpr std::array laws{
     RadiationLaw{.kind = Kind::isotropic,
                  .number = -1.0f,
@@ -186,6 +200,7 @@ constexpr std::array laws{
                  .form_beside_others = shader::pattern_general,
                  .slope = [](const Diode &, const std::vector<VisibleBox> &) { return 0.0; },
                  .rounding_u = [](float, const LawRounding &) { return 0.0; },
+                 .value = [](const Diode &, const glm::dvec3 &) { return 1.0; },
                  .series = [](const Pattern &) { return std::optional(LawSeries{}); }},
     RadiationLaw{.kind = Kind::cosine,
                  .number = 0.0f,
@@ -195,6 +210,7 @@ constexpr std::array laws{
                  .slope = cosine_slope,
                  .rounding_u = cosine_rounding_u,
                  .beam_rounding = cosine_beam_rounding,
+                 .value = cosine_value,
                  .edge = cosine_edge,
                  .beam_edge_rounding_u = cosine_edge_rounding_u,
                  .series = [](const Pattern &cosine) { return std::optional(LawSeries{cosine.order}); }},
@@ -206,6 +222,7 @@ constexpr std::array laws{
                  .rounding_u = diagram_rounding_u,
                  .error = error_of_diagram,
                  .precise_error = precise_error_of_diagram,
+                 .value = diagram_value,
                  .unbounded = "a measured diagram that varies about its own axis has no bound"},
 };
 

@@ -73,6 +73,8 @@ struct RadiationLaw {
   // has no bound.
   double (*error)(const Pattern &, DiagramTables &, double radius_over_range) = nullptr;
   double (*precise_error)(const Pattern &) = nullptr; // in fp64
+  // J in double; the way from the diode, of any length. Left out: sums over its diodes are not interpolated.
+  double (*value)(const Diode &, const glm::dvec3 &way) = nullptr;
   // Why an error cannot be promised where there is no bound.
   const char *unbounded = "a diode has a radiation law whose rounding has no bound";
   // Where beams have a rim: how steep it is, for GroupSource::order, nothing where it is an edge; and J's own

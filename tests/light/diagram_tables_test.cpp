@@ -217,3 +217,21 @@ TEST_CASE("diodes with the same diagram share its values") {
   CHECK(tables.grid_of(one).first_value == 0);
   CHECK(tables.values().size() == 5);
 }
+
+TEST_CASE("a diagram in double is linear between its angles, around the turn too") {
+  Diagram diagram;
+  diagram.theta_rad = {0.0, 0.5, 1.0};
+  diagram.phi_rad = {1.0, 3.0, 5.0};
+  diagram.relative = {1.0, 1.0, 1.0, 0.8, 0.6, 0.4, 0.2, 0.1, 0.0};
+  CHECK(relative_at(diagram, 0.5, 1.0) == Approx(0.8));
+  CHECK(relative_at(diagram, 0.25, 3.0) == Approx(0.8));
+  CHECK(relative_at(diagram, 0.5, 2.0) == Approx(0.7));
+  const double from_last_to_first = 2.0 * std::numbers::pi - 4.0;
+  for (const double beyond_last_rad : {0.3, 1.8}) { // before and behind the end of the turn
+    double phi_rad = 5.0 + beyond_last_rad;
+    phi_rad -= phi_rad < 2.0 * std::numbers::pi ? 0.0 : 2.0 * std::numbers::pi;
+    CHECK(relative_at(diagram, 0.5, phi_rad) == Approx(0.4 + 0.4 * beyond_last_rad / from_last_to_first));
+  }
+  CHECK(relative_at(diagram, 1.0, 4.0) == Approx(0.05));
+  CHECK(relative_at(diagram, 1.01, 4.0) == 0.0);
+}
