@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <random>
+#include <numbers>
+#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -18,18 +18,41 @@ struct RunDiode {
   glm::dvec3 reference_m;
 };
 
-std::vector<RunDiode> diodes_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups) {
+// Diodes that are alike but for their places, or nearly so: each kind is looked at by itself, as few diodes
+// of one kind may give most of the light somewhere.
+using DiodeKind = std::vector<RunDiode>;
+
+bool are_alike(const RunDiode &a, const RunDiode &b) {
+  constexpr double common_axis = 0.95; // 18 degrees
+  const Pattern &of_a = a.diode->pattern, &of_b = b.diode->pattern;
+  return a.reference_m == b.reference_m && of_a.kind == of_b.kind && of_a.order == of_b.order &&
+         of_a.diagram == of_b.diagram && glm::dot(a.diode->axis, b.diode->axis) > common_axis;
+}
+
+// Nothing where there are more kinds than can be looked at, or no diode shines.
+std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups) {
+  constexpr std::size_t most_kinds = 32;
   std::vector<const Diode *> all;
   for (const CameraIlluminator &light : lights)
     for (const Diode &diode : light.diodes)
       all.push_back(&diode);
-  std::vector<RunDiode> diodes;
+  std::vector<DiodeKind> kinds;
   for (const SourceRun &run : groups.runs)
-    for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i)
-      if (const SourcePosition &place = groups.positions[run.first + i];
-          place.number != no_id && all[place.number]->intensity_w_sr > 0.0)
-        diodes.push_back({all[place.number], run.reference_m});
-  return diodes;
+    for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i) {
+      const SourcePosition &place = groups.positions[run.first + i];
+      if (place.number == no_id || !(all[place.number]->intensity_w_sr > 0.0))
+        continue;
+      const RunDiode diode{all[place.number], run.reference_m};
+      const auto kind =
+          std::ranges::find_if(kinds, [&](const DiodeKind &of) { return are_alike(of.front(), diode); });
+      if (kind != kinds.end())
+        kind->push_back(diode);
+      else if (kinds.size() < most_kinds)
+        kinds.push_back({diode});
+      else
+        return {};
+    }
+  return kinds;
 }
 
 // What is interpolated of a diode's term at a place: its weight without the surface, and that times the path
@@ -55,16 +78,6 @@ private:
   const RunDiode &of_;
   double (*value_)(const Diode &, const glm::dvec3 &);
   bool lambert_;
-};
-
-// A cell of the view: x, y and s of its middle, and half of its extent along each; places are (x, y, 1) / s.
-struct ViewCell {
-  glm::dvec3 middle, half;
-
-  glm::dvec3 place_m(const glm::dvec3 &within) const { // each in [-1, 1]
-    const glm::dvec3 at = middle + half * within;
-    return glm::dvec3(at.x, at.y, 1.0) / at.z;
-  }
 };
 
 constexpr std::size_t nodes = field_nodes, places = 5; // along each axis
@@ -122,68 +135,35 @@ FieldError error_in(const ViewCell &cell, const FieldTerms &terms) {
   return worst;
 }
 
-// The cell that a place is in; nothing where that is out of the frame.
-std::optional<ViewCell> cell_of(const Sensor &sensor, const FieldGrid &grid, const glm::dvec3 &place_m) {
-  const glm::dvec2 half_cell =
-      0.5 * static_cast<double>(grid.side) * sensor.pixel_pitch_m / sensor.image_distance_m();
-  const glm::dvec2 edge =
-      0.5 * sensor.pixel_pitch_m * glm::dvec2(sensor.resolution) / sensor.image_distance_m();
-  const glm::dvec2 ray = glm::dvec2(place_m) / place_m.z;
-  if (!(place_m.z > 0.0) || std::abs(ray.x) > edge.x || std::abs(ray.y) > edge.y)
-    return std::nullopt;
-  const double half_s = 0.5 / grid.cells_m;
-  const glm::dvec2 number = glm::floor((ray + edge) / (2.0 * half_cell));
-  const double farthest = 1.0 / grid.farthest_m,
-               deep = std::max(std::floor(grid.cells_m * (1.0 / place_m.z - farthest)), 0.0);
-  return ViewCell{{glm::dvec2(2.0 * number + 1.0) * half_cell - edge, farthest + (2.0 * deep + 1.0) * half_s},
-                  {half_cell, half_s}};
-}
-
-// Places that are seen, most of them at random, at first those at the edges of the frame.
-std::vector<glm::dvec3> places_of(const std::vector<VisibleBox> &visible) {
-  constexpr std::size_t most_boxes = 32, most_places = 160;
-  std::mt19937 random(1);
-  const auto part = [&] { return std::generate_canonical<double, 32>(random); };
-  std::vector<glm::dvec3> all;
-  const std::size_t step = (visible.size() + most_boxes - 1) / most_boxes,
-                    of_box = most_places / std::min(visible.size(), most_boxes);
-  for (std::size_t i = 0; i < visible.size(); i += step) {
-    const VisibleBox &box = visible[i];
-    const auto at = [&](double x, double y, double z) {
-      all.push_back(glm::mix(box.low_m, box.high_m, glm::dvec3(x, y, z)));
-    };
-    for (const double x : {0.001, 0.999})
-      for (const double y : {0.001, 0.999})
-        for (const double z : {0.001, 0.999})
-          at(x, y, z);
-    for (std::size_t k = 0; k < of_box; ++k)
-      at(part(), part(), part());
-  }
-  return all;
-}
-
 } // namespace
 
-FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldGrid &grid,
-                       const std::function<bool(const FieldError &)> &is_enough) {
+FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldCells &cells,
+                       const std::function<bool(const FieldError &)> &is_too_large) {
   // Of what lies between the places and diodes that are looked at; and of the sums at nodes by a surface that
   // is no nearer to grazing than field_height allows.
   constexpr double margin = 2.0, by_surface = (field_height + 1.0) / (field_height - 1.0);
+  constexpr std::size_t kinds_of_place = 4;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool lambert = view.model.backscatter == shader::backscatter_lambert;
-  const std::vector<RunDiode> diodes = diodes_of(view.lights, groups);
-  FieldError worst{diodes.empty() ? std::numeric_limits<double>::infinity() : 0.0, 0.0, by_surface};
+  const std::vector<DiodeKind> kinds = kinds_of(view.lights, groups);
+  if (kinds.empty() || !cells.any())
+    return {infinite, infinite, infinite};
+  FieldError worst{0.0, 0.0, by_surface};
   std::size_t next = 0;
-  for (const glm::dvec3 &place_m : places_of(view.visible)) {
-    if (is_enough(worst))
-      break;
-    const auto cell = cell_of(view.sensor, grid, place_m);
-    if (!cell)
-      continue;
-    const FieldError here = error_in(*cell, FieldTerms(diodes[next % diodes.size()], lambert));
-    worst = {std::max(margin * here.relative, worst.relative), std::max(margin * here.path_m, worst.path_m),
-             std::max(by_surface * here.rounding_growth, worst.rounding_growth)};
-    next += 1 + diodes.size() * 5 / 13;
-  }
+  for (const glm::dvec3 &place_m : cells.places_m())
+    for (std::size_t i = 0; i < std::min(kinds.size(), kinds_of_place); ++i, ++next) {
+      if (is_too_large(worst))
+        return worst;
+      const DiodeKind &kind = kinds[next % kinds.size()];
+      // Steps by the golden ratio come to all diodes, however many there are.
+      const std::size_t round = next / kinds.size();
+      const double turn = static_cast<double>(round) * std::numbers::phi;
+      const auto number =
+          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(kind.size()));
+      const FieldError here = error_in(cells.cell_of(place_m), FieldTerms(kind[number], lambert));
+      worst = {std::max(margin * here.relative, worst.relative), std::max(margin * here.path_m, worst.path_m),
+               std::max(by_surface * here.rounding_growth, worst.rounding_growth)};
+    }
   return worst;
 }
 

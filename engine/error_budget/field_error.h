@@ -1,6 +1,7 @@
 #pragma once
 // What sums are off by that are interpolated in cells of the view (engine/light/host/incident_field.h).
 
+#include "engine/error_budget/field_cells.h"
 #include "engine/error_budget/plan.h"
 
 #include <functional>
@@ -14,10 +15,11 @@ struct FieldError {
   double rounding_growth; // of what the nodes are off by
 };
 
-// In cells that are looked at, at random but for the edges of what is seen, with a margin for what lies
-// between them. Ends where `is_enough` says so of the worst so far.
-FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldGrid &grid,
-                       const std::function<bool(const FieldError &)> &is_enough);
+// At places that are looked at, with a margin for what lies between them. Ends where `is_too_large` says so
+// of the worst so far. Infinite where nothing is seen, or where there are too many kinds of diodes to look
+// at.
+FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldCells &cells,
+                       const std::function<bool(const FieldError &)> &is_too_large);
 
 // The bound of pixels whose sums are interpolated, from that of sums at each sample.
 ErrorBound through_field(ErrorBound bound, const FieldError &error);

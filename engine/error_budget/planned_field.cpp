@@ -1,11 +1,11 @@
 #include "engine/error_budget/planned_field.h"
 
-#include "engine/error_budget/emission_cosine.h"
 #include "engine/error_budget/field_error.h"
 #include "engine/light/radiation_laws.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pmdsim {
 namespace {
@@ -16,10 +16,9 @@ constexpr double share_of_field = 0.5;
 constexpr double node_cost = 1.5, interpolated_sources = 24.0;
 
 // What all of the frame's sums take, in sums over a source at a sample.
-double cost(const Sensor &sensor, const SourceGroups &groups, const FieldGrid &grid) {
-  const glm::uvec2 cells = (sensor.resolution + grid.side - 1u) / grid.side;
+double cost(const Sensor &sensor, const SourceGroups &groups, const FieldCells &cells) {
   constexpr double nodes_of_cell = field_nodes * field_nodes * field_nodes;
-  return groups.diode_count * nodes_of_cell * node_cost * cells.x * cells.y +
+  return groups.diode_count * nodes_of_cell * node_cost * cells.count() +
          static_cast<double>(groups.runs.size()) * interpolated_sources *
              static_cast<double>(sensor.pixel_count());
 }
@@ -32,12 +31,17 @@ double farthest_lamp_m(const std::vector<CameraIlluminator> &lights) {
   return farthest_m;
 }
 
-double farthest_m(const std::vector<VisibleBox> &visible) {
+// From the nearest depth that is seen to a hair beyond the farthest.
+struct DepthRange {
+  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0;
+};
+
+DepthRange depths_of(const std::vector<VisibleBox> &visible) {
   constexpr double beyond = 1.000001;
-  double farthest = 0.0;
+  DepthRange range;
   for (const VisibleBox &box : visible)
-    farthest = std::max(farthest, beyond * box.high_m.z);
-  return farthest;
+    range = {std::min(range.nearest_m, box.low_m.z), std::max(range.farthest_m, beyond * box.high_m.z)};
+  return range;
 }
 
 // Whether the host would sum over the sources at each sample else.
@@ -49,7 +53,7 @@ bool is_summed_at_samples(const LightFacts &view, const SourceGroups &groups) {
          view.modulation.waveform == shader::waveform_sine && groups.polynomials.point_dimensions == 0;
 }
 
-// Whether J is above 0 in all directions within `most_rad` of the axis, and no step.
+// Whether J is above 0 in all directions within `most_rad` of the axis.
 bool shines(const Diagram &diagram, double most_rad) {
   const std::size_t phis = diagram.phi_rad.size();
   const auto above = std::ranges::upper_bound(diagram.theta_rad, most_rad);
@@ -60,31 +64,28 @@ bool shines(const Diagram &diagram, double most_rad) {
                      [](double j) { return j > 0.0; });
 }
 
-// The angle to a diode's axis is largest at a box's corner.
-double largest_angle_rad(const Diode &diode, const std::vector<VisibleBox> &visible) {
+// Whether the diode's light neither ends nor nearly ends between the corners. Directions within less than a
+// right angle of an axis are convex, so that the corners hold the largest angle.
+bool shines(const Diode &diode, const CellCorners &corners_m) {
+  constexpr double least_cosine = 0.1;
+  const RadiationLaw &law = law_of(diode.pattern);
+  if (law.value == nullptr)
+    return false;
+  const Diagram *diagram = diode.pattern.diagram.get();
+  if (!diagram && law.edge == nullptr)
+    return true;
   double least = 1.0;
-  for (const VisibleBox &box : visible)
-    for (int i = 0; i < 8; ++i) {
-      const glm::bvec3 high((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
-      const glm::dvec3 way_m = glm::mix(box.low_m, box.high_m, high) - diode.position_m;
-      least = std::min(least, glm::dot(diode.axis, way_m) / glm::length(way_m));
-    }
-  return std::acos(std::max(least, -1.0));
+  for (const glm::dvec3 &corner_m : corners_m) {
+    const glm::dvec3 way_m = corner_m - diode.position_m;
+    least = std::min(least, glm::dot(diode.axis, way_m) / glm::length(way_m));
+  }
+  return least >= least_cosine && (!diagram || shines(*diagram, std::acos(least)));
 }
 
-// Whether no diode's light ends within what is visible, or nearly does.
-bool all_shine(const LightFacts &view, const SourceGroups &groups) {
-  constexpr double least_cosine = 0.1;
-  if (least_emission_cosine(groups, view.visible) < least_cosine)
-    return false;
-  for (const CameraIlluminator &light : view.lights)
-    for (const Diode &diode : light.diodes) {
-      const Diagram *diagram = diode.pattern.diagram.get();
-      if (law_of(diode.pattern).value == nullptr ||
-          (diagram && !shines(*diagram, largest_angle_rad(diode, view.visible))))
-        return false;
-    }
-  return true;
+bool all_shine(const LightFacts &view, const CellCorners &corners_m) {
+  return std::ranges::all_of(view.lights, [&](const CameraIlluminator &light) {
+    return std::ranges::all_of(light.diodes, [&](const Diode &diode) { return shines(diode, corners_m); });
+  });
 }
 
 } // namespace
@@ -93,11 +94,10 @@ std::optional<InterpolatedField> plan_field(const LightFacts &view, const Source
                                             const ErrorBound &bound, const TypicalLight &typical) {
   // The error of a path is that of a phase's first power.
   constexpr double largest_rad = 0.5;
-  const double farthest = farthest_m(view.visible);
-  if (!view.allowed.incident_field || !is_summed_at_samples(view, groups) || !(farthest > 0.0) ||
-      !std::isfinite(farthest) ||
-      view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m > largest_rad ||
-      !all_shine(view, groups))
+  const DepthRange seen = depths_of(view.visible);
+  if (!view.allowed.incident_field || !is_summed_at_samples(view, groups) || !(seen.nearest_m > 0.0) ||
+      !(seen.farthest_m > 0.0) || !std::isfinite(seen.farthest_m) ||
+      view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m > largest_rad)
     return std::nullopt;
   const auto is_kept = [&](const ErrorBound &of) {
     return of.nearest_m(typical.condition, typical.dimming_of_most) <= share_of_field * of.limit_m &&
@@ -107,11 +107,14 @@ std::optional<InterpolatedField> plan_field(const LightFacts &view, const Source
   const double at_samples = groups.diode_count * static_cast<double>(view.sensor.pixel_count());
   for (const std::uint32_t side : {64u, 32u, 16u})
     for (const double lamps_of_cell : {0.25, 0.125, 0.0625, 0.03125, 0.015625}) {
-      const FieldGrid grid{side, lamp_m / lamps_of_cell, farthest};
-      if (2.0 * cost(view.sensor, groups, grid) > at_samples)
+      const FieldGrid grid{side, lamp_m / lamps_of_cell, seen.farthest_m};
+      const FieldCells cells(view.sensor, grid, view.visible);
+      if (!cells.any() || 2.0 * cost(view.sensor, groups, cells) > at_samples)
         break;
+      if (!all_shine(view, cells.corners_m()))
+        continue;
       const auto is_beyond = [&](const FieldError &error) { return !is_kept(through_field(bound, error)); };
-      const FieldError error = field_error(view, groups, grid, is_beyond);
+      const FieldError error = field_error(view, groups, cells, is_beyond);
       if (!is_beyond(error))
         return InterpolatedField{grid, through_field(bound, error)};
     }

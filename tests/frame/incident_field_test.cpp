@@ -72,6 +72,26 @@ FieldSetup two_boards() {
   return setup;
 }
 
+// A ring, and aside of it one lamp that gives as much light in a narrow beam.
+FieldSetup ring_and_spot() {
+  FieldSetup setup = lit_by("a ring and a spot", diagram_of(1.0, 3.0), 1e-3);
+  Illuminator spot = light_at({{0.3, 0.0, 0.0}}, 0.0, {Pattern::Kind::cosine, 12.0});
+  spot.diodes[0].intensity_w_sr *= 240.0;
+  setup.lights.push_back(spot);
+  return setup;
+}
+
+// Every diode has an axis of its own, up to 20 degrees outwards.
+FieldSetup tilted_outwards() {
+  FieldSetup setup = lit_by("axes up to 20 degrees outwards", diagram_of(1.0, 3.0), 1e-3);
+  for (std::size_t i = 0; i < setup.lights[0].diodes.size(); ++i) {
+    Diode &diode = setup.lights[0].diodes[i];
+    const double tilt = 0.175 * static_cast<double>(i % 3);
+    diode.axis = std::cos(tilt) * diode.axis + std::sin(tilt) * glm::normalize(diode.position_m);
+  }
+  return setup;
+}
+
 FieldSetup flat_backscatter() {
   FieldSetup setup = lit_by("diagram, constant backscatter", diagram_of(1.0, 3.0));
   setup.backscatter = Backscatter::constant;
@@ -83,21 +103,30 @@ struct FieldFrame {
   std::string sum; // how the path describes it
 };
 
-FieldFrame measured_field(const FieldSetup &of, const Accuracy &accuracy, const SimulatorOptions &with = {}) {
+Sensor sensor_of(const glm::uvec2 &resolution) { // 40 x 30 degrees at 200 x 150
   Sensor sensor = wide_sensor();
-  sensor.resolution = {200, 150};
-  sensor.pixel_pitch_m *= 0.2; // 40 x 30 degrees
+  sensor.resolution = resolution;
+  sensor.pixel_pitch_m *= 0.2;
   sensor.modulation_hz = {20e6};
+  return sensor;
+}
+
+FieldFrame measured_field(const FieldSetup &of, const Scene &scene, const Sensor &sensor,
+                          const Accuracy &accuracy, const SimulatorOptions &with = {}) {
   SimulatorOptions options = with;
   options.loop = DiodeLoop::looped; // compiles faster
   options.keep_error_bound = true;
   Simulator simulator = make_simulator(options);
-  simulator.prepare(room(), sensor, of.lights, of.backscatter, Shadows::automatic, accuracy);
+  simulator.prepare(scene, sensor, of.lights, of.backscatter, Shadows::automatic, accuracy);
   std::string sum;
   for (const auto &[name, value] : simulator.path())
     if (name == "sum")
       sum = value;
   return {simulator.measure(), sum};
+}
+
+FieldFrame measured_field(const FieldSetup &of, const Accuracy &accuracy, const SimulatorOptions &with = {}) {
+  return measured_field(of, room(), sensor_of({200, 150}), accuracy, with);
 }
 
 Accuracy auto_within(double max_error_m) {
@@ -139,8 +168,31 @@ TEST_CASE("interpolated sums keep every pixel's bound under more kinds of light"
   check_field_bounds(lit_by("diagram, 3 degrees", diagram_of(3.0, 3.0), 1e-3));
   check_field_bounds(lit_by("diagram with phi", diagram_of(1.0, 3.0, 0.02), 1e-3));
   check_field_bounds(lit_by("a board of 1.2 m", {Pattern::Kind::cosine, 3.5}, 1e-3, 0.6));
+  check_field_bounds(ring_and_spot());
+  check_field_bounds(tilted_outwards());
   check_field_bounds(flat_backscatter());
   check_field_bounds(two_boards());
+}
+
+TEST_CASE("light that ends between the frame and the last cells' nodes breaks no bound") {
+  // The last cells begin with the frame's last 4 columns and rows, and their nodes lie up to 60 samples
+  // beyond it. What is visible is known for 16 samples beyond it.
+  const Sensor sensor = sensor_of({196, 196});
+  const double dark = (98.0 + 30.0) * sensor.pixel_pitch_m.x / sensor.focal_length_m;
+  const double ends_deg = std::atan(std::numbers::sqrt2 * dark + 0.015) * 180.0 / std::numbers::pi;
+  Pattern pattern = diagram_of(1.0, 3.0);
+  auto ends = std::make_shared<Diagram>(*pattern.diagram);
+  ends->theta_rad.resize(static_cast<std::size_t>(ends_deg) + 1);
+  ends->relative.resize(ends->theta_rad.size());
+  pattern.diagram = ends;
+  SceneBuilder wall;
+  wall.add_wall({2.0, {}, {-10.0, -10.0}, {10.0, 10.0}});
+  const FieldSetup of = lit_by("ends beyond the frame", pattern, 1e-4, 0.03);
+  const FieldFrame frame = measured_field(of, wall.scene(), sensor, auto_within(1e-4));
+  INFO(frame.sum);
+  Accuracy precise;
+  precise.precision = Precision::fp64;
+  check_kept_bounds(of.name, frame.frame, measured_field(of, wall.scene(), sensor, precise).frame);
 }
 
 TEST_CASE("interpolated sums have the same bits in any strips, and each vector's width keeps the bound") {

@@ -48,7 +48,7 @@ public:
     std::ranges::fill(light.moment, Floats{});
     if (bits_of(others) != 0)
       sum_at_samples(run, light);
-    if (bits_of(takes) != 0) {
+    if (field_ && bits_of(takes) != 0) {
       field_->find(run, samples_, view, takes, light.moment, light.growth);
       light.weights = light.moment[of_.forms[run].moments];
     }
@@ -283,6 +283,10 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *f
       if (bits_of(light.by_field) != 0)
         terms =
             either(light.by_field, terms_of(of.field_forms[run], view, light.weights, light.growth), terms);
+      // Polynomials may fall below 0 where no light does.
+      terms.light = (light.by_field & ~(light.weights > 0.0f)) != 0
+                        ? all(std::numeric_limits<float>::infinity())
+                        : terms.light;
       returns.terms = returns.terms + terms;
       if (keeps_runs(of))
         returns.terms_of_run[run] = terms;

@@ -1,0 +1,60 @@
+#pragma once
+// The cells of the view in which sums are interpolated (engine/view/field_grid.h), as far as anything is seen
+// in them. A place is (x, y, 1) / s in the camera's frame: its ray, and the inverse of its depth.
+
+#include "engine/model/sensor.h"
+#include "engine/view/camera_scene.h"
+#include "engine/view/field_grid.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace pmdsim {
+
+// Of x, y and s: its middle, and half of its extent along each.
+struct ViewCell {
+  glm::dvec3 middle, half;
+
+  glm::dvec3 place_m(const glm::dvec3 &within) const { // each in [-1, 1]
+    const glm::dvec3 at = middle + half * within;
+    return glm::dvec3(at.x, at.y, 1.0) / at.z;
+  }
+};
+
+// Corners of a box, which the places of a cell's nodes lie within.
+using CellCorners = std::array<glm::dvec3, 8>;
+
+class FieldCells {
+public:
+  // `visible`: in front of the lens.
+  FieldCells(const Sensor &sensor, const FieldGrid &grid, const std::vector<VisibleBox> &visible);
+
+  // Whether anything is in the frame.
+  bool any() const { return !boxes_.empty(); }
+  // Of the cells in which anything may be seen, all together.
+  CellCorners corners_m() const;
+  // How many of them there are, about, where a surface crosses the cells of its box once.
+  double count() const;
+  // Places that may be seen: the corners of what lies in the frame, and at random, even in s.
+  std::vector<glm::dvec3> places_m() const;
+  ViewCell cell_of(const glm::dvec3 &place_m) const;
+
+private:
+  // A box as far as it lies in the frame.
+  struct SeenBox {
+    glm::dvec3 low_m, high_m;
+    double least_s, most_s;
+    glm::dvec3 low, high; // of x, y and s
+  };
+
+  std::optional<SeenBox> seen(const VisibleBox &box) const;
+  glm::dvec3 place_m(const SeenBox &box, const glm::dvec3 &within) const; // each in [0, 1]
+
+  glm::dvec3 size_;       // of a cell
+  glm::dvec3 low_, high_; // of the frame's x and y, and of s
+  std::vector<SeenBox> boxes_;
+};
+
+} // namespace pmdsim
