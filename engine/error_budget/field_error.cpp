@@ -12,10 +12,11 @@
 namespace pmdsim {
 namespace {
 
-// A diode and the reference point of its run.
+// A diode, and the reference point and the beam of its run.
 struct RunDiode {
   const Diode *diode;
   glm::dvec3 reference_m;
+  const FieldBeam *beam;
 };
 
 // Diodes that are alike but for their places, or nearly so: each kind is looked at by itself, as few diodes
@@ -30,19 +31,20 @@ bool are_alike(const RunDiode &a, const RunDiode &b) {
 }
 
 // Nothing where there are more kinds than can be looked at, or no diode shines.
-std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups) {
+std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups,
+                                const std::vector<FieldBeam> &beams) {
   constexpr std::size_t most_kinds = 32;
   std::vector<const Diode *> all;
   for (const CameraIlluminator &light : lights)
     for (const Diode &diode : light.diodes)
       all.push_back(&diode);
   std::vector<DiodeKind> kinds;
-  for (const SourceRun &run : groups.runs)
+  for (std::size_t r = 0; r < groups.runs.size(); ++r)
     for (std::uint32_t i = 0; i < groups.blocks_per_run * shader::diodes_per_block; ++i) {
-      const SourcePosition &place = groups.positions[run.first + i];
+      const SourcePosition &place = groups.positions[groups.runs[r].first + i];
       if (place.number == no_id || !(all[place.number]->intensity_w_sr > 0.0))
         continue;
-      const RunDiode diode{all[place.number], run.reference_m};
+      const RunDiode diode{all[place.number], groups.runs[r].reference_m, &beams[r]};
       const auto kind =
           std::ranges::find_if(kinds, [&](const DiodeKind &of) { return are_alike(of.front(), diode); });
       if (kind != kinds.end())
@@ -55,10 +57,11 @@ std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, co
   return kinds;
 }
 
-// What is interpolated of a diode's term at a place: its weight without the surface, and that times the path
-// difference, in units of rho.
+// What is interpolated of a diode's term at a place: its weight without the surface, over its run's beam, and
+// that times the path difference, in units of rho.
 struct Term {
   double weight, path;
+  double light; // J
 };
 
 class FieldTerms {
@@ -70,11 +73,22 @@ public:
   Term at(const glm::dvec3 &place_m) const {
     const glm::dvec3 way_m = place_m - of_.diode->position_m;
     const double stretch = glm::length(way_m) / rho_m(place_m);
-    const double weight = value_(*of_.diode, way_m) / (stretch * stretch * (lambert_ ? stretch : 1.0));
-    return {weight, weight * (stretch - 1.0)};
+    const double light = value_(*of_.diode, way_m);
+    const double weight = light / (beam_at(place_m) * stretch * stretch * (lambert_ ? stretch : 1.0));
+    return {weight, weight * (stretch - 1.0), light};
   }
+  // Of the beam at a sample, in float: its cosine's, the power's, and a few more.
+  double beam_rounding() const { return (2.0 * power() + 8.0) * 0x1p-24; }
 
 private:
+  double power() const {
+    return static_cast<double>(of_.beam->power.whole) + static_cast<double>(of_.beam->power.rest);
+  }
+  double beam_at(const glm::dvec3 &place_m) const {
+    const glm::dvec3 axis(of_.beam->axis[0], of_.beam->axis[1], of_.beam->axis[2]);
+    return std::pow(std::max(glm::dot(axis, place_m - of_.reference_m), 0.0) / rho_m(place_m), power());
+  }
+
   const RunDiode &of_;
   double (*value_)(const Diode &, const glm::dvec3 &);
   bool lambert_;
@@ -110,13 +124,18 @@ void for_each_of(const Function &function) {
 // The worst of a diode's term in a cell.
 FieldError error_in(const ViewCell &cell, const FieldTerms &terms) {
   static const Weights weights = lagrange_weights();
+  constexpr double infinite = std::numeric_limits<double>::infinity(), dark = 1e-25;
   std::array<std::array<std::array<Term, nodes>, nodes>, nodes> at;
+  double least_light = infinite;
   for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
     at[x][y][z] = terms.at(cell.place_m({node(x), node(y), node(z)}));
+    least_light = std::min(least_light, at[x][y][z].light);
   });
-  FieldError worst{0.0, 0.0, 1.0};
+  if (!(least_light > dark))
+    return {infinite, infinite, infinite, infinite};
+  FieldError worst{0.0, 0.0, 1.0, 0.0};
   for_each_of<places>([&](std::size_t px, std::size_t py, std::size_t pz) {
-    Term sum{0.0, 0.0};
+    Term sum{0.0, 0.0, 0.0};
     double sizes = 0.0;
     for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
       const double weight = weights[px][x] * weights[py][y] * weights[pz][z];
@@ -127,17 +146,19 @@ FieldError error_in(const ViewCell &cell, const FieldTerms &terms) {
     const glm::dvec3 place_m = cell.place_m({place(px), place(py), place(pz)});
     const Term exact = terms.at(place_m);
     const double inverse = 1.0 / exact.weight;
-    worst.relative = std::max(std::abs(sum.weight * inverse - 1.0), worst.relative);
+    worst.relative = std::max(std::abs(sum.weight * inverse - 1.0) + terms.beam_rounding(), worst.relative);
     worst.path_m = std::max(worst.path_m, 0.5 * terms.rho_m(place_m) * inverse *
                                               std::abs(sum.path - exact.path * inverse * sum.weight));
     worst.rounding_growth = std::max(worst.rounding_growth, sizes * inverse);
+    worst.dimming = std::max(worst.dimming, std::log(exact.light / least_light));
   });
   return worst;
 }
 
 } // namespace
 
-FieldError field_error(const LightFacts &view, const SourceGroups &groups, const FieldCells &cells,
+FieldError field_error(const LightFacts &view, const SourceGroups &groups,
+                       const std::vector<FieldBeam> &beams, const FieldCells &cells,
                        const std::function<bool(const FieldError &)> &is_too_large) {
   // Of what lies between the places and diodes that are looked at; and of the sums at nodes by a surface that
   // is no nearer to grazing than field_height allows.
@@ -145,10 +166,10 @@ FieldError field_error(const LightFacts &view, const SourceGroups &groups, const
   constexpr std::size_t kinds_of_place = 4;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool lambert = view.model.backscatter == shader::backscatter_lambert;
-  const std::vector<DiodeKind> kinds = kinds_of(view.lights, groups);
+  const std::vector<DiodeKind> kinds = kinds_of(view.lights, groups, beams);
   if (kinds.empty() || !cells.any())
-    return {infinite, infinite, infinite};
-  FieldError worst{0.0, 0.0, by_surface};
+    return {infinite, infinite, infinite, infinite};
+  FieldError worst{0.0, 0.0, by_surface, 0.0};
   std::size_t next = 0;
   for (const glm::dvec3 &place_m : cells.places_m())
     for (std::size_t i = 0; i < std::min(kinds.size(), kinds_of_place); ++i, ++next) {
@@ -162,7 +183,8 @@ FieldError field_error(const LightFacts &view, const SourceGroups &groups, const
           static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(kind.size()));
       const FieldError here = error_in(cells.cell_of(place_m), FieldTerms(kind[number], lambert));
       worst = {std::max(margin * here.relative, worst.relative), std::max(margin * here.path_m, worst.path_m),
-               std::max(by_surface * here.rounding_growth, worst.rounding_growth)};
+               std::max(by_surface * here.rounding_growth, worst.rounding_growth),
+               std::max(here.dimming, worst.dimming)};
     }
   return worst;
 }
@@ -176,9 +198,7 @@ ErrorBound through_field(ErrorBound bound, const FieldError &error) {
   bound.amplitude_per_condition = growth * bound.amplitude_per_condition + relative;
   bound.terms_per_weight_error *= growth;
   bound.terms_of_beam_edges *= growth;
-  // A node may be dimmer than the sample, by the terms' change.
-  const double dimming = std::log(growth);
-  bound.weight_error += growth * bound.beams.at(dimming);
+  bound.weight_error += growth * bound.beams.at(error.dimming);
   bound.beams.square *= growth * growth;
   bound.beams.square_per_log *= growth * growth;
   return bound;

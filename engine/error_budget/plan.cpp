@@ -251,7 +251,7 @@ FramePlan plan_frame(const LightFacts &view, const Accuracy &accuracy, std::uint
   else
     plan.bound = error_bound_of(accuracy, sum.bound, light, of_all);
   if (accuracy.mode == Mode::automatic && attempt == 0 && plan.precision == Precision::fp32)
-    plan.field = plan_field(view, plan.all, *plan.bound_of_all, typical);
+    plan.field = plan_field(view, plan.all, *plan.bound_of_all);
   plan.bound_beforehand = bound_beforehand(view, accuracy, plan);
   plan_uniform_pixels(view, accuracy, light, plan);
   ErrorBound worst = worse_of(*plan.bound, plan.uniform_bound.value_or(*plan.bound));

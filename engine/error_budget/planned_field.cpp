@@ -1,6 +1,7 @@
 #include "engine/error_budget/planned_field.h"
 
 #include "engine/error_budget/field_error.h"
+#include "engine/error_budget/typical_light.h"
 #include "engine/light/radiation_laws.h"
 
 #include <algorithm>
@@ -88,36 +89,76 @@ bool all_shine(const LightFacts &view, const CellCorners &corners_m) {
   });
 }
 
+// Where a run's diodes have one power of the cosine, and nearly one axis.
+FieldBeam beam_of(const SourceGroups &groups, const SourceRun &run) {
+  constexpr double common_axis = 0.95; // 18 degrees
+  std::vector<const shader::GroupSource *> sources;
+  glm::dvec3 axis(0.0);
+  for (std::uint32_t i = run.first; i < run.first + groups.blocks_per_run * shader::diodes_per_block; ++i)
+    if (groups.positions[i].number != no_id) {
+      sources.push_back(&groups.diodes[i]);
+      axis += glm::dvec3(groups.diodes[i].axis);
+    }
+  axis = glm::normalize(axis);
+  const auto is_along = [&](const shader::GroupSource *source) {
+    return source->order == sources.front()->order && glm::dot(glm::dvec3(source->axis), axis) > common_axis;
+  };
+  const bool has_beam =
+      !sources.empty() && sources.front()->order > 0.0f && std::ranges::all_of(sources, is_along);
+  return {{axis.x, axis.y, axis.z},
+          has_beam ? exponent_of(static_cast<double>(sources.front()->order)) : Exponent{}};
+}
+
+std::vector<FieldBeam> beams_of(const SourceGroups &groups) {
+  std::vector<FieldBeam> beams;
+  for (const SourceRun &run : groups.runs)
+    beams.push_back(beam_of(groups, run));
+  return beams;
+}
+
+// Whether sums over the sources are loops, of terms that may be interpolated.
+bool suits(const LightFacts &view, const SourceGroups &groups, const DepthRange &seen) {
+  constexpr double largest_rad = 0.5; // the error of a path is that of a phase's first power
+  return view.allowed.incident_field && is_summed_at_samples(view, groups) && seen.nearest_m > 0.0 &&
+         seen.farthest_m > 0.0 && std::isfinite(seen.farthest_m) &&
+         view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m <= largest_rad;
+}
+
+// From the largest cells on, in each of which some part of the lamps' extent is seen as deep.
+std::vector<FieldGrid> grids_of(double lamp_m, double farthest_m) {
+  std::vector<FieldGrid> grids;
+  for (const std::uint32_t side : {64u, 32u, 16u})
+    for (const double lamps_of_cell : {0.25, 0.125, 0.0625, 0.03125, 0.015625})
+      grids.push_back({side, lamp_m / lamps_of_cell, farthest_m});
+  return grids;
+}
+
 } // namespace
 
 std::optional<InterpolatedField> plan_field(const LightFacts &view, const SourceGroups &groups,
-                                            const ErrorBound &bound, const TypicalLight &typical) {
-  // The error of a path is that of a phase's first power.
-  constexpr double largest_rad = 0.5;
+                                            const ErrorBound &bound) {
   const DepthRange seen = depths_of(view.visible);
-  if (!view.allowed.incident_field || !is_summed_at_samples(view, groups) || !(seen.nearest_m > 0.0) ||
-      !(seen.farthest_m > 0.0) || !std::isfinite(seen.farthest_m) ||
-      view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m > largest_rad)
+  if (!suits(view, groups, seen))
     return std::nullopt;
+  const std::vector<FieldGrid> grids = grids_of(farthest_lamp_m(view.lights), seen.farthest_m);
+  const TypicalLight typical = typical_light_at(FieldCells(view.sensor, grids[0], view.visible).places_m(),
+                                                view.lights, view.modulation.largest_wavenumber_rad_m());
   const auto is_kept = [&](const ErrorBound &of) {
     return of.nearest_m(typical.condition, typical.dimming_of_most) <= share_of_field * of.limit_m &&
            of.amplitude_fixed + of.amplitude_per_condition <= share_of_field * of.amplitude_limit;
   };
-  const double lamp_m = farthest_lamp_m(view.lights);
+  const std::vector<FieldBeam> beams = beams_of(groups);
   const double at_samples = groups.diode_count * static_cast<double>(view.sensor.pixel_count());
-  for (const std::uint32_t side : {64u, 32u, 16u})
-    for (const double lamps_of_cell : {0.25, 0.125, 0.0625, 0.03125, 0.015625}) {
-      const FieldGrid grid{side, lamp_m / lamps_of_cell, seen.farthest_m};
-      const FieldCells cells(view.sensor, grid, view.visible);
-      if (!cells.any() || 2.0 * cost(view.sensor, groups, cells) > at_samples)
-        break;
-      if (!all_shine(view, cells.corners_m()))
-        continue;
-      const auto is_beyond = [&](const FieldError &error) { return !is_kept(through_field(bound, error)); };
-      const FieldError error = field_error(view, groups, cells, is_beyond);
-      if (!is_beyond(error))
-        return InterpolatedField{grid, through_field(bound, error)};
-    }
+  for (const FieldGrid &grid : grids) {
+    const FieldCells cells(view.sensor, grid, view.visible);
+    if (!cells.any() || 2.0 * cost(view.sensor, groups, cells) > at_samples ||
+        !all_shine(view, cells.corners_m()))
+      continue;
+    const auto is_beyond = [&](const FieldError &error) { return !is_kept(through_field(bound, error)); };
+    const FieldError error = field_error(view, groups, beams, cells, is_beyond);
+    if (!is_beyond(error))
+      return InterpolatedField{grid, beams, through_field(bound, error)};
+  }
   return std::nullopt;
 }
 

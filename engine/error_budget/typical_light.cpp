@@ -51,18 +51,26 @@ double quantile(std::vector<double> values, double part) {
 
 } // namespace
 
-TypicalLight typical_light(const std::vector<CameraIlluminator> &lights,
-                           const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
+TypicalLight typical_light_at(const std::vector<glm::dvec3> &places_m,
+                              const std::vector<CameraIlluminator> &lights, double wavenumber_rad_m) {
   std::vector<double> conditions, dimmings;
-  const std::size_t step = (visible.size() + most_places - 1) / most_places;
-  for (std::size_t i = 0; i < visible.size(); i += step)
-    if (const auto light = light_at(0.5 * (visible[i].low_m + visible[i].high_m), lights, wavenumber_rad_m)) {
+  const std::size_t step = (places_m.size() + most_places - 1) / most_places;
+  for (std::size_t i = 0; i < places_m.size(); i += step)
+    if (const auto light = light_at(places_m[i], lights, wavenumber_rad_m)) {
       conditions.push_back(light->condition);
       dimmings.push_back(light->dimming);
     }
   if (conditions.empty())
     return {};
   return {quantile(conditions, 0.5), quantile(dimmings, 0.5), quantile(dimmings, most)};
+}
+
+TypicalLight typical_light(const std::vector<CameraIlluminator> &lights,
+                           const std::vector<VisibleBox> &visible, double wavenumber_rad_m) {
+  std::vector<glm::dvec3> middles_m;
+  for (const VisibleBox &box : visible)
+    middles_m.push_back(0.5 * (box.low_m + box.high_m));
+  return typical_light_at(middles_m, lights, wavenumber_rad_m);
 }
 
 } // namespace pmdsim

@@ -31,6 +31,7 @@ struct SumModel {
 // pixels that are summed so.
 struct InterpolatedField {
   FieldGrid grid;
+  std::vector<FieldBeam> beams; // of each run
   ErrorBound bound;
 };
 

@@ -2,6 +2,8 @@
 // Cells of the view in which the light's field is interpolated (engine/light/host/incident_field.h): square
 // in the frame, even in the inverse of the depth.
 
+#include "engine/model/exponent.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -17,6 +19,13 @@ inline constexpr double field_node_places[field_nodes] = {-1.0, 1.0 - std::numbe
 // Lambert's surfaces that take it are so high under the sources' reference point, in radii of the sources
 // about it: the interpolated sums cancel the less, the higher.
 inline constexpr double field_height = 3.0;
+
+// What a run's sums are divided by before they are interpolated: the beam of a source at the run's reference
+// point, so that what is left of narrow beams changes slowly, too. It is cos^power of the angle to the axis.
+struct FieldBeam {
+  double axis[3]; // camera frame
+  Exponent power; // 0: sums are interpolated as they are
+};
 
 struct FieldGrid {
   std::uint32_t side; // of a cell, samples

@@ -146,13 +146,22 @@ bool are_same(const Measurement &a, const Measurement &b) {
          std::ranges::equal(first.error_bound_m, second.error_bound_m, same);
 }
 
+void check_kept_amplitudes(const Measurement &frame, const Measurement &exact) {
+  const std::vector<float> &is = frame.returns[0].amplitude, &should = exact.returns[0].amplitude;
+  for (std::size_t i = 0; i < is.size(); ++i)
+    REQUIRE(std::abs(double(is[i]) - double(should[i])) <=
+            (*frame.accuracy.claimed_amplitude + 0x1p-23) * double(should[i]));
+}
+
 void check_field_bounds(const FieldSetup &of) {
   Accuracy precise;
   precise.precision = Precision::fp64;
   const FieldFrame frame = measured_field(of, auto_within(of.max_error_m));
   INFO(of.name << ": " << frame.sum);
   CHECK(is_interpolated(frame));
-  check_kept_bounds(of.name, frame.frame, measured_field(of, precise).frame);
+  const Measurement exact = measured_field(of, precise).frame;
+  check_kept_bounds(of.name, frame.frame, exact);
+  check_kept_amplitudes(frame.frame, exact);
 }
 
 } // namespace

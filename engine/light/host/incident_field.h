@@ -5,11 +5,13 @@
 // With L a source's place from the run's reference point and lengths in units of rho, a sum over W has the
 // factor height + n . L of each source, n the normal of the sample's surface and height the reference point's
 // over it. So it follows from four sums that know no surface: of the terms, and of the terms times L. Those
-// are smooth in the place, and stand at the nodes of each cell that samples lie in.
+// are smooth in the place, the more so over the beam that they have in common (FieldBeam), and stand at the
+// nodes of each cell that samples lie in.
 #include "engine/light/host/point_view.h"
 #include "engine/light/host/vector_sum.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -175,6 +177,7 @@ public:
     }
     lagrange_.find(load<Floats>(x), weights_x_);
     lagrange_.find(load<Floats>(s), weights_s_);
+    find_beam(run, samples);
     Ints left = takes;
     for (std::uint32_t bits = bits_of(left); bits != 0; bits = bits_of(left)) {
       const std::int32_t first = number_deep[__builtin_ctz(bits)];
@@ -218,6 +221,42 @@ private:
     return cell;
   }
 
+  // Of the angle between the axis of a run's beam and the way from its reference point to a place.
+  double cosine_at(std::uint32_t run, const VectorSamples &at, int lane) const {
+    double along_m = 0.0, square_m2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double away_m = at.point_m[k][lane] - of_.runs[run].reference_m[k];
+      along_m += of_.beams[run].axis[k] * away_m;
+      square_m2 += away_m * away_m;
+    }
+    return along_m / std::sqrt(square_m2);
+  }
+
+  bool has_beam(std::uint32_t run) const {
+    const Exponent &power = of_.beams[run].power;
+    return power.whole > 0 || power.rest > 0.0f;
+  }
+
+  void find_beam(std::uint32_t run, const VectorSamples &samples) {
+    beam_ = all(1.0f);
+    if (!has_beam(run))
+      return;
+    alignas(vector_bytes) float cosine[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+      cosine[lane] = static_cast<float>(cosine_at(run, samples, lane));
+    const Exponent &power = of_.beams[run].power;
+    const Floats of_axis = load<Floats>(cosine);
+    beam_ = whole_power(of_axis, power.whole) * fraction_of_power(of_axis, power.rest);
+  }
+
+  // In double, as what nodes are off by differs from node to node.
+  double inverse_beam_at(std::uint32_t run, const VectorSamples &nodes_at, int lane) const {
+    const Exponent &power = of_.beams[run].power;
+    return has_beam(run) ? std::pow(cosine_at(run, nodes_at, lane),
+                                    -static_cast<double>(power.whole) - static_cast<double>(power.rest))
+                         : 1.0;
+  }
+
   void fill(Cell &cell) {
     cell.of_nodes.resize(std::size_t{nodes} * values_);
     cell.of_row.resize(cell.of_nodes.size() / field_nodes);
@@ -228,10 +267,12 @@ private:
       Floats growth;
       const FieldSums sums = field_at(of_, of_.runs[cell.run], at, growth);
       cell.growth = std::max(cell.growth, most_of(growth));
-      for (int lane = 0; lane < lanes; ++lane)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const auto scale = static_cast<float>(inverse_beam_at(cell.run, at, lane));
         for (std::uint32_t value = 0; value < values_; ++value)
           cell.of_nodes[static_cast<std::size_t>(first + lane) * values_ + value] =
-              sums.of[value / (of_.moments + 1)][value % (of_.moments + 1)][lane];
+              scale * sums.of[value / (of_.moments + 1)][value % (of_.moments + 1)][lane];
+      }
     }
   }
 
@@ -282,7 +323,7 @@ private:
 
   void interpolate(const Cell &cell, const PointView &view, const Ints &here, Floats *moment) const {
     const std::uint32_t sums = of_.moments + 1;
-    const Floats inverse = 1.0f / view.rho, inverse2 = inverse * inverse;
+    const Floats inverse = 1.0f / view.rho, inverse2 = beam_ * inverse * inverse;
     Floats scale = inverse2;
     for (std::uint32_t k = 0; k < sums; ++k, scale *= view.rho) {
       Floats sum = between(cell, k);
@@ -303,6 +344,7 @@ private:
   const NodeWeights lagrange_;
   std::uint32_t column_ = 0, row_ = 0; // of cells
   Floats weights_x_[field_nodes], weights_s_[field_nodes];
+  Floats beam_;
   std::vector<Cell> cells_; // the first `used_` of them
   std::size_t used_ = 0;
 };

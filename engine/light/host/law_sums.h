@@ -85,6 +85,7 @@ struct LawSums {
   // polynomials are relative to, or of w where roots are drawn. nullptr where the host makes the pixels.
   float *run_moments;
   const FieldGrid *field; // nullptr: each sample has sums of its own
+  const FieldBeam *beams; // of each run
 };
 
 // Sums for some rows of all samples, or for listed blocks, the last one excluded. One for each instruction

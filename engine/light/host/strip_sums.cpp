@@ -47,7 +47,8 @@ LawSums StripSums::of(const shader::Strip &strip) const {
           .shining = shining_,
           .plane = sample_count(strip),
           .run_moments = nullptr,
-          .field = field_ ? &field_->grid : nullptr};
+          .field = field_ ? &field_->grid : nullptr,
+          .beams = field_ ? field_->beams.data() : nullptr};
 }
 
 namespace {
