@@ -42,9 +42,10 @@ CellCorners FieldCells::corners_m() const {
     low = glm::min(low, box.low);
     high = glm::max(high, box.high);
   }
-  // Cells that touch no more than an edge count as well.
-  const glm::dvec3 first = low_ + size_ * glm::max(glm::ceil((low - low_) / size_) - 1.0, 0.0),
-                   last = low_ + size_ * (glm::floor((high - low_) / size_) + 1.0);
+  // Cells that touch no more than an edge count as well, but for those beyond the frame.
+  const glm::dvec3 cells = glm::ceil((high_ - low_) / size_),
+                   first = low_ + size_ * glm::max(glm::ceil((low - low_) / size_) - 1.0, 0.0),
+                   last = low_ + size_ * glm::min(glm::floor((high - low_) / size_) + 1.0, cells);
   CellCorners corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec3 at = glm::mix(first, last, glm::bvec3((i & 1) != 0, (i & 2) != 0, (i & 4) != 0));
@@ -72,25 +73,53 @@ glm::dvec3 FieldCells::place_m(const SeenBox &box, const glm::dvec3 &within) con
   return {glm::mix(low_m, high_m, glm::dvec2(within)), 1.0 / s};
 }
 
-std::vector<glm::dvec3> FieldCells::places_m() const {
-  constexpr std::size_t most_boxes = 32, most_places = 160;
-  std::mt19937 random(1);
-  const auto part = [&] { return std::generate_canonical<double, 32>(random); };
+std::vector<const FieldCells::SeenBox *> FieldCells::boxes_to_look_at() const {
+  constexpr std::size_t most_boxes = 24;
+  std::vector<const SeenBox *> boxes;
+  double nearest = low_.z;
+  for (const SeenBox &box : boxes_)
+    nearest = std::max(nearest, box.most_s);
+  // The farthest ones towards each corner, near and far.
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) {
+        const glm::dvec3 towards(x / high_.x, y / high_.y, z / nearest);
+        const auto reach = [&](const SeenBox &box) {
+          const glm::dvec3 most = glm::max(box.low * towards, box.high * towards);
+          return most.x + most.y + most.z;
+        };
+        if (!boxes_.empty())
+          boxes.push_back(&*std::ranges::max_element(boxes_, {}, reach));
+      }
+  const std::size_t step = (boxes_.size() + most_boxes - 1) / most_boxes;
+  for (std::size_t i = 0; i < boxes_.size(); i += step)
+    boxes.push_back(&boxes_[i]);
+  std::ranges::sort(boxes);
+  boxes.erase(std::ranges::unique(boxes).begin(), boxes.end());
+  return boxes;
+}
+
+std::vector<glm::dvec3> FieldCells::corner_places_m() const {
   std::vector<glm::dvec3> all;
-  if (boxes_.empty())
-    return all;
-  const std::size_t step = (boxes_.size() + most_boxes - 1) / most_boxes,
-                    of_box = most_places / std::min(boxes_.size(), most_boxes);
-  for (std::size_t i = 0; i < boxes_.size(); i += step) {
+  for (const SeenBox *box : boxes_to_look_at())
     for (const double x : {0.001, 0.999})
       for (const double y : {0.001, 0.999})
         for (const double z : {0.001, 0.999})
-          all.push_back(place_m(boxes_[i], {x, y, z}));
-    for (std::size_t k = 0; k < of_box; ++k) {
+          all.push_back(place_m(*box, {x, y, z}));
+  return all;
+}
+
+std::vector<glm::dvec3> FieldCells::random_places_m() const {
+  constexpr std::size_t most_places = 160;
+  std::mt19937 random(1);
+  const auto part = [&] { return std::generate_canonical<double, 32>(random); };
+  std::vector<glm::dvec3> all;
+  const std::vector<const SeenBox *> boxes = boxes_to_look_at();
+  for (const SeenBox *box : boxes)
+    for (std::size_t k = 0; k < most_places / boxes.size(); ++k) {
       const double x = part(), y = part(), z = part();
-      all.push_back(place_m(boxes_[i], {x, y, z}));
+      all.push_back(place_m(*box, {x, y, z}));
     }
-  }
   return all;
 }
 

@@ -37,8 +37,10 @@ public:
   CellCorners corners_m() const;
   // How many of them there are, about, where a surface crosses the cells of its box once.
   double count() const;
-  // Places that may be seen: the corners of what lies in the frame, and at random, even in s.
-  std::vector<glm::dvec3> places_m() const;
+  // Places that may be seen, of 32 boxes at the most, those at the frame's corners among them: the boxes'
+  // corners, and at random, even in s.
+  std::vector<glm::dvec3> corner_places_m() const;
+  std::vector<glm::dvec3> random_places_m() const;
   ViewCell cell_of(const glm::dvec3 &place_m) const;
 
 private:
@@ -50,6 +52,7 @@ private:
   };
 
   std::optional<SeenBox> seen(const VisibleBox &box) const;
+  std::vector<const SeenBox *> boxes_to_look_at() const;
   glm::dvec3 place_m(const SeenBox &box, const glm::dvec3 &within) const; // each in [0, 1]
 
   glm::dvec3 size_;       // of a cell

@@ -12,28 +12,38 @@
 namespace pmdsim {
 namespace {
 
+// What cancels in the sums at nodes by a surface that is no nearer to grazing than field_height allows.
+constexpr double by_surface = (field_height + 1.0) / (field_height - 1.0);
+
 // A diode, and the reference point and the beam of its run.
 struct RunDiode {
   const Diode *diode;
   glm::dvec3 reference_m;
   const FieldBeam *beam;
+  double distance_m; // to the reference point; the same for all that are near it
 };
 
-// Diodes that are alike but for their places, or nearly so: each kind is looked at by itself, as few diodes
-// of one kind may give most of the light somewhere.
+// Diodes that are nearly alike: each kind is looked at by itself, as few diodes of one kind may give most of
+// the light somewhere, or most of the error.
 using DiodeKind = std::vector<RunDiode>;
 
+bool is_about(double a, double b, double factor) { return a <= factor * b && b <= factor * a; }
+
 bool are_alike(const RunDiode &a, const RunDiode &b) {
-  constexpr double common_axis = 0.95; // 18 degrees
+  // What terms change by goes with the fourth power of the distance to the reference point.
+  constexpr double common_axis = 0.95 /* 18 degrees */, distances = 1.2, intensities = 4.0;
   const Pattern &of_a = a.diode->pattern, &of_b = b.diode->pattern;
-  return a.reference_m == b.reference_m && of_a.kind == of_b.kind && of_a.order == of_b.order &&
-         of_a.diagram == of_b.diagram && glm::dot(a.diode->axis, b.diode->axis) > common_axis;
+  return a.beam == b.beam && of_a.kind == of_b.kind && of_a.order == of_b.order &&
+         of_a.diagram == of_b.diagram && glm::dot(a.diode->axis, b.diode->axis) > common_axis &&
+         is_about(a.diode->intensity_w_sr, b.diode->intensity_w_sr, intensities) &&
+         is_about(a.distance_m, b.distance_m, distances);
 }
 
 // Nothing where there are more kinds than can be looked at, or no diode shines.
 std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups,
                                 const std::vector<FieldBeam> &beams) {
-  constexpr std::size_t most_kinds = 32;
+  constexpr std::size_t most_kinds = 16;
+  constexpr double near = 0.4; // of a run's radius: they change least
   std::vector<const Diode *> all;
   for (const CameraIlluminator &light : lights)
     for (const Diode &diode : light.diodes)
@@ -44,7 +54,10 @@ std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, co
       const SourcePosition &place = groups.positions[groups.runs[r].first + i];
       if (place.number == no_id || !(all[place.number]->intensity_w_sr > 0.0))
         continue;
-      const RunDiode diode{all[place.number], groups.runs[r].reference_m, &beams[r]};
+      const SourceRun &run = groups.runs[r];
+      const double distance_m = glm::distance(place.position_m, run.reference_m);
+      const RunDiode diode{all[place.number], run.reference_m, &beams[r],
+                           std::max(distance_m, near * run.reach.radius_m)};
       const auto kind =
           std::ranges::find_if(kinds, [&](const DiodeKind &of) { return are_alike(of.front(), diode); });
       if (kind != kinds.end())
@@ -112,93 +125,145 @@ Weights lagrange_weights() {
   return weights;
 }
 
-// A cell's nodes, or places, the last axis first.
-template <std::size_t count, class Function>
+// What is interpolated, at nodes or places along each axis.
+struct TermSums {
+  double weight = 0.0, path = 0.0;
+  double size = 0.0; // with all weights of the nodes positive
+
+  void add(double of_node, const TermSums &at) {
+    weight += of_node * at.weight;
+    path += of_node * at.path;
+    size += std::abs(of_node) * at.size;
+  }
+};
+template <std::size_t x, std::size_t y, std::size_t z>
+using TermGrid = std::array<std::array<std::array<TermSums, z>, y>, x>;
+
+template <std::size_t x, std::size_t y, std::size_t z, class Function>
 void for_each_of(const Function &function) {
-  for (std::size_t x = 0; x < count; ++x)
-    for (std::size_t y = 0; y < count; ++y)
-      for (std::size_t z = 0; z < count; ++z)
-        function(x, y, z);
+  for (std::size_t i = 0; i < x; ++i)
+    for (std::size_t k = 0; k < y; ++k)
+      for (std::size_t l = 0; l < z; ++l)
+        function(i, k, l);
+}
+
+// One axis after the other.
+TermGrid<places, places, places> interpolated(const TermGrid<nodes, nodes, nodes> &at) {
+  static const Weights weights = lagrange_weights();
+  TermGrid<nodes, nodes, places> deep;
+  TermGrid<nodes, places, places> high;
+  TermGrid<places, places, places> all;
+  for_each_of<nodes, nodes, places>([&](std::size_t x, std::size_t y, std::size_t z) {
+    for (std::size_t i = 0; i < nodes; ++i)
+      deep[x][y][z].add(weights[z][i], at[x][y][i]);
+  });
+  for_each_of<nodes, places, places>([&](std::size_t x, std::size_t y, std::size_t z) {
+    for (std::size_t i = 0; i < nodes; ++i)
+      high[x][y][z].add(weights[y][i], deep[x][i][z]);
+  });
+  for_each_of<places, places, places>([&](std::size_t x, std::size_t y, std::size_t z) {
+    for (std::size_t i = 0; i < nodes; ++i)
+      all[x][y][z].add(weights[x][i], high[i][y][z]);
+  });
+  return all;
 }
 
 // The worst of a diode's term in a cell.
 FieldError error_in(const ViewCell &cell, const FieldTerms &terms) {
-  static const Weights weights = lagrange_weights();
   constexpr double infinite = std::numeric_limits<double>::infinity(), dark = 1e-25;
-  std::array<std::array<std::array<Term, nodes>, nodes>, nodes> at;
+  TermGrid<nodes, nodes, nodes> at;
   double least_light = infinite;
-  for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
-    at[x][y][z] = terms.at(cell.place_m({node(x), node(y), node(z)}));
-    least_light = std::min(least_light, at[x][y][z].light);
+  for_each_of<nodes, nodes, nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
+    const Term term = terms.at(cell.place_m({node(x), node(y), node(z)}));
+    at[x][y][z] = {term.weight, term.path, term.weight};
+    least_light = std::min(least_light, term.light);
   });
   if (!(least_light > dark))
     return {infinite, infinite, infinite, infinite};
+  const TermGrid<places, places, places> sums = interpolated(at);
   FieldError worst{0.0, 0.0, 1.0, 0.0};
-  for_each_of<places>([&](std::size_t px, std::size_t py, std::size_t pz) {
-    Term sum{0.0, 0.0, 0.0};
-    double sizes = 0.0;
-    for_each_of<nodes>([&](std::size_t x, std::size_t y, std::size_t z) {
-      const double weight = weights[px][x] * weights[py][y] * weights[pz][z];
-      sum.weight += weight * at[x][y][z].weight;
-      sum.path += weight * at[x][y][z].path;
-      sizes += std::abs(weight) * at[x][y][z].weight;
-    });
-    const glm::dvec3 place_m = cell.place_m({place(px), place(py), place(pz)});
+  for_each_of<places, places, places>([&](std::size_t x, std::size_t y, std::size_t z) {
+    const TermSums &sum = sums[x][y][z];
+    const glm::dvec3 place_m = cell.place_m({place(x), place(y), place(z)});
     const Term exact = terms.at(place_m);
     const double inverse = 1.0 / exact.weight;
     worst.relative = std::max(std::abs(sum.weight * inverse - 1.0) + terms.beam_rounding(), worst.relative);
     worst.path_m = std::max(worst.path_m, 0.5 * terms.rho_m(place_m) * inverse *
                                               std::abs(sum.path - exact.path * inverse * sum.weight));
-    worst.rounding_growth = std::max(worst.rounding_growth, sizes * inverse);
+    worst.rounding_growth = std::max(worst.rounding_growth, sum.size * inverse);
     worst.dimming = std::max(worst.dimming, std::log(exact.light / least_light));
   });
   return worst;
 }
+
+// Numbers that come evenly to all from 0 on below `count`, however many there are.
+class EvenTurns {
+public:
+  std::size_t next(std::size_t count) {
+    turn_ += std::numbers::phi;
+    turn_ -= std::floor(turn_);
+    return static_cast<std::size_t>(turn_ * static_cast<double>(count));
+  }
+
+private:
+  double turn_ = 0.0;
+};
+
+// The worst of what was looked at.
+struct WorstOf {
+  FieldError so_far;
+
+  void add(const FieldError &here) {
+    // Of what lies between the places and diodes that are looked at.
+    constexpr double margin = 2.0;
+    so_far = {std::max(margin * here.relative, so_far.relative),
+              std::max(margin * here.path_m, so_far.path_m),
+              std::max(by_surface * here.rounding_growth, so_far.rounding_growth),
+              std::max(here.dimming, so_far.dimming)};
+  }
+};
 
 } // namespace
 
 FieldError field_error(const LightFacts &view, const SourceGroups &groups,
                        const std::vector<FieldBeam> &beams, const FieldCells &cells,
                        const std::function<bool(const FieldError &)> &is_too_large) {
-  // Of what lies between the places and diodes that are looked at; and of the sums at nodes by a surface that
-  // is no nearer to grazing than field_height allows.
-  constexpr double margin = 2.0, by_surface = (field_height + 1.0) / (field_height - 1.0);
-  constexpr std::size_t kinds_of_place = 4;
+  constexpr std::size_t kinds_of_place = 2;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool lambert = view.model.backscatter == shader::backscatter_lambert;
   const std::vector<DiodeKind> kinds = kinds_of(view.lights, groups, beams);
   if (kinds.empty() || !cells.any())
     return {infinite, infinite, infinite, infinite};
-  FieldError worst{0.0, 0.0, by_surface, 0.0};
-  std::size_t next = 0;
-  for (const glm::dvec3 &place_m : cells.places_m())
-    for (std::size_t i = 0; i < std::min(kinds.size(), kinds_of_place); ++i, ++next) {
-      if (is_too_large(worst))
-        return worst;
-      const DiodeKind &kind = kinds[next % kinds.size()];
-      // Steps by the golden ratio come to all diodes, however many there are.
-      const std::size_t round = next / kinds.size();
-      const double turn = static_cast<double>(round) * std::numbers::phi;
-      const auto number =
-          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(kind.size()));
-      const FieldError here = error_in(cells.cell_of(place_m), FieldTerms(kind[number], lambert));
-      worst = {std::max(margin * here.relative, worst.relative), std::max(margin * here.path_m, worst.path_m),
-               std::max(by_surface * here.rounding_growth, worst.rounding_growth),
-               std::max(here.dimming, worst.dimming)};
-    }
-  return worst;
+  WorstOf worst{{0.0, 0.0, by_surface, 0.0}};
+  EvenTurns of_kinds, of_diodes;
+  const auto look_at = [&](const glm::dvec3 &place_m, const DiodeKind &kind) {
+    worst.add(error_in(cells.cell_of(place_m), FieldTerms(kind[of_diodes.next(kind.size())], lambert)));
+    return !is_too_large(worst.so_far);
+  };
+  for (const glm::dvec3 &place_m : cells.corner_places_m())
+    for (const DiodeKind &kind : kinds)
+      if (!look_at(place_m, kind))
+        return worst.so_far;
+  for (const glm::dvec3 &place_m : cells.random_places_m())
+    for (std::size_t i = 0; i < std::min(kinds.size(), kinds_of_place); ++i)
+      if (!look_at(place_m, kinds[of_kinds.next(kinds.size())]))
+        return worst.so_far;
+  return worst.so_far;
 }
 
-ErrorBound through_field(ErrorBound bound, const FieldError &error) {
+ErrorBound through_field(ErrorBound bound, const FieldError &error, double wavenumber_rad_m) {
   // Products and sums of the nodes' values and weights.
   constexpr double roundings = 40.0 * 0x1p-24;
   const double growth = error.rounding_growth, relative = error.relative + growth * roundings;
   bound.per_condition_m = growth * bound.per_condition_m + error.path_m;
   bound.weight_error = growth * bound.weight_error + relative;
-  bound.amplitude_per_condition = growth * bound.amplitude_per_condition + relative;
+  const double of_beams = growth * bound.beams.at(error.dimming);
+  bound.amplitude_per_condition = growth * bound.amplitude_per_condition + relative +
+                                  bound.amplitude_per_weight * of_beams +
+                                  2.0 * wavenumber_rad_m * error.path_m;
   bound.terms_per_weight_error *= growth;
   bound.terms_of_beam_edges *= growth;
-  bound.weight_error += growth * bound.beams.at(error.dimming);
+  bound.weight_error += of_beams;
   bound.beams.square *= growth * growth;
   bound.beams.square_per_log *= growth * growth;
   return bound;

@@ -24,6 +24,6 @@ FieldError field_error(const LightFacts &view, const SourceGroups &groups,
                        const std::function<bool(const FieldError &)> &is_too_large);
 
 // The bound of pixels whose sums are interpolated, from that of sums at each sample.
-ErrorBound through_field(ErrorBound bound, const FieldError &error);
+ErrorBound through_field(ErrorBound bound, const FieldError &error, double wavenumber_rad_m);
 
 } // namespace pmdsim

@@ -141,8 +141,9 @@ std::optional<InterpolatedField> plan_field(const LightFacts &view, const Source
   if (!suits(view, groups, seen))
     return std::nullopt;
   const std::vector<FieldGrid> grids = grids_of(farthest_lamp_m(view.lights), seen.farthest_m);
-  const TypicalLight typical = typical_light_at(FieldCells(view.sensor, grids[0], view.visible).places_m(),
-                                                view.lights, view.modulation.largest_wavenumber_rad_m());
+  const double wavenumber_rad_m = view.modulation.largest_wavenumber_rad_m();
+  const TypicalLight typical = typical_light_at(
+      FieldCells(view.sensor, grids[0], view.visible).random_places_m(), view.lights, wavenumber_rad_m);
   const auto is_kept = [&](const ErrorBound &of) {
     return of.nearest_m(typical.condition, typical.dimming_of_most) <= share_of_field * of.limit_m &&
            of.amplitude_fixed + of.amplitude_per_condition <= share_of_field * of.amplitude_limit;
@@ -154,10 +155,12 @@ std::optional<InterpolatedField> plan_field(const LightFacts &view, const Source
     if (!cells.any() || 2.0 * cost(view.sensor, groups, cells) > at_samples ||
         !all_shine(view, cells.corners_m()))
       continue;
-    const auto is_beyond = [&](const FieldError &error) { return !is_kept(through_field(bound, error)); };
+    const auto is_beyond = [&](const FieldError &error) {
+      return !is_kept(through_field(bound, error, wavenumber_rad_m));
+    };
     const FieldError error = field_error(view, groups, beams, cells, is_beyond);
     if (!is_beyond(error))
-      return InterpolatedField{grid, beams, through_field(bound, error)};
+      return InterpolatedField{grid, beams, through_field(bound, error, wavenumber_rad_m)};
   }
   return std::nullopt;
 }

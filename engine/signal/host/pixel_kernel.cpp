@@ -284,7 +284,8 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *f
         terms =
             either(light.by_field, terms_of(of.field_forms[run], view, light.weights, light.growth), terms);
       // Polynomials may fall below 0 where no light does.
-      terms.light = (light.by_field & ~(light.weights > 0.0f)) != 0
+      const Ints is_lost = light.by_field & ~(light.weights > 0.0f);
+      terms.light = (form.run->intensity > 0.0f ? is_lost : Ints{}) != 0
                         ? all(std::numeric_limits<float>::infinity())
                         : terms.light;
       returns.terms = returns.terms + terms;
