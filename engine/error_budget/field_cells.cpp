@@ -20,7 +20,7 @@ FieldCells::FieldCells(const Sensor &sensor, const FieldGrid &grid, const std::v
 
 std::optional<FieldCells::SeenBox> FieldCells::seen(const VisibleBox &box) const {
   SeenBox result{box.low_m, box.high_m, 1.0 / box.high_m.z, 1.0 / box.low_m.z, {}, {}};
-  // Beyond some depth every box that does not lie on the axis is within the frame.
+  // A box beside the axis lies in the frame from some depth on.
   for (int axis = 0; axis < 2; ++axis) {
     if (box.low_m[axis] > 0.0)
       result.most_s = std::min(result.most_s, high_[axis] / box.low_m[axis]);
@@ -47,10 +47,8 @@ CellCorners FieldCells::corners_m() const {
                    first = low_ + size_ * glm::max(glm::ceil((low - low_) / size_) - 1.0, 0.0),
                    last = low_ + size_ * glm::min(glm::floor((high - low_) / size_) + 1.0, cells);
   CellCorners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3 at = glm::mix(first, last, glm::bvec3((i & 1) != 0, (i & 2) != 0, (i & 4) != 0));
-    corners[i] = glm::dvec3(at.x, at.y, 1.0) / at.z;
-  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = over_depth(glm::mix(first, last, glm::bvec3((i & 1) != 0, (i & 2) != 0, (i & 4) != 0)));
   return corners;
 }
 
@@ -124,8 +122,7 @@ std::vector<glm::dvec3> FieldCells::random_places_m() const {
 }
 
 ViewCell FieldCells::cell_of(const glm::dvec3 &place_m) const {
-  const glm::dvec3 at = glm::dvec3(place_m.x, place_m.y, 1.0) / place_m.z;
-  const glm::dvec3 number = glm::max(glm::floor((at - low_) / size_), 0.0);
+  const glm::dvec3 number = glm::max(glm::floor((over_depth(place_m) - low_) / size_), 0.0);
   return {low_ + (number + 0.5) * size_, 0.5 * size_};
 }
 

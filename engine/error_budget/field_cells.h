@@ -13,17 +13,19 @@
 
 namespace pmdsim {
 
+// From x, y and s to the place, and back.
+inline glm::dvec3 over_depth(const glm::dvec3 &at) { return glm::dvec3(at.x, at.y, 1.0) / at.z; }
+
 // Of x, y and s: its middle, and half of its extent along each.
 struct ViewCell {
   glm::dvec3 middle, half;
 
   glm::dvec3 place_m(const glm::dvec3 &within) const { // each in [-1, 1]
-    const glm::dvec3 at = middle + half * within;
-    return glm::dvec3(at.x, at.y, 1.0) / at.z;
+    return over_depth(middle + half * within);
   }
 };
 
-// Corners of a box, which the places of a cell's nodes lie within.
+// The corners of some cells together, between which their nodes lie.
 using CellCorners = std::array<glm::dvec3, 8>;
 
 class FieldCells {

@@ -42,7 +42,7 @@ bool are_alike(const RunDiode &a, const RunDiode &b) {
 // Nothing where there are more kinds than can be looked at, or no diode shines.
 std::vector<DiodeKind> kinds_of(const std::vector<CameraIlluminator> &lights, const SourceGroups &groups,
                                 const std::vector<FieldBeam> &beams) {
-  constexpr std::size_t most_kinds = 16;
+  constexpr std::size_t most_kinds = 32;
   constexpr double near = 0.4; // of a run's radius: they change least
   std::vector<const Diode *> all;
   for (const CameraIlluminator &light : lights)

@@ -124,12 +124,12 @@ bool suits(const LightFacts &view, const SourceGroups &groups, const DepthRange 
          view.modulation.largest_wavenumber_rad_m() * groups.path_difference_m <= largest_rad;
 }
 
-// From the largest cells on, in each of which some part of the lamps' extent is seen as deep.
+// From the largest cells on. In 1 / depth each takes a part of 1 / lamp_m.
 std::vector<FieldGrid> grids_of(double lamp_m, double farthest_m) {
   std::vector<FieldGrid> grids;
   for (const std::uint32_t side : {64u, 32u, 16u})
-    for (const double lamps_of_cell : {0.25, 0.125, 0.0625, 0.03125, 0.015625})
-      grids.push_back({side, lamp_m / lamps_of_cell, farthest_m});
+    for (const double part : {0.25, 0.125, 0.0625, 0.03125, 0.015625})
+      grids.push_back({side, lamp_m / part, farthest_m});
   return grids;
 }
 

@@ -197,6 +197,7 @@ TEST_CASE("interpolated sums keep every pixel's bound under more kinds of light"
   check_field_bounds(lit_by("cos^33", {Pattern::Kind::cosine, 33.0}, 1e-3));
   check_field_bounds(lit_by("diagram, 3 degrees", diagram_of(3.0, 3.0), 1e-3));
   check_field_bounds(lit_by("diagram with phi", diagram_of(1.0, 3.0, 0.02), 1e-3));
+  check_field_bounds(lit_by("a board of 1.2 m", {Pattern::Kind::cosine, 3.5}, 1e-3, 0.6));
   check_field_bounds(ring_and_spot());
   check_field_bounds(tilted_outwards());
   check_field_bounds(strong_pair());
