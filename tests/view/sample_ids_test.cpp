@@ -39,9 +39,11 @@ std::size_t wrong_tags(const Measurement &measured, const Sensor &sensor) {
   return wrong;
 }
 
-Measurement measure_tags(const Scene &scene, const Sensor &sensor, std::uint32_t max_strip_samples) {
-  Simulator simulator =
-      make_simulator({.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_ids = true});
+Simulator tagging_simulator(std::uint32_t max_strip_samples) {
+  return make_simulator({.device = {}, .max_strip_samples = max_strip_samples, .keep_sample_ids = true});
+}
+
+Measurement measure_tags(Simulator &simulator, const Scene &scene, const Sensor &sensor) {
   simulator.prepare(scene, sensor, {monostatic_illuminator(sensor.world_from_camera)}, Backscatter::constant);
   return simulator.measure();
 }
@@ -65,10 +67,11 @@ TEST_CASE("every sample carries its pixel") {
   for (const std::uint32_t rows : {0u, 1u, 4u}) {
     INFO(fmt::format("S = {}, fill {} x {}, tilted {}, strips of {} rows", samples, fill_factor.x,
                      fill_factor.y, rotation_rad != glm::dvec3(0), rows));
-    const Measurement full = measure_tags(wall_at(2), sensor, rows * row_samples);
+    Simulator simulator = tagging_simulator(rows * row_samples);
+    const Measurement full = measure_tags(simulator, wall_at(2), sensor);
     CHECK(samples_seen(full) == full.sample_pixel_id.size());
     CHECK(wrong_tags(full, sensor) == 0);
-    const Measurement partly = measure_tags(half.scene(), sensor, rows * row_samples);
+    const Measurement partly = measure_tags(simulator, half.scene(), sensor);
     CHECK(samples_seen(partly) > full.sample_pixel_id.size() / 3);
     CHECK(samples_seen(partly) < full.sample_pixel_id.size() * 2 / 3);
     CHECK(wrong_tags(partly, sensor) == 0);
@@ -78,7 +81,8 @@ TEST_CASE("every sample carries its pixel") {
 TEST_CASE("under distortion, too, every sample that sees something carries its pixel") {
   Sensor sensor = sensor_of(2, {0.6, 0.4}, glm::dvec3(0));
   sensor.distortion = BrownConrady{-0.3, 0, 0, 0, 0};
-  const Measurement full = measure_tags(wall_at(2), sensor, 0);
+  Simulator simulator = tagging_simulator(0);
+  const Measurement full = measure_tags(simulator, wall_at(2), sensor);
   CHECK(samples_seen(full) == full.sample_pixel_id.size());
   CHECK(wrong_tags(full, sensor) == 0);
 }

@@ -23,6 +23,7 @@ struct HalfPlane {
   std::int64_t c;
 };
 
+// From the block's first fragment, not the strip's, which would change how floats round it.
 struct Depth {
   float at_origin, along_x, along_y;
 };
@@ -63,11 +64,12 @@ bool prepare(const BlockTriangle &triangle, const BandRows &band, DrawnTriangle 
   Corner corners[3];
   for (int k = 0; k < 3; ++k) {
     Corner &corner = corners[k];
-    corner.x = triangle.x[k] - static_cast<float>(band.column);
-    corner.y = triangle.y[k] - static_cast<float>(band.row);
+    corner.x = triangle.x[k];
+    corner.y = triangle.y[k];
     corner.z = triangle.inverse_depth[k];
-    corner.grid_x = static_cast<std::int32_t>(corner.x * steps) - steps / 2;
-    corner.grid_y = static_cast<std::int32_t>(corner.y * steps) - steps / 2;
+    corner.grid_x =
+        static_cast<std::int32_t>((corner.x - static_cast<float>(band.column)) * steps) - steps / 2;
+    corner.grid_y = static_cast<std::int32_t>((corner.y - static_cast<float>(band.row)) * steps) - steps / 2;
   }
   const auto [low_x, high_x] = std::minmax({corners[0].grid_x, corners[1].grid_x, corners[2].grid_x});
   const auto [low_y, high_y] = std::minmax({corners[0].grid_y, corners[1].grid_y, corners[2].grid_y});
@@ -108,8 +110,13 @@ inline std::size_t place_in(const BandRows &band, std::int32_t column, std::int3
          static_cast<std::uint32_t>(column);
 }
 
-inline Floats numbers_from(std::int32_t first) {
-  return __builtin_convertvector(lane_numbers() + first, Floats);
+// Numbers in the block, as floats.
+inline Floats columns_in_block(std::int32_t first, const BandRows &band) {
+  return __builtin_convertvector(lane_numbers() + (first + static_cast<std::int32_t>(band.column)), Floats);
+}
+
+inline Floats row_in_block(std::int32_t row, const BandRows &band) {
+  return all(static_cast<float>(row + static_cast<std::int32_t>(band.row)));
 }
 
 void draw_narrow(const DrawnTriangle &t, const BandRows &band) {
@@ -120,12 +127,13 @@ void draw_narrow(const DrawnTriangle &t, const BandRows &band) {
         lane_numbers() * side.a +
         static_cast<std::int32_t>(side.c + std::int64_t{side.a} * t.low[0] + std::int64_t{side.b} * t.low[1]);
   }
-  const Floats along_row = multiply_add(numbers_from(t.low[0]), all(t.depth.along_x), all(t.depth.at_origin));
+  const Floats along_row =
+      multiply_add(columns_in_block(t.low[0], band), all(t.depth.along_x), all(t.depth.at_origin));
   for (std::int32_t row = t.low[1]; row <= t.high[1]; ++row) {
     const Ints inside = (heights[0] | heights[1] | heights[2]) >= 0;
     if (bits_of(inside) != 0)
-      draw_lanes(inside, multiply_add(all(static_cast<float>(row)), all(t.depth.along_y), along_row), t.id,
-                 band, place_in(band, t.low[0], row));
+      draw_lanes(inside, multiply_add(row_in_block(row, band), all(t.depth.along_y), along_row), t.id, band,
+                 place_in(band, t.low[0], row));
     for (int k = 0; k < 3; ++k)
       heights[k] += t.sides[k].b;
   }
@@ -148,7 +156,7 @@ void draw_wide(const DrawnTriangle &t, const BandRows &band) {
   const Floats along_x = all(t.depth.along_x), along_y = all(t.depth.along_y),
                at_origin = all(t.depth.at_origin);
   for (std::int32_t row = t.low[1]; row <= t.high[1]; ++row) {
-    const Floats row_number = all(static_cast<float>(row));
+    const Floats at_row = row_in_block(row, band);
     std::int32_t low = t.low[0], high = t.high[0];
     narrow_columns(t, row, low, high);
     for (std::int32_t column = low; column <= high; column += lanes) {
@@ -160,9 +168,10 @@ void draw_wide(const DrawnTriangle &t, const BandRows &band) {
       }
       const Ints inside = outside >= 0;
       if (bits_of(inside) != 0)
-        draw_lanes(inside,
-                   multiply_add(row_number, along_y, multiply_add(numbers_from(column), along_x, at_origin)),
-                   t.id, band, place_in(band, column, row));
+        draw_lanes(
+            inside,
+            multiply_add(at_row, along_y, multiply_add(columns_in_block(column, band), along_x, at_origin)),
+            t.id, band, place_in(band, column, row));
     }
   }
 }
