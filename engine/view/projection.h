@@ -1,7 +1,7 @@
 #pragma once
 // Triangles projected onto the raster blocks in double: clipped to each and snapped to the raster's grid of
 // 1/256 fragment. The device then rasterises numbers that it can represent exactly, so neither the size of a
-// strip nor a device's clipper can change which sample sees which triangle.
+// strip nor a device's clipper can change which samples a triangle covers.
 
 #include "engine/sampling/raster_blocks.h"
 #include "engine/view/camera_scene.h"

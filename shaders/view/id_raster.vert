@@ -1,6 +1,6 @@
 #version 460
 // A triangle's corner, already projected onto the raster and snapped to its 1/256 fragment by the host, so that
-// every step from here to the rasteriser is exact and a strip's place in the frame cannot change a bit.
+// every step from here to the rasteriser is exact and a strip's place in the frame cannot change what is covered.
 // RECORD_DEPTH: with what its fragments need for their depths.
 #extension GL_GOOGLE_include_directive : require
 #ifdef RECORD_DEPTH
