@@ -120,7 +120,8 @@ TEST_CASE("bench --suite checks and times scenes beside another program") {
   CHECK(row["triangles"].get<int>() == Approx(1000).epsilon(0.15));
   CHECK(row["frames_timed"].get<int>() >= 1);
   CHECK(row["passes_ms"].contains("lit"));
-  CHECK(row["first_frame_ms"].get<double>() > row["prepare_ms"].get<double>());
+  CHECK(row["first_frame_ms"].get<double>() > 0.0);
+  CHECK(row["prepare_ms"].get<double>() > 0.0);
   CHECK(row["path"].is_object());
   const json &check = row["check"];
   CHECK(check["pixels"] == 1);
