@@ -11,6 +11,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <string>
+#include <utility>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -55,6 +57,10 @@ std::string drawn(const Scene &scene, const Sensor &sensor, bool on_host, std::u
   options.allowed.host_sum = false; // whose last digits depend on whether vectors fuse
   Simulator simulator = make_simulator(options);
   simulator.prepare(scene, sensor, {light_at(ring(24, 0.1), 0.0)}, Backscatter::constant);
+  const auto path = simulator.path();
+  const auto raster = std::ranges::find(path, "raster", &std::pair<std::string, std::string>::first);
+  REQUIRE(raster != path.end());
+  CHECK(raster->second == (on_host ? "host" : "device"));
   return bytes_of(simulator.measure());
 }
 
@@ -85,9 +91,14 @@ TEST_CASE("the host draws what the device draws, in vectors of any width and str
 }
 
 TEST_CASE("the host draws what the device draws, other samples and chips", "[long]") {
-  const std::uint32_t samples = GENERATE(1u, 3u);
   const glm::dvec3 rotation_rad = GENERATE(glm::dvec3(0), tilted_rad);
-  check_alike(samples, {1, 1}, rotation_rad, {{512, 0}, {256, 0}, {128, 0}, {512, 7}, {256, 7}, {128, 7}});
+  const auto check = [&](std::uint32_t samples, const glm::dvec2 &fill_factor) {
+    check_alike(samples, fill_factor, rotation_rad,
+                {{512, 0}, {256, 0}, {128, 0}, {512, 7}, {256, 7}, {128, 7}});
+  };
+  check(1, {1, 1});
+  check(1, {0.6, 0.4});
+  check(3, {1, 1}); // several samples of pixels that are filled in part are the device's
 }
 
 TEST_CASE("which of two faces in one plane the host draws does not depend on where strips end") {
