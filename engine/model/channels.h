@@ -31,6 +31,7 @@ struct DeviceSlot {
     frequency, // one area for each; taps come last. A channel of the frame is read from the first
     shadow,    // only where something may stand in the light
     bound,     // behind each frequency's taps; only where it is asked for
+    none,      // not there: the host makes them of what it reads back, where light bounces
   };
   Area area;
   std::uint32_t index; // of a tap: that of tap 0
@@ -88,6 +89,40 @@ inline constexpr std::array channel_rows = [] {
        "how far distance_m is off at most; only where an error was asked for that some pixels may exceed",
        &Return::error_bound_m,
        {Area::bound, 0}},
+      {"multipath_m",
+       "m",
+       "distance with bounces minus that without, wrapped; NaN where either is; only with bounces",
+       &Return::multipath_m,
+       {Area::none, 0},
+       Preview{"multipath", Scale::zero_centred}},
+      {"multipath_error_m",
+       "m",
+       "how far multipath_m is off, estimated: no more in 95 % of the pixels; only with bounces",
+       &Return::multipath_error_m,
+       {Area::none, 1}},
+      {"indirect_share",
+       "",
+       "abs of what bounced over abs z; 1 where no light comes directly, may exceed 1 where both cancel; "
+       "only "
+       "with bounces",
+       &Return::indirect_share,
+       {Area::none, 2},
+       Preview{"indirect share", Scale::sequential}},
+      {"direct_amplitude",
+       radiance_unit,
+       "amplitude without bounces; only with bounces",
+       &Return::direct_amplitude,
+       {Area::none, 3}},
+      {"direct_phase_rad",
+       "rad",
+       "phase_rad without bounces; only with bounces",
+       &Return::direct_phase_rad,
+       {Area::none, 4}},
+      {"direct_distance_m",
+       "m",
+       "distance_m without bounces; only with bounces",
+       &Return::direct_distance_m,
+       {Area::none, 5}},
       {"range_m",
        "m",
        "ground truth: mean distance to the lens",

@@ -26,6 +26,8 @@ struct Pattern {
   Kind kind = Kind::isotropic;
   double order = 0.0;                               // cosine only, any real >= 0
   std::shared_ptr<const Diagram> diagram = nullptr; // diagram only
+
+  bool operator==(const Pattern &) const = default; // with the same diagram, not one that is equal
 };
 
 // A law's name in setups and tables of diodes, and the number that it has there.
@@ -45,6 +47,8 @@ struct Diode {
   Pattern pattern;
   glm::dvec3 across{1.0, 0.0, 0.0}; // illuminator frame, unit length, at right angles to the axis: where a
                                     // diagram's phi is 0
+
+  bool operator==(const Diode &) const = default;
 };
 
 struct Illuminator {
@@ -52,6 +56,8 @@ struct Illuminator {
   Pose world_from_illuminator = node_from_camera(); // illuminator frame: x right, y down, z forward
   std::vector<Diode> diodes;                        // at least one
   double modulation_phase_rad = 0.0;                // added to the phase of every path
+
+  bool operator==(const Illuminator &) const = default;
 };
 
 inline std::size_t diode_count(const std::vector<Illuminator> &illuminators) {

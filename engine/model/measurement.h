@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -22,6 +23,14 @@ struct Return {
   // An upper bound of the error of distance_m, m, from theory: infinite where nothing can be said, NaN where
   // nothing returns. Empty unless some pixel may be off by more than was asked for.
   std::vector<float> error_bound_m{};
+  // With bounces (engine/model/bounces.h), else empty. Amplitude, phase, distance and taps above include
+  // them.
+  std::vector<float> direct_amplitude{}, direct_phase_rad{}, direct_distance_m{}; // without them
+  // distance_m - direct_distance_m, wrapped to (-c/(4f), c/(4f)]; NaN where either is.
+  std::vector<float> multipath_m{};
+  // How far multipath_m is off, estimated: at most so far in 95 % of the pixels; NaN where nothing returns.
+  std::vector<float> multipath_error_m{};
+  std::vector<float> indirect_share{}; // |indirect| / |z|; NaN where nothing returns
 };
 
 // Which exposure of a setup: what differs from one to the next, as noise does, follows from these numbers and
@@ -31,6 +40,14 @@ struct ExposureNumber {
   std::uint32_t exposure = 0; // of the frame, whose taps may be exposed one by one, frequency by frequency
 
   bool operator==(const ExposureNumber &) const = default;
+};
+
+// What bounces took, and how far they are off.
+struct BouncesReport {
+  std::size_t elements = 0;   // of surfaces, for which what bounces was solved
+  std::size_t rays = 0;       // of the solution and of the frame
+  std::uint32_t products = 0; // of the iterations, all tones together
+  double claimed_m = 0.0; // multipath_error_m of the first frequency, which 95 % of its pixels do not exceed
 };
 
 struct Measurement {
@@ -58,8 +75,9 @@ struct Measurement {
   std::vector<std::uint32_t> sample_visibility;
 
   AccuracyReport accuracy;
-  double frame_ms = 0.0;        // first pass to results in host memory, by the clock
-  std::vector<PassTime> passes; // the same by pass
+  std::optional<BouncesReport> bounces; // nothing without
+  double frame_ms = 0.0;                // first pass to results in host memory, by the clock
+  std::vector<PassTime> passes;         // the same by pass
 };
 
 } // namespace pmdsim

@@ -11,6 +11,8 @@ struct Pose {
   glm::dmat3 rotation{1.0};
   glm::dvec3 translation_m{0.0};
 
+  bool operator==(const Pose &) const = default;
+
   glm::dvec3 point(const glm::dvec3 &p_b) const { return rotation * p_b + translation_m; }
   glm::dvec3 direction(const glm::dvec3 &d_b) const { return rotation * d_b; }
 };

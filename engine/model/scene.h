@@ -39,18 +39,24 @@ struct Paint {
   TextureFilter filter = TextureFilter::linear;
   double alpha = 1.0;        // of the surface, times the colour's
   double alpha_cutoff = 0.0; // the surface is not there where its alpha is below; 0: it is everywhere
+
+  bool operator==(const Paint &) const = default; // with the same texture, not one that is equal
 };
 
 struct Surface {
   double reflectivity = 1.0;                 // rho, 0 to 1; of a painted surface what its paint adds to
   bool double_sided = false;                 // false: the back face (clockwise seen) is invisible to the lens
   std::optional<Paint> paint = std::nullopt; // nothing where the surface is the same everywhere
+
+  bool operator==(const Surface &) const = default;
 };
 
 struct Triangle {
   std::array<std::uint32_t, 3> vertices; // indices into Scene::positions_m; counter-clockwise is the front
   std::uint32_t surface;                 // index into Scene::surfaces
   std::uint32_t object;                  // index into Scene::objects
+
+  bool operator==(const Triangle &) const = default;
 };
 
 // A point of a point cloud: a disc about its vertex that faces whichever lens looks at it, so that it counts
@@ -60,6 +66,8 @@ struct Disc {
   double radius_m;      // > 0
   std::uint32_t surface;
   std::uint32_t object;
+
+  bool operator==(const Disc &) const = default;
 };
 
 struct Scene {
@@ -71,6 +79,8 @@ struct Scene {
   // Beside positions_m, or empty where no surface needs them.
   std::vector<glm::dvec2> texture_coordinates; // (u, v), u to the right, v down, 1 a whole texture
   std::vector<glm::vec4> colours;              // linear RGBA
+
+  bool operator==(const Scene &) const = default;
 
   // Triangles and discs.
   std::size_t shape_count() const { return triangles.size() + discs.size(); }

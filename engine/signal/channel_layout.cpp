@@ -69,9 +69,19 @@ std::uint32_t ChannelLayout::channels() const {
 }
 
 bool ChannelLayout::holds(const ChannelRow &row) const {
-  return is_of_taps(row)                 ? taps > 0
-         : row.slot.area == Area::shadow ? lit
-                                         : row.slot.area != Area::bound || bounds;
+  switch (row.slot.area) {
+  case Area::truth:
+    return true;
+  case Area::frequency:
+    return !is_of_taps(row) || taps > 0;
+  case Area::shadow:
+    return lit;
+  case Area::bound:
+    return bounds;
+  case Area::none:
+    break;
+  }
+  return false;
 }
 
 std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
