@@ -1,5 +1,7 @@
 #include "engine/reference/reference.h"
 
+#include "engine/reference/bounce/indirect_return.h"
+#include "engine/reference/bounce/path_tracer.h"
 #include "engine/reference/for_each_row.h"
 #include "engine/reference/light/light_paths.h"
 #include "engine/reference/shadow/shadow_caster.h"
@@ -15,6 +17,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace pmdsim::reference {
@@ -22,6 +25,8 @@ namespace pmdsim::reference {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t default_paths = 1024;
 
 std::vector<Light> lights_in_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor) {
   std::vector<Light> lights;
@@ -56,7 +61,10 @@ public:
         caster_(triangles_in_camera(scene, sensor), discs_in_camera(scene, sensor),
                 std::bind_front(is_there, std::cref(scene))),
         every_diode_(all_of(diode_count(illuminators))),
-        frame_(dark_frame(with_pixels(sensor, options.pixels))) {
+        paths_(options.paths > 0 ? options.paths : default_paths),
+        frame_(dark_frame(with_pixels(sensor, options.pixels), options.bounces)) {
+    if (options.bounces.any())
+      tracer_.emplace(scene, caster_.triangles(), lights_, options.shadows, options.bounces);
     if (options.shadows == Shadows::off)
       return;
     shadows_.emplace(caster_.triangles(), caster_.discs(), lights_,
@@ -89,13 +97,18 @@ private:
   void compute_pixel(const glm::uvec2 &place) {
     const glm::uvec2 pixel = sensor_pixel(place);
     PixelSums sums(sensor_);
+    std::vector<std::optional<SurfacePoint>> seen;
     for (std::uint32_t k_row = 0; k_row < sensor_.samples; ++k_row)
       for (std::uint32_t k_column = 0; k_column < sensor_.samples; ++k_column) {
         const glm::uvec2 k(k_column, k_row);
-        add_sample(sums, pixel * sensor_.samples + k, sample_index(place * sensor_.samples + k));
+        seen.push_back(
+            add_sample(sums, pixel * sensor_.samples + k, sample_index(place * sensor_.samples + k)));
       }
     const std::size_t index = std::size_t{place.y} * frame_.resolution.x + place.x;
-    set_channels(frame_, index, sums, sensor_.samples * sensor_.samples);
+    const auto indirect =
+        tracer_ ? indirect_returns(sensor_, *tracer_, seen, pixel.y * sensor_.resolution.x + pixel.x, paths_)
+                : std::vector<IndirectReturn>();
+    set_channels(frame_, index, sums, sensor_.samples * sensor_.samples, indirect);
     if (shadows_ && sums.hits > 0)
       frame_.lit[index] =
           static_cast<double>(sums.reached) / static_cast<double>(sums.hits * every_diode_.count());
@@ -107,14 +120,14 @@ private:
     frame_.object_id[index] = id == no_id ? no_id : scene_.object_of(id);
   }
 
-  // `sample` is one of the sensor's, `index` its own in the frame.
-  void add_sample(PixelSums &sums, const glm::uvec2 &sample, std::size_t index) {
+  // `sample` is one of the sensor's, `index` its own in the frame. Returns what it sees.
+  std::optional<SurfacePoint> add_sample(PixelSums &sums, const glm::uvec2 &sample, std::size_t index) {
     const auto direction = lens_.sample_ray(sample);
     if (!direction)
-      return;
+      return std::nullopt;
     const auto hit = caster_.nearest(*direction);
     if (!hit)
-      return;
+      return std::nullopt;
     frame_.sample_triangle_id[index] = hit->id;
     const SurfacePoint point = surface_point(*direction, *hit);
     ++sums.hits;
@@ -126,6 +139,7 @@ private:
     const auto paths = light_paths(point, lights_, reached, backscatter_);
     for (ReturnSum &sum : sums.returns)
       sum.add(paths);
+    return point;
   }
 
   void keep_visibility(std::size_t sample, const DiodeSet &reached) {
@@ -137,14 +151,9 @@ private:
   }
 
   SurfacePoint surface_point(const glm::dvec3 &direction, const Hit &hit) const {
-    return {hit.range_m * direction, caster_.normal(direction, hit.id), reflectivity(direction, hit.id),
+    return {hit.range_m * direction, caster_.normal(direction, hit.id),
+            reflectivity(scene_, hit.id, caster_.weights(direction, hit.id)),
             lens_.vignetting_gain(direction)};
-  }
-
-  double reflectivity(const glm::dvec3 &direction, std::uint32_t id) const {
-    const Surface &surface = scene_.surfaces[scene_.surface_of(id)];
-    return surface.paint ? painted_reflectivity(scene_, id, caster_.weights(direction, id))
-                         : surface.reflectivity;
   }
 
   // `sample` counts the frame's rows and columns of samples.
@@ -161,6 +170,8 @@ private:
   RayCaster caster_;
   DiodeSet every_diode_;
   std::optional<ShadowCaster> shadows_;
+  std::optional<PathTracer> tracer_; // nothing without bounces
+  std::uint32_t paths_;              // of a pixel
   Frame frame_;
 };
 
@@ -168,6 +179,8 @@ private:
 
 Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
                Backscatter backscatter, const Options &options, const std::function<void(double)> &progress) {
+  if (options.bounces.any() && backscatter != Backscatter::lambert)
+    throw std::logic_error("reference: light bounces by Backscatter::lambert only");
   const auto start = Clock::now();
   FrameJob job(scene, sensor, illuminators, backscatter, options);
   for_each_row(

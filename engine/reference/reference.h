@@ -3,6 +3,7 @@
 // library's trigonometry. Shares no code with the shaders, the passes, their projection or
 // engine/lens/lens.h.
 
+#include "engine/model/bounces.h"
 #include "engine/model/illuminator.h"
 #include "engine/model/measurement.h"
 #include "engine/model/scene.h"
@@ -24,6 +25,13 @@ struct FrameReturn {
   // The sum of the paths' weights over |z|: how many times larger than its terms' the error of z may be. At
   // least 1 for a sine; infinity where all cancels, NaN where no light returns.
   std::vector<double> condition;
+  // With bounces, else empty: what they are in Return. All above includes them.
+  std::vector<std::complex<double>> direct_z{};
+  std::vector<double> direct_amplitude{}, direct_phase_rad{}, direct_distance_m{};
+  std::vector<double> multipath_m{};
+  std::vector<double> multipath_error_m{}; // the standard error of multipath_m
+  std::vector<double> indirect_share{};    // 1 where no light comes directly
+  std::vector<double> z_error{};           // the standard error of z: of both of its parts, squared and added
 };
 
 struct Frame {
@@ -42,6 +50,11 @@ struct Options {
   bool keep_visibility = false; // fill Frame::sample_visibility
   // Only these pixels, row * columns + column, in this order, as a frame of one column; empty: all.
   std::vector<std::uint32_t> pixels{};
+  // Light that bounces, for Backscatter::lambert only (else throws std::logic_error). Discs receive it, but
+  // neither send nor block it.
+  Bounces bounces{};
+  // Of light that bounces to a pixel, spread over its samples; rounded up to a multiple of 16; 0: 1024.
+  std::uint32_t paths = 0;
 };
 
 // Samples whose place on the chip no ray reaches see nothing. `progress` is called with the fraction done,

@@ -19,6 +19,16 @@ double backscatter_per_sr(Backscatter backscatter, double reflectivity, double c
 
 } // namespace
 
+LightReturn light_return(const SurfacePoint &point, const Diode &diode, Backscatter backscatter) {
+  const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
+  const double range_m = glm::length(to_diode_m);
+  const double cos_incidence = glm::dot(point.normal, to_diode_m) / range_m;
+  const double returned_w_sr2 = point.lens_gain *
+                                backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
+                                diode.intensity_w_sr * radiation(diode, to_diode_m, range_m);
+  return {range_m, returned_w_sr2 / (range_m * range_m)};
+}
+
 std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<Light> &lights,
                                    const DiodeSet &reached, Backscatter backscatter) {
   std::vector<LightPath> paths;
@@ -29,15 +39,9 @@ std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<
     for (const Diode &diode : light.diodes) {
       if (!reached.has(index++))
         continue;
-      const glm::dvec3 to_diode_m = diode.position_m - point.position_m;
-      const double diode_range_m = glm::length(to_diode_m);
-      const double cos_incidence = glm::dot(point.normal, to_diode_m) / diode_range_m;
-      const double returned_w_sr2 = point.lens_gain *
-                                    backscatter_per_sr(backscatter, point.reflectivity, cos_incidence) *
-                                    diode.intensity_w_sr * radiation(diode, to_diode_m, diode_range_m);
-      if (returned_w_sr2 != 0)
-        paths.push_back({diode_range_m + lens_range_m, returned_w_sr2 / (diode_range_m * diode_range_m),
-                         light.phase_turns});
+      const auto [diode_range_m, weight_w_m2_sr] = light_return(point, diode, backscatter);
+      if (weight_w_m2_sr != 0)
+        paths.push_back({diode_range_m + lens_range_m, weight_w_m2_sr, light.phase_turns});
     }
   return paths;
 }

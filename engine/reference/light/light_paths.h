@@ -36,19 +36,27 @@ private:
   std::vector<std::uint32_t> words_;
 };
 
-// A point that the lens sees, camera frame.
+// A point that the lens sees, or that another surface sees, camera frame.
 struct SurfacePoint {
   glm::dvec3 position_m;
-  glm::dvec3 normal; // unit length, turned to the lens
+  glm::dvec3 normal; // unit length, turned to who sees it
   double reflectivity;
   double lens_gain; // the part of its light that vignetting leaves
 };
 
 struct LightPath {
-  double length_m;          // r_nm + r_n
-  double weight_w_m2_sr;    // lens_gain * B * I * J / r_nm^2
+  double length_m;          // r_nm + r_n, and what lies between where light bounces
+  double weight_w_m2_sr;    // as of LightReturn
   double phase_turns = 0.0; // added to what the length makes of it, -1/2 to 1/2
 };
+
+// What one diode returns through a point, if nothing is between.
+struct LightReturn {
+  double diode_range_m;  // r_nm
+  double weight_w_m2_sr; // lens_gain * B * I * J / r_nm^2
+};
+
+LightReturn light_return(const SurfacePoint &point, const Diode &diode, Backscatter backscatter);
 
 // Diodes of one phase, camera frame.
 struct Light {

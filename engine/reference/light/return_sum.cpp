@@ -67,6 +67,14 @@ double ReturnSum::phase_turns(const LightPath &path) const {
   return fraction(path.length_m * turns_per_m_) + path.phase_turns;
 }
 
+MeanReturn ReturnSum::mean(std::uint32_t samples) const {
+  MeanReturn mean{z() / static_cast<double>(samples), {}, weight_.value() / samples};
+  mean.taps.reserve(sensor_->taps);
+  for (std::uint32_t k = 0; k < sensor_->taps; ++k)
+    mean.taps.push_back(tap(k) / samples);
+  return mean;
+}
+
 std::complex<double> ReturnSum::z() const {
   if (is_sine())
     return phasors_.value();

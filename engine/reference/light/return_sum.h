@@ -43,6 +43,13 @@ private:
 // The correlation function C (docs/theory.md, "The measurement") at the phase 2 pi `turns`.
 double correlation(const Waveform &waveform, double turns);
 
+// What a pixel returns at one modulation frequency.
+struct MeanReturn {
+  std::complex<double> z;   // (2/N) sum over k of tap k exp(+j 2 pi k / N)
+  std::vector<double> taps; // c_k, k = 0 ... N-1
+  double weight;            // of all paths, whatever their phase
+};
+
 // Sums over light paths, before they are divided by the number of samples. A sine's paths are summed as
 // phasors, which is exact; any other waveform's tap by tap.
 class ReturnSum {
@@ -52,11 +59,12 @@ public:
 
   void add(const std::vector<LightPath> &paths);
 
-  std::complex<double> z() const; // (2/N) sum over k of tap(k) exp(+j 2 pi k / N)
-  double tap(std::uint32_t k) const;
-  double weight() const { return weight_.value(); } // of all paths, whatever their phase
+  // Of each of `samples` samples or paths.
+  MeanReturn mean(std::uint32_t samples) const;
 
 private:
+  std::complex<double> z() const;
+  double tap(std::uint32_t k) const;
   double phase_turns(const LightPath &path) const; // -1/2 to 3/2
   bool is_sine() const { return sensor_->waveform.kind == Waveform::Kind::sine; }
 

@@ -36,21 +36,63 @@ Return rounded(const FrameReturn &exact) {
                 {}};
   for (const std::vector<double> &tap : exact.taps)
     result.taps.push_back(rounded(tap));
+  result.direct_amplitude = rounded(exact.direct_amplitude);
+  result.direct_phase_rad = rounded_below(exact.direct_phase_rad, full_turn_rad);
+  result.direct_distance_m = rounded_below(exact.direct_distance_m, exact.ambiguity_m);
+  result.multipath_m = rounded(exact.multipath_m);
+  result.multipath_error_m = rounded(exact.multipath_error_m);
+  result.indirect_share = rounded(exact.indirect_share);
   return result;
 }
 
-void set_return(FrameReturn &channels, std::size_t pixel, const ReturnSum &sum, std::uint32_t samples) {
-  for (std::uint32_t k = 0; k < channels.taps.size(); ++k)
-    channels.taps[k][pixel] = sum.tap(k) / samples;
-  const std::complex<double> z = sum.z() / static_cast<double>(samples);
-  channels.z[pixel] = z;
-  channels.amplitude[pixel] = std::abs(z);
-  channels.condition[pixel] = sum.weight() / samples / channels.amplitude[pixel];
-  if (channels.amplitude[pixel] > 0) {
-    channels.phase_rad[pixel] = phase_of_rad(z);
-    channels.distance_m[pixel] =
-        below(channels.ambiguity_m * (channels.phase_rad[pixel] / full_turn_rad), channels.ambiguity_m);
+// In channels where there was no light.
+void set_light(const std::complex<double> &z, double ambiguity_m, double &amplitude, double &phase_rad,
+               double &distance_m) {
+  amplitude = std::abs(z);
+  if (amplitude > 0) {
+    phase_rad = phase_of_rad(z);
+    distance_m = below(ambiguity_m * (phase_rad / full_turn_rad), ambiguity_m);
   }
+}
+
+// From the direct light to all of it, -1/2 (not included) to 1/2.
+double multipath_turns(const std::complex<double> &z, const std::complex<double> &direct_z) {
+  const double turns = std::arg(z * std::conj(direct_z)) / full_turn_rad;
+  return turns <= -0.5 ? 0.5 : turns;
+}
+
+void set_multipath(FrameReturn &channels, std::size_t pixel, const std::complex<double> &direct_z,
+                   const IndirectReturn &indirect) {
+  channels.direct_z[pixel] = direct_z;
+  set_light(direct_z, channels.ambiguity_m, channels.direct_amplitude[pixel],
+            channels.direct_phase_rad[pixel], channels.direct_distance_m[pixel]);
+  channels.z_error[pixel] = indirect.standard_error();
+  const std::complex<double> z = channels.z[pixel];
+  if (z == 0.0)
+    return;
+  channels.indirect_share[pixel] = direct_z == 0.0 ? 1.0 : std::abs(indirect.mean.z) / std::abs(z);
+  if (direct_z == 0.0)
+    return;
+  channels.multipath_m[pixel] = channels.ambiguity_m * multipath_turns(z, direct_z);
+  channels.multipath_error_m[pixel] =
+      channels.ambiguity_m * (indirect.standard_error_across(z) / std::abs(z) / full_turn_rad);
+}
+
+void set_return(FrameReturn &channels, std::size_t pixel, const MeanReturn &all) {
+  for (std::size_t k = 0; k < channels.taps.size(); ++k)
+    channels.taps[k][pixel] = all.taps[k];
+  channels.z[pixel] = all.z;
+  set_light(all.z, channels.ambiguity_m, channels.amplitude[pixel], channels.phase_rad[pixel],
+            channels.distance_m[pixel]);
+  channels.condition[pixel] = all.weight / channels.amplitude[pixel];
+}
+
+MeanReturn together(MeanReturn direct, const MeanReturn &indirect) {
+  direct.z += indirect.z;
+  direct.weight += indirect.weight;
+  for (std::size_t k = 0; k < direct.taps.size(); ++k)
+    direct.taps[k] += indirect.taps[k];
+  return direct;
 }
 
 } // namespace
@@ -61,7 +103,7 @@ PixelSums::PixelSums(const Sensor &sensor) {
     returns.emplace_back(sensor, modulation_hz);
 }
 
-Frame dark_frame(const Sensor &sensor) {
+Frame dark_frame(const Sensor &sensor, const Bounces &bounces) {
   const std::size_t pixels = sensor.pixel_count();
   const std::size_t samples = pixels * sensor.samples * sensor.samples;
   const std::vector<double> dark(pixels, 0.0), unknown(pixels, no_value);
@@ -70,6 +112,13 @@ Frame dark_frame(const Sensor &sensor) {
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
     frame.returns.push_back({sensor.ambiguity_m(i), std::vector<std::complex<double>>(pixels), dark, unknown,
                              unknown, std::vector(sensor.taps, dark), unknown});
+  if (bounces.any())
+    for (FrameReturn &channels : frame.returns) {
+      channels.direct_z.resize(pixels);
+      channels.direct_amplitude = channels.z_error = dark;
+      channels.direct_phase_rad = channels.direct_distance_m = unknown;
+      channels.multipath_m = channels.multipath_error_m = channels.indirect_share = unknown;
+    }
   frame.coverage = dark;
   frame.range_m = frame.z_m = unknown;
   frame.triangle_id.assign(pixels, no_id);
@@ -78,14 +127,22 @@ Frame dark_frame(const Sensor &sensor) {
   return frame;
 }
 
-void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::uint32_t samples) {
+void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::uint32_t samples,
+                  const std::vector<IndirectReturn> &indirect) {
   frame.coverage[pixel] = static_cast<double>(sums.hits) / samples;
   if (sums.hits > 0) {
     frame.range_m[pixel] = sums.range_m.value() / sums.hits;
     frame.z_m[pixel] = sums.z_m.value() / sums.hits;
   }
-  for (std::size_t i = 0; i < sums.returns.size(); ++i)
-    set_return(frame.returns[i], pixel, sums.returns[i], samples);
+  for (std::size_t i = 0; i < sums.returns.size(); ++i) {
+    const MeanReturn direct = sums.returns[i].mean(samples);
+    if (indirect.empty()) {
+      set_return(frame.returns[i], pixel, direct);
+      continue;
+    }
+    set_return(frame.returns[i], pixel, together(direct, indirect[i].mean));
+    set_multipath(frame.returns[i], pixel, direct.z, indirect[i]);
+  }
 }
 
 Measurement to_measurement(const Frame &frame) {

@@ -1,6 +1,7 @@
 #pragma once
 // From a pixel's sums to its channels.
 
+#include "engine/reference/bounce/indirect_return.h"
 #include "engine/reference/light/return_sum.h"
 #include "engine/reference/reference.h"
 
@@ -21,9 +22,10 @@ struct PixelSums {
 };
 
 // A frame of pixels that see nothing.
-Frame dark_frame(const Sensor &sensor);
+Frame dark_frame(const Sensor &sensor, const Bounces &bounces = {});
 
-// Fills every channel but the ids. `samples` is N_p, hit or not.
-void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::uint32_t samples);
+// Fills every channel but the ids. `samples` is N_p, hit or not; `indirect` what bounces, empty without.
+void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::uint32_t samples,
+                  const std::vector<IndirectReturn> &indirect = {});
 
 } // namespace pmdsim::reference

@@ -93,8 +93,10 @@ bool is_there(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights) {
   return alpha >= static_cast<float>(paint.alpha_cutoff);
 }
 
-double painted_reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights) {
+double reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights) {
   const Surface &surface = scene.surfaces[scene.surface_of(id)];
+  if (!surface.paint)
+    return surface.reflectivity;
   const glm::dvec3 rgb(colour(scene, *surface.paint, id, weights));
   return std::max(surface.reflectivity + glm::dot(surface.paint->reflectivity_rgb, rgb), 0.0);
 }

@@ -1,7 +1,7 @@
 #pragma once
-// The reflectivity of a painted surface, and whether it is there at all, at one point of a triangle or disc:
-// where its corners count `weights`, which add up to 1. A disc's first corner is its vertex; the others do
-// not matter.
+// The reflectivity of a surface, painted or not, and whether it is there at all, at one point of a triangle
+// or disc: where its corners count `weights`, which add up to 1. A disc's first corner is its vertex; the
+// others do not matter.
 
 #include "engine/model/scene.h"
 
@@ -14,6 +14,6 @@ namespace pmdsim::reference {
 glm::dvec4 texture_colour(const Paint &paint, const glm::dvec2 &coordinates);
 
 bool is_there(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights);
-double painted_reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights); // rho
+double reflectivity(const Scene &scene, std::uint32_t id, const glm::dvec3 &weights); // rho
 
 } // namespace pmdsim::reference
