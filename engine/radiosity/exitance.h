@@ -1,0 +1,47 @@
+#pragma once
+// The light that leaves each side of each facet, W/m^2, for every tone: rho times the irradiance, direct and
+// bounced, linear over the facet; and by how much that misses what was found at its centre.
+
+#include "engine/radiosity/phasor.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pmdsim {
+
+// The side of a facet.
+inline std::size_t face_of(std::uint32_t facet, std::uint8_t side) { return 2 * std::size_t{facet} + side; }
+
+struct FaceLight {
+  std::array<Phasor, 3> corners;
+  Phasor missed; // at the centre
+};
+
+class Exitance {
+public:
+  Exitance(std::size_t facets, std::size_t tones) : tones_(tones), light_(2 * facets * tones) {}
+
+  std::size_t tones() const { return tones_; }
+  FaceLight &of(std::size_t face, std::size_t tone) { return light_[face * tones_ + tone]; }
+  const FaceLight &of(std::size_t face, std::size_t tone) const { return light_[face * tones_ + tone]; }
+
+private:
+  std::size_t tones_;
+  std::vector<FaceLight> light_; // dark sides are 0
+};
+
+// At the place of a facet with those weights of its second and third corner.
+inline Phasor at(const std::array<Phasor, 3> &corners, float u, float v) {
+  return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
+}
+
+// What a linear function misses of a curved one, at that place, for each unit that it misses at the centre:
+// the quadratic function that is 0 at the Gauss points. Its mean is 0, as theirs integrates it exactly.
+inline float missed_part(float u, float v) {
+  const float w = 1.0f - u - v;
+  return 3.0f - 6.0f * (u * u + v * v + w * w);
+}
+
+} // namespace pmdsim

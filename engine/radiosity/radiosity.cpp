@@ -1,0 +1,276 @@
+#include "engine/radiosity/radiosity.h"
+
+#include "engine/model/error.h"
+#include "engine/radiosity/direct_irradiance.h"
+#include "engine/radiosity/exchange.h"
+#include "engine/radiosity/krylov.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+namespace pmdsim {
+namespace {
+
+constexpr double solved_residual = 1e-5; // of what bounces; no element is known better
+constexpr std::uint32_t most_products = 40;
+constexpr int most_cuts = 3;                 // of a facet, each to half its size
+constexpr std::size_t most_facets = 200'000; // that are cut
+
+// Irradiance at the places of one piece, tone by tone.
+using PieceLight = std::vector<std::array<Phasor, places_of_piece>>;
+
+// A linear function through the Gauss points, and what is found at the centre beyond it.
+struct Linear {
+  std::array<Phasor, 3> corners;
+  Phasor missed;
+};
+
+Linear linear_of(const std::array<Phasor, places_of_piece> &places, const std::array<glm::vec3, 3> &weights) {
+  Linear made;
+  for (std::size_t i = 0; i < 3; ++i)
+    made.corners[i] = weights[i].x * places[0] + weights[i].y * places[1] + weights[i].z * places[2];
+  made.missed = places[3] - (1.0f / 3.0f) * (places[0] + places[1] + places[2]);
+  return made;
+}
+
+// The weights of a facet's own Gauss points at its corners.
+constexpr std::array<glm::vec3, 3> own_weights{glm::vec3{5.0f, -1.0f, -1.0f} / 3.0f,
+                                               glm::vec3{-1.0f, 5.0f, -1.0f} / 3.0f,
+                                               glm::vec3{-1.0f, -1.0f, 5.0f} / 3.0f};
+
+class Solver {
+public:
+  Solver(const Scene &scene, const std::vector<Illuminator> &illuminators, Shadows shadows,
+         const std::vector<BounceTone> &tones, const Fineness &fineness)
+      : scene_(scene), illuminators_(illuminators), shadows_(shadows), tones_(tones), fineness_(fineness),
+        elements_(make_elements(scene, fineness.element_m)) {}
+
+  Radiosity solve(const Bounces &bounces) {
+    light_facets();
+    auto tree = std::make_unique<const FacetTree>(scene_, elements_);
+    Exitance exitance = direct_exitance();
+    std::size_t rays = 0;
+    std::uint32_t products = 0;
+    if (bounces.count > 1) {
+      Exchange exchange(elements_, *tree, fineness_.rays_per_edge);
+      rays = exchange.rays();
+      for (std::size_t t = 0; t < tones_.size(); ++t)
+        products += add_bounces(exchange, bounces, t, exitance);
+      if (bounces.count == all_bounces)
+        refuse_divergence(exchange);
+    }
+    return {std::move(elements_), std::move(tree), std::move(exitance), rays, products};
+  }
+
+private:
+  // Direct light of all facets, cut where it varies too much; against the tree of what is not cut yet.
+  void light_facets() {
+    const FacetTree whole(scene_, elements_);
+    const DirectIrradiance direct(illuminators_, elements_.origin_m,
+                                  shadows_ == Shadows::automatic ? &whole : nullptr, elements_.clearance_m());
+    of_elements_.resize(elements_.elements.size());
+    tbb::parallel_for(std::size_t{0}, of_elements_.size(), [&](std::size_t i) {
+      of_elements_[i] = light_of(direct, elements_.elements[i].places);
+    });
+    of_facets_.resize(elements_.facets.size());
+    std::vector<std::uint32_t> fresh(elements_.facets.size());
+    std::iota(fresh.begin(), fresh.end(), 0u);
+    light(direct, fresh);
+    for (int cut = 0; cut < most_cuts; ++cut) {
+      const std::vector<std::uint32_t> rough = rough_facets(fresh);
+      if (rough.empty() || elements_.facets.size() + 3 * rough.size() > most_facets)
+        break;
+      const auto first = static_cast<std::uint32_t>(elements_.facets.size());
+      split_facets(scene_, elements_, rough);
+      fresh = rough;
+      for (std::uint32_t i = first; i < elements_.facets.size(); ++i)
+        fresh.push_back(i);
+      of_facets_.resize(elements_.facets.size());
+      light(direct, fresh);
+    }
+  }
+
+  PieceLight light_of(const DirectIrradiance &direct,
+                      const std::array<SurfacePlace, places_of_piece> &places) const {
+    PieceLight light(tones_.size());
+    std::vector<Phasor> of_place(tones_.size());
+    for (std::size_t i = 0; i < places_of_piece; ++i) {
+      direct.at(places[i], tones_, of_place);
+      for (std::size_t t = 0; t < tones_.size(); ++t)
+        light[t][i] = of_place[t];
+    }
+    return light;
+  }
+
+  void light(const DirectIrradiance &direct, const std::vector<std::uint32_t> &facets) {
+    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
+      const Facet &facet = elements_.facets[facets[i]];
+      for (std::size_t side = 0; side < 2 && !facet.whole; ++side)
+        if (facet.elements[side] != no_element)
+          of_facets_[facets[i]][side] = light_of(direct, places_of(facet, side));
+    });
+  }
+
+  // What a side of a facet is lit by directly.
+  const PieceLight &direct_light(std::size_t facet, std::size_t side) const {
+    const Facet &of = elements_.facets[facet];
+    return of.whole ? of_elements_[of.elements[side]] : of_facets_[facet][side];
+  }
+  static const std::array<glm::vec3, 3> &direct_weights(const Facet &facet) {
+    return facet.whole ? facet.in_element : own_weights;
+  }
+
+  double light_of_all() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < elements_.facets.size(); ++i)
+      for (std::size_t side = 0; side < 2; ++side)
+        if (elements_.facets[i].elements[side] != no_element)
+          sum += elements_.facets[i].area_m2() *
+                 static_cast<double>(elements_.facets[i].reflectivity * abs(direct_light(i, side)[0][3]));
+    return sum;
+  }
+
+  std::vector<std::uint32_t> rough_facets(const std::vector<std::uint32_t> &among) const {
+    const double most = fineness_.facet_part * light_of_all();
+    std::vector<std::uint32_t> rough;
+    for (const std::uint32_t i : among) {
+      const Facet &facet = elements_.facets[i];
+      double missed = 0.0;
+      for (std::size_t side = 0; side < 2; ++side)
+        if (facet.elements[side] != no_element)
+          missed = std::max(
+              missed, static_cast<double>(abs(linear_of(direct_light(i, side)[0], own_weights).missed)));
+      if (!facet.whole && missed * facet.area_m2() * static_cast<double>(facet.reflectivity) > most)
+        rough.push_back(i);
+    }
+    return rough;
+  }
+
+  Exitance direct_exitance() const {
+    Exitance exitance(elements_.facets.size(), tones_.size());
+    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
+      const PieceLight &light = direct_light(face / 2, side);
+      for (std::size_t t = 0; t < tones_.size(); ++t)
+        add(exitance.of(face, t), facet.reflectivity, linear_of(light[t], direct_weights(facet)));
+    });
+    return exitance;
+  }
+
+  static void add(FaceLight &to, float reflectivity, const Linear &irradiance) {
+    for (std::size_t k = 0; k < 3; ++k)
+      to.corners[k] += reflectivity * irradiance.corners[k];
+    to.missed += reflectivity * irradiance.missed;
+  }
+
+  template <class Visit>
+  void for_each_lit_side(const Visit &visit) const {
+    tbb::parallel_for(std::size_t{0}, elements_.facets.size(), [&](std::size_t i) {
+      for (std::size_t side = 0; side < 2; ++side)
+        if (elements_.facets[i].elements[side] != no_element)
+          visit(2 * i + side, elements_.facets[i], side);
+    });
+  }
+
+  using Faces = std::vector<std::array<Phasor, 3>>;
+
+  static std::array<Phasor, places_of_piece> of_element(const std::vector<Phasor> &places,
+                                                        std::uint32_t element) {
+    std::array<Phasor, places_of_piece> own;
+    std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(places_of_piece * element), places_of_piece,
+                own.begin());
+    return own;
+  }
+
+  // What leaves faces, of the light that arrives at the places of elements.
+  Faces reflected(const std::vector<Phasor> &places) const {
+    Faces faces(2 * elements_.facets.size());
+    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
+      FaceLight light{};
+      add(light, facet.reflectivity, linear_of(of_element(places, facet.elements[side]), facet.in_element));
+      faces[face] = light.corners;
+    });
+    return faces;
+  }
+
+  std::vector<Phasor> arriving(const Exchange &exchange, const Faces &faces) const {
+    std::vector<Phasor> places(places_of_piece * elements_.elements.size());
+    exchange.arrive(faces, places);
+    return places;
+  }
+
+  // Adds to the exitance of a tone what has bounced; returns the number of products.
+  std::uint32_t add_bounces(Exchange &exchange, const Bounces &bounces, std::size_t tone,
+                            Exitance &exitance) const {
+    exchange.set_tone(tones_[tone]);
+    Faces direct(2 * elements_.facets.size());
+    for (std::size_t face = 0; face < direct.size(); ++face)
+      direct[face] = exitance.of(face, tone).corners;
+    const std::vector<Phasor> first = arriving(exchange, direct);
+    const auto bounce = [&](const std::vector<Phasor> &places) {
+      return arriving(exchange, reflected(places));
+    };
+    KrylovSolution bounced{first, 1, 0.0};
+    if (bounces.count == all_bounces) {
+      bounced = solve_series(first, bounce, solved_residual, most_products);
+    } else {
+      std::vector<Phasor> last = first;
+      for (std::uint32_t n = 2; n < bounces.count; ++n, ++bounced.products) {
+        last = bounce(last);
+        for (std::size_t i = 0; i < last.size(); ++i)
+          bounced.x[i] += last[i];
+      }
+    }
+    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
+      add(exitance.of(face, tone), facet.reflectivity,
+          linear_of(of_element(bounced.x, facet.elements[side]), facet.in_element));
+    });
+    return bounced.products;
+  }
+
+  // At rest, without phase, light that neither leaves the scene nor is absorbed adds up without end.
+  void refuse_divergence(Exchange &exchange) const {
+    constexpr float harmless = 0.99f;
+    constexpr double stays = 1.0 - 1e-4;
+    if (std::ranges::none_of(elements_.facets,
+                             [](const Facet &facet) { return facet.reflectivity > harmless; }))
+      return;
+    exchange.set_tone({.hz = 0.0, .harmonic = 1, .frequency = 0, .relative = 1.0});
+    std::vector<Phasor> places(places_of_piece * elements_.elements.size(), Phasor{1.0f, 0.0f});
+    double ratio = 0.0, before = 1.0;
+    for (int i = 0; i < 60; ++i) {
+      places = arriving(exchange, reflected(places));
+      float most = 0.0f;
+      for (const Phasor &place : places)
+        most = std::max(most, abs(place));
+      ratio = static_cast<double>(most) / before;
+      before = static_cast<double>(most);
+      if (ratio < stays)
+        return;
+    }
+    throw Error(
+        ExitCode::input,
+        "the light that bounces does not end: expected a scene that lets light out or absorbs some of it, "
+        "found surfaces of reflectivity 1 all around (\"bounces\": \"all\")");
+  }
+
+  const Scene &scene_;
+  const std::vector<Illuminator> &illuminators_;
+  Shadows shadows_;
+  const std::vector<BounceTone> &tones_;
+  const Fineness fineness_;
+  Elements elements_;
+  std::vector<PieceLight> of_elements_;              // direct
+  std::vector<std::array<PieceLight, 2>> of_facets_; // likewise, of those that are not whole
+};
+
+} // namespace
+
+Radiosity solve_radiosity(const Scene &scene, const std::vector<Illuminator> &illuminators, Shadows shadows,
+                          const Bounces &bounces, const std::vector<BounceTone> &tones,
+                          const Fineness &fineness) {
+  return Solver(scene, illuminators, shadows, tones, fineness).solve(bounces);
+}
+
+} // namespace pmdsim
