@@ -2,6 +2,7 @@
 
 #include "engine/frame/frame.h"
 #include "engine/model/error.h"
+#include "engine/multipath/multipath.h"
 #include "engine/vulkan/commands.h"
 
 #include <algorithm>
@@ -28,8 +29,8 @@ bool is_mostly_beyond(const Measurement &measured) {
 
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
-      : options(wanted), wants_error_bound(wanted.keep_error_bound), instance(wanted.validate),
-        info(choose_device(instance, wanted.device)),
+      : options(wanted), wants_error_bound(wanted.keep_error_bound), wants_sample_ids(wanted.keep_sample_ids),
+        instance(wanted.validate), info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
@@ -38,7 +39,7 @@ struct Simulator::State {
   Measurement spare_memory();
 
   SimulatorOptions options; // keeps bounds also where a frame turned out to need them
-  bool wants_error_bound;
+  bool wants_error_bound, wants_sample_ids;
   vulkan::Instance instance;
   DeviceInfo info;
   vulkan::Device device;
@@ -47,6 +48,8 @@ struct Simulator::State {
   std::optional<FrameRequest> requested;
   std::uint32_t attempt = 0; // of frame_plans; made again where one does not keep the error asked for
   std::optional<Frame> frame;
+  Multipath multipath;
+  bool bounces = false; // whether it is asked for
   std::mutex spare_mutex;
   std::vector<Measurement> spare; // frames that are done with
 };
@@ -116,13 +119,19 @@ const DeviceInfo &Simulator::device() const { return state_->info; }
 
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,
-                        Shadows shadows, const Accuracy &accuracy) {
+                        Shadows shadows, const Accuracy &accuracy, const Bounces &bounces) {
   if (illuminators.empty() ||
       std::ranges::any_of(illuminators, &std::vector<Diode>::empty, &Illuminator::diodes))
     throw std::logic_error("no illuminator, or one without diodes");
+  if (bounces.any() && backscatter != Backscatter::lambert)
+    throw std::logic_error("bounces off surfaces that are not Lambert's");
   state_->requested.emplace(FrameRequest{scene, sensor, illuminators, backscatter, shadows, accuracy});
   state_->attempt = 0;
   state_->options.keep_error_bound = state_->wants_error_bound;
+  state_->bounces = bounces.any();
+  state_->options.keep_sample_ids = state_->wants_sample_ids || (bounces.any() && sensor.samples > 1);
+  if (bounces.any())
+    state_->multipath.prepare({scene, sensor, illuminators, shadows, bounces});
   state_->prepare();
 }
 
@@ -142,14 +151,22 @@ void Simulator::reuse(Measurement &&frame) {
 Measurement Simulator::measure(const Progress &progress, const ExposureNumber &number) {
   if (!state_->frame)
     throw std::logic_error("measure() before prepare()");
+  constexpr double of_frame = 0.1; // of the time, where light bounces
+  const auto direct_progress = [&](double fraction) { progress(of_frame * fraction); };
+  const auto bounces_progress = [&](double fraction) { progress(of_frame + (1.0 - of_frame) * fraction); };
+  const Progress none = [](double) {};
   const auto measure_once = [&] {
-    return state_->frame->measure(state_->recorder, state_->spare_memory(), progress, number);
+    return state_->frame->measure(state_->recorder, state_->spare_memory(),
+                                  progress && state_->bounces ? direct_progress : progress, number);
   };
   Measurement measured = measure_once();
   while (!state_->is_kept(measured)) {
     reuse(std::move(measured));
     measured = measure_once();
   }
+  measured.bounces.reset();
+  if (state_->bounces)
+    state_->multipath.add_to(measured, progress ? bounces_progress : none);
   return measured;
 }
 

@@ -2,6 +2,7 @@
 // The simulator: runs the passes of one frame on a Vulkan device, in order, and reads the measurement back.
 
 #include "engine/model/accuracy.h"
+#include "engine/model/bounces.h"
 #include "engine/model/device_info.h"
 #include "engine/model/illuminator.h"
 #include "engine/model/measurement.h"
@@ -32,14 +33,17 @@ public:
 
   // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
-  // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart).
+  // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart). With
+  // bounces surfaces have to be Backscatter::lambert, and `scene` has to outlive the frames.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {});
+               Backscatter backscatter, Shadows shadows = Shadows::off, const Accuracy &accuracy = {},
+               const Bounces &bounces = {});
   // How the frame that was prepared is summed: names and values, for people and for JSON. It may change where
   // a frame has to be made again more exactly.
   std::vector<std::pair<std::string, std::string>> path() const;
   // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
-  // accuracy (the error asked for was not kept), input (more light returns than a float holds).
+  // accuracy (the error asked for was not kept), input (more light returns than a float holds; light that
+  // bounces without end).
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});
   // Takes the memory of a frame that is done with, for a later one; from any thread. (A large frame's memory
   // takes longer to come from the operating system than its values.)

@@ -1,0 +1,112 @@
+#include "engine/multipath/image_cells.h"
+
+#include <algorithm>
+
+namespace pmdsim {
+namespace {
+
+struct RunOfShape {
+  Run run;
+  std::uint32_t shape;
+};
+
+// The runs of a row that see one plane each.
+std::vector<RunOfShape> runs_of(const SeenPlaces &seen, std::uint32_t row, std::uint32_t low,
+                                std::uint32_t high) {
+  std::vector<RunOfShape> runs;
+  for (std::uint32_t column = low; column <= high; ++column) {
+    const std::uint32_t shape = seen.shape({column, row});
+    if (shape == no_id)
+      continue;
+    if (!runs.empty() && runs.back().run.high + 1 == column && seen.in_one_plane(runs.back().shape, shape))
+      runs.back().run.high = column;
+    else
+      runs.push_back({{column, column}, shape});
+  }
+  return runs;
+}
+
+bool owns_any(const ImageCell &cell) {
+  return (cell.owns_last_row || cell.runs.size() > 1) &&
+         (cell.owns_last_column ||
+          std::ranges::any_of(cell.runs, [](const Run &run) { return run.high > run.low; }));
+}
+
+bool overlap(const Run &a, const Run &b) { return a.low <= b.high && b.low <= a.high; }
+
+} // namespace
+
+bool ImageCell::has_middle_column() const {
+  return std::ranges::any_of(runs, [](const Run &run) { return run.high - run.low > 1; });
+}
+
+std::array<float, 4> ImageCell::weights(const glm::uvec2 &sample) const {
+  const Run &run = runs[sample.y - row];
+  const auto part = [](std::uint32_t at, std::uint32_t low, std::uint32_t high) {
+    return high > low ? static_cast<float>(at - low) / static_cast<float>(high - low) : 0.0f;
+  };
+  const float x = part(sample.x, run.low, run.high), y = part(sample.y, row, last_row());
+  return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+}
+
+std::vector<ImageCell> cells_of(const SeenPlaces &seen, const glm::uvec2 &low, const glm::uvec2 &high) {
+  struct Open {
+    ImageCell cell;
+    std::uint32_t shape;
+  };
+  std::vector<ImageCell> closed;
+  std::vector<Open> open;
+  const bool is_lowest = high.y + 1 == seen.rows(), is_rightmost = high.x + 1 == seen.columns();
+  const auto close = [&](Open &&done) {
+    // A last row inside the block has nobody else to own it.
+    done.cell.owns_last_row = done.cell.last_row() < high.y || is_lowest;
+    if (owns_any(done.cell))
+      closed.push_back(std::move(done.cell));
+  };
+  for (std::uint32_t row = low.y; row <= high.y; ++row) {
+    std::vector<Open> next;
+    const std::vector<RunOfShape> runs = runs_of(seen, row, low.x, high.x);
+    std::vector<std::uint8_t> taken(open.size());
+    for (const auto &[run, shape] : runs) {
+      const auto continues = [&](const Open &above) {
+        return overlap(above.cell.runs.back(), run) && seen.in_one_plane(above.shape, shape) &&
+               above.cell.owns_last_column == (run.high < high.x || is_rightmost);
+      };
+      const auto above = std::ranges::find_if(open, continues);
+      if (above != open.end() && !taken[static_cast<std::size_t>(above - open.begin())]) {
+        taken[static_cast<std::size_t>(above - open.begin())] = 1;
+        next.push_back(*above);
+        next.back().cell.runs.push_back(run);
+      } else {
+        next.push_back({{row, {run}, false, run.high < high.x || is_rightmost}, shape});
+      }
+    }
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (!taken[i])
+        close(std::move(open[i]));
+    open = std::move(next);
+  }
+  for (Open &last : open)
+    close(std::move(last));
+  return closed;
+}
+
+std::array<ImageCell, 2> halves_by_row(const ImageCell &cell) {
+  const auto middle = static_cast<std::ptrdiff_t>((cell.runs.size() - 1) / 2);
+  std::array<ImageCell, 2> halves{cell, cell};
+  halves[0].runs.assign(cell.runs.begin(), cell.runs.begin() + middle + 1);
+  halves[0].owns_last_row = false;
+  halves[1].runs.assign(cell.runs.begin() + middle, cell.runs.end());
+  halves[1].row += static_cast<std::uint32_t>(middle);
+  return halves;
+}
+
+std::array<ImageCell, 2> halves_by_column(const ImageCell &cell) {
+  std::array<ImageCell, 2> halves{cell, cell};
+  for (std::size_t i = 0; i < cell.runs.size(); ++i)
+    halves[0].runs[i].high = halves[1].runs[i].low = cell.runs[i].middle();
+  halves[0].owns_last_column = false;
+  return halves;
+}
+
+} // namespace pmdsim

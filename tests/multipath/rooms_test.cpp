@@ -1,0 +1,80 @@
+// Light that bounces in random rooms, against the reference's path tracer.
+
+#include "engine/reference/reference.h"
+#include "tests/multipath/frames.h"
+#include "tests/support/random_rooms.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace pmdsim;
+using namespace pmdsim::test;
+
+namespace {
+
+struct RoomErrors {
+  std::size_t pixels = 0;
+  std::size_t kept = 0; // within two standard errors of the reference and what was claimed
+};
+
+RoomErrors room_errors(std::uint32_t number, const Bounces &bounces, std::uint32_t pixels,
+                       std::uint32_t paths) {
+  const Room room = random_room(number);
+  const Measurement frame = bounced_frame(room.scene, room.sensor, {room.light}, bounces);
+  reference::Options options{Shadows::automatic};
+  options.bounces = bounces;
+  options.paths = paths;
+  Random random(number);
+  for (std::uint32_t i = 0; i < pixels; ++i)
+    options.pixels.push_back(static_cast<std::uint32_t>(random.uniform(0.0, 0.999) *
+                                                        static_cast<double>(room.sensor.pixel_count())));
+  const reference::Frame expected =
+      reference::simulate(room.scene, room.sensor, {room.light}, Backscatter::lambert, options);
+  RoomErrors errors;
+  std::vector<double> off_m, standard_m;
+  for (std::size_t i = 0; i < options.pixels.size(); ++i) {
+    const double expected_m = expected.returns[0].multipath_m[i];
+    const auto found_m = static_cast<double>(frame.returns[0].multipath_m[options.pixels[i]]);
+    if (std::isnan(expected_m) || std::isnan(found_m))
+      continue;
+    const double error_m = std::abs(std::remainder(found_m - expected_m, room.sensor.ambiguity_m()));
+    const double standard_error_m = expected.returns[0].multipath_error_m[i];
+    const auto claimed_m = static_cast<double>(frame.returns[0].multipath_error_m[options.pixels[i]]);
+    ++errors.pixels;
+    errors.kept += error_m <= 2.0 * standard_error_m + claimed_m ? 1u : 0u;
+    off_m.push_back(error_m);
+    standard_m.push_back(standard_error_m);
+  }
+  std::ranges::sort(off_m);
+  std::ranges::sort(standard_m);
+  fmt::print("room {:>2}: multipath {:.1f} mm, claimed {:.3f} mm, median off by {:.3f} mm, standard error "
+             "{:.3f} mm, {} of {} kept\n",
+             number, 1e3 * expected.returns[0].multipath_m[options.pixels.size() / 2],
+             1e3 * frame.bounces->claimed_m, 1e3 * off_m[off_m.size() / 2],
+             1e3 * standard_m[standard_m.size() / 2], errors.kept, errors.pixels);
+  return errors;
+}
+
+void check_rooms(std::uint32_t rooms, const Bounces &bounces, std::uint32_t pixels, std::uint32_t paths) {
+  RoomErrors all;
+  for (std::uint32_t number = 0; number < rooms; ++number) {
+    const RoomErrors errors = room_errors(number, bounces, pixels, paths);
+    all.pixels += errors.pixels;
+    all.kept += errors.kept;
+  }
+  CHECK(all.pixels > rooms * pixels / 2);
+  CHECK(static_cast<double>(all.kept) >= 0.95 * static_cast<double>(all.pixels));
+}
+
+} // namespace
+
+TEST_CASE("light bounces in random rooms as paths do") { check_rooms(2, {all_bounces, 2e-3}, 40, 1 << 13); }
+
+TEST_CASE("light bounces in twenty random rooms as many paths do", "[long]") {
+  check_rooms(20, {all_bounces, 1e-3}, 60, 1 << 18);
+}
+
+TEST_CASE("light bounces a few times in random rooms as paths do", "[long]") {
+  check_rooms(4, {1, 1e-3}, 60, 1 << 17);
+  check_rooms(4, {3, 1e-3}, 60, 1 << 17);
+}
