@@ -1,6 +1,7 @@
 #include "host/accuracy_options.h"
 
 #include "host/input/file/input_error.h"
+#include "host/input/file/length.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -10,25 +11,9 @@
 namespace pmdsim {
 namespace {
 
-constexpr double min_error_m = 1e-9, max_error_m = 1e6;
-
 const std::map<std::string, Mode> mode_names{
     {"exact", Mode::exact}, {"reduced", Mode::reduced}, {"auto", Mode::automatic}};
 const std::map<std::string, Precision> precision_names{{"fp32", Precision::fp32}, {"fp64", Precision::fp64}};
-const std::map<std::string_view, double> units_per_m{{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}};
-
-struct NumberAndRest {
-  double number;
-  std::string_view rest;
-};
-
-std::optional<NumberAndRest> leading_number(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc())
-    return std::nullopt;
-  return NumberAndRest{number, text.substr(static_cast<std::size_t>(end - text.data()))};
-}
 
 [[noreturn]] void refuse(const std::string &message) { throw Error(ExitCode::usage, message); }
 
@@ -37,15 +22,15 @@ double max_error_of(const std::string &text) {
     return *error_m;
   refuse(fmt::format("--max-error: expected a length from {} m to {} m with its unit, m, mm or um, e.g. "
                      "0.1mm, found {}",
-                     min_error_m, max_error_m, in_quotes(text)));
+                     least_written_length_m, largest_written_length_m, in_quotes(text)));
 }
 
 double max_amplitude_error_of(const std::string &text) {
-  const auto parsed = leading_number(text);
-  if (!parsed || !parsed->rest.empty() || !(parsed->number > 0.0 && parsed->number <= 1.0))
+  const auto error = number_of(text);
+  if (!error || !(*error > 0.0 && *error <= 1.0))
     refuse("--max-amplitude-error: expected a number above 0, at most 1, e.g. 1e-3, found " +
            in_quotes(text));
-  return parsed->number;
+  return *error;
 }
 
 void check_exact(const WrittenAccuracy &written, const Accuracy &accuracy, bool on_reference) {
@@ -103,15 +88,10 @@ Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference) {
   return accuracy;
 }
 
-std::optional<double> length_m(std::string_view text) {
-  const auto parsed = leading_number(text);
-  if (!parsed)
-    return std::nullopt;
-  const auto unit = units_per_m.find(parsed->rest);
-  if (unit == units_per_m.end())
-    return std::nullopt;
-  const double length_m = parsed->number / unit->second;
-  return length_m >= min_error_m && length_m <= max_error_m ? std::optional(length_m) : std::nullopt;
+std::optional<double> number_of(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 } // namespace pmdsim

@@ -25,7 +25,7 @@ void add_accuracy(CLI::App &command, WrittenAccuracy &written);
 // exact is to bound an error, and where the reference, which is exact in double, is to be anything else.
 Accuracy accuracy_of(const WrittenAccuracy &written, bool on_reference);
 
-// A length such as "0.1mm": a number and m, mm or um, 1e-9 m to 1e6 m; nothing where the text is none.
-std::optional<double> length_m(std::string_view text);
+// Text that is a number and nothing else.
+std::optional<double> number_of(std::string_view text);
 
 } // namespace pmdsim

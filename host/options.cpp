@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <vector>
@@ -24,7 +25,7 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
-  std::optional<std::string> samples, frames, suite_name;
+  std::optional<std::string> samples, frames, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats;
 };
@@ -64,6 +65,12 @@ void add_writing(CLI::App &command, Written &written) {
       ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
   command.add_option("--frames", written.frames,
                      "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
+}
+
+void add_paths(CLI::App &command, Written &written) {
+  command.add_option("--paths", written.paths,
+                     "paths that the reference follows for each pixel where light bounces, 16 to 1e9; only "
+                     "with --device reference");
 }
 
 void add_importing(CLI::App &command, Written &written) {
@@ -122,6 +129,7 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*render, written);
   add_writing(*render, written);
   add_measuring(*render, written);
+  add_paths(*render, written);
   render->footer(channel_list());
 
   CLI::App *deform =
@@ -129,6 +137,7 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*deform, written);
   add_writing(*deform, written);
   add_measuring(*deform, written);
+  add_paths(*deform, written);
 
   CLI::App *check = app.add_subcommand("check", "validate a setup and print what follows from it");
   add_setup(*check, written);
@@ -201,6 +210,18 @@ SampleChoice sample_choice_of(const std::string &text) {
   return {.samples = *samples};
 }
 
+// A whole number, which may be written as 1e6.
+std::uint32_t paths_of(const std::string &text, bool on_reference) {
+  constexpr double fewest = 16.0, most = 1e9;
+  if (!on_reference)
+    throw Error(ExitCode::usage, "--paths: only the reference follows paths, expected --device reference "
+                                 "beside it");
+  const std::optional<double> paths = number_of(text);
+  if (!paths || !(*paths >= fewest && *paths <= most) || *paths != std::floor(*paths))
+    throw Error(ExitCode::usage, "--paths: expected a whole number from 16 to 1e9, found " + in_quotes(text));
+  return static_cast<std::uint32_t>(*paths);
+}
+
 // Checks the commands that compare a device with the reference.
 void check_comparing(const Written &written) {
   const Options &options = written.options;
@@ -228,6 +249,8 @@ Options checked(Written written, const std::string &command) {
     options.suite = written.suite;
   if (written.samples)
     capture.samples = sample_choice_of(*written.samples);
+  if (written.paths)
+    capture.paths = paths_of(*written.paths, names_the_reference(capture.device));
   if (written.frames)
     capture.frames = frame_range_of(*written.frames);
   if (capture.output_directory.empty())

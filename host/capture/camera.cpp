@@ -37,13 +37,15 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
 }
 
 void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-                     Backscatter backscatter, Shadows shadows, const Accuracy &accuracy) {
+                     Backscatter backscatter, Shadows shadows, const Accuracy &accuracy,
+                     const Bounces &bounces) {
   throw_if_interrupted();
   if (simulator_)
-    return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy);
+    return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy, bounces);
+  const reference::Options options{.shadows = shadows, .bounces = bounces, .paths = extras_.paths};
   reference_frame_ = [=, &scene, keep_taps = extras_.taps](const Progress &progress) {
     Measurement measurement = reference::to_measurement(
-        reference::simulate(scene, sensor, illuminators, backscatter, {.shadows = shadows}, progress));
+        reference::simulate(scene, sensor, illuminators, backscatter, options, progress));
     measurement.accuracy.precision = Precision::fp64;
     measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
     if (!keep_taps)
@@ -54,7 +56,8 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
 }
 
 void Camera::prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy) {
-  prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter, setup.shadows, accuracy);
+  prepare(setup.start.scene, sensor, setup.start.illuminators, setup.backscatter, setup.shadows, accuracy,
+          setup.bounces);
 }
 
 std::vector<std::pair<std::string, std::string>> Camera::path() const {

@@ -4,6 +4,7 @@
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@ struct Extras {
   bool reached = false;          // Measurement::sample_visibility, not from the reference
   bool taps = false;             // Return::taps
   bool diodes_in_a_loop = false; // nothing is summed beforehand, and the sum is a pass of its own
+  // Where light bounces, the paths that the reference follows for each pixel; 0: as many as it chooses.
+  std::uint32_t paths = 0;
 };
 
 // Whether a device's name, in any case, is the one of the reference.
@@ -35,7 +38,8 @@ public:
   // Measurements from here on are of this. `scene` must outlive them. The reference is always as exact as it
   // can be.
   void prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,
-               Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {});
+               Backscatter backscatter, Shadows shadows, const Accuracy &accuracy = {},
+               const Bounces &bounces = {});
   // The setup, which must outlive it, at its start.
   void prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy = {});
   // As Simulator::path(); nothing of the reference.

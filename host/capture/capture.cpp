@@ -24,6 +24,9 @@ FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
 
 Setup requested_setup(const CaptureRequest &request) {
   Setup setup = load_setup(request.setup);
+  if (request.paths > 0 && !setup.bounces.any())
+    throw Error(ExitCode::usage, fmt::format("--paths: no light bounces in {}, expected \"bounces\" above 0",
+                                             setup.file.string()));
   for (const std::string &warning : setup.warnings)
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);
   if (request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
@@ -38,10 +41,19 @@ Setup requested_setup(const CaptureRequest &request) {
   return setup;
 }
 
+Setup requested_setup_without_bounces(const CaptureRequest &request) {
+  Setup setup = requested_setup(request);
+  if (setup.bounces.any())
+    fmt::print(stderr,
+               "pmdsim: warning: light that bounces is left out, as sums over the diodes are compared\n");
+  setup.bounces = {};
+  return setup;
+}
+
 Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
     : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       max_error_m_(request.accuracy.max_error_m),
-      exposures_(setup_, request.device, keep_taps, request.accuracy),
+      exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths),
       sequence_(setup_, frames_, request.output_directory,
                 {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
                  setup_.as_used}) {}
@@ -68,7 +80,14 @@ void Capture::write(const FrameSequence::Measure &measure, std::size_t part_byte
 
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
   const auto &[sensor, measurement, mode] = taken;
-  return {sensor, at.frame, at.time_s, measurement.frame_ms, measurement.passes, mode, measurement.accuracy};
+  return {sensor,
+          at.frame,
+          at.time_s,
+          measurement.frame_ms,
+          measurement.passes,
+          mode,
+          measurement.accuracy,
+          measurement.bounces};
 }
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
@@ -82,7 +101,7 @@ std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size
   std::size_t most = 0;
   for (const Sensor &sensor : setup.start.sensors) {
     const std::size_t values = maps * sensor.modulation_hz.size() * sensor.pixel_count();
-    most = std::max(most, bytes_of_frame(sensor, keep_taps) + values * sizeof(float));
+    most = std::max(most, bytes_of_frame(sensor, keep_taps, setup.bounces) + values * sizeof(float));
   }
   return most;
 }

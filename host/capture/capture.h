@@ -20,15 +20,18 @@ struct CaptureRequest {
   std::filesystem::path setup;
   std::optional<SampleChoice> samples; // instead of the setup's
   std::string device;                  // as Camera's
+  std::uint32_t paths = 0;             // of the reference, as Extras
   Accuracy accuracy;
   std::optional<FrameRange> frames; // instead of all of the setup's
   std::filesystem::path output_directory;
   std::set<Format> formats;
 };
 
-// The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error
-// (input).
+// The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error: input,
+// usage (paths are asked for where no light bounces).
 Setup requested_setup(const CaptureRequest &request);
+// The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
+Setup requested_setup_without_bounces(const CaptureRequest &request);
 
 // The frames of a setup that one command leaves in a directory, with a bar of its progress.
 class Capture {

@@ -2,6 +2,7 @@
 
 #include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
+#include "host/capture/multipath_of_taps.h"
 
 #include <algorithm>
 #include <numeric>
@@ -65,21 +66,24 @@ double samples_of_frame(const Setup &setup) {
   return std::accumulate(setup.start.sensors.begin(), setup.start.sensors.end(), 0.0, add);
 }
 
-std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps) {
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces) {
   const std::size_t frequencies = sensor.modulation_hz.size(), taps = keep_taps ? sensor.taps : 0;
   std::size_t channels = 0;
   for (const ChannelRow &row : channel_rows)
-    channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
+    if (row.slot.area != DeviceSlot::Area::none || bounces.any())
+      channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
   return channels * sizeof(float) * sensor.pixel_count();
 }
 
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
+  BouncesOfTaps bounces(sensor);
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
     std::vector<std::vector<float>> taps;
     for (std::size_t k = 0; k < sensor.taps; ++k) {
       Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
+      bounces.add(exposure, i, k);
       taps.push_back(std::move(exposure.returns.front().taps[k]));
       if (frame) {
         frame->frame_ms += exposure.frame_ms;
@@ -89,16 +93,20 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
       }
     }
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
+    bounces.finish(returns.back(), i);
   }
+  frame->bounces = bounces.report();
   frame->returns = std::move(returns);
   // Those of the exposures; what they come to together has no bound.
   frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
   return std::move(*frame);
 }
 
-Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy)
+Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
+                     std::uint32_t paths)
     : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
-      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup)}), instants_(setup) {}
+      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup), .paths = paths}),
+      instants_(setup) {}
 
 const Instant &Exposures::instant_at(double time_s) {
   if (!instants_.holds(time_s))
@@ -116,12 +124,12 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   Sensor sensor = instant.sensors[view.sensor];
   if (view.frequency)
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
-  if (view.light == Light::in_lens) // it reaches whatever the lens sees
-    camera_.prepare(instant.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
-                    setup_.backscatter, Shadows::off, accuracy);
-  else
-    camera_.prepare(instant.scene, sensor, instant.illuminators, setup_.backscatter, setup_.shadows,
-                    accuracy);
+  const bool is_in_lens = view.light == Light::in_lens;
+  const std::vector in_lens{monostatic_illuminator(sensor.world_from_camera)};
+  // Light in the lens reaches whatever the lens sees; what bounces comes from elsewhere, too.
+  const Shadows shadows = is_in_lens && !setup_.bounces.any() ? Shadows::off : setup_.shadows;
+  camera_.prepare(instant.scene, sensor, is_in_lens ? in_lens : instant.illuminators, setup_.backscatter,
+                  shadows, accuracy, setup_.bounces);
   prepared_ = view;
 }
 

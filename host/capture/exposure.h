@@ -45,7 +45,7 @@ private:
 };
 
 // The setup's illuminators with its shadows, or light in the sensor's lens (eq. 2 and 3), which casts no
-// shadows that the lens sees.
+// shadows that the lens sees. Where light bounces, it does with either.
 enum class Light { beside_lens, in_lens };
 
 // Whether every tap of the sensor's frames is an exposure of its own.
@@ -57,8 +57,9 @@ bool exposes_any_tap_by_tap(const Setup &setup);
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);
 
-// Bytes of all channels of one frame, with or without its taps; shadows included, whether or not there are.
-std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps);
+// Bytes of all channels of one frame, with or without its taps and what light that bounces adds; shadows
+// included, whether or not there are.
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces);
 
 // Times of the same pass add up; a pass that is new comes last.
 void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes);
@@ -67,7 +68,8 @@ void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes)
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
 
 // The frame that begins at `frame_s`: tap k of frequency i is that of the exposure at tap_time_s(), and
-// phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up.
+// phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up. Of
+// light that bounces see multipath_of_taps.h.
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose);
 
 // One sensor's frame.
@@ -83,7 +85,9 @@ public:
   // Throws Error (no_device). Without `keep_taps` frames have no taps, however they are taken. Frames whose
   // taps are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each
   // exposure's error is no bound of the phase and distance that follow from a tap of each.
-  Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {});
+  // `paths` as Extras.
+  Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {},
+            std::uint32_t paths = 0);
 
   const Camera &camera() const { return camera_; }
   // As Simulator::reuse().

@@ -75,7 +75,7 @@ BenchReport bench_suite(const Options &options, const BenchRequest &request) {
 
 BenchReport bench_of_setup(const Options &options, const BenchRequest &request) {
   const bool swept = options.capture.setup.empty();
-  const Setup setup = swept ? paper_ring() : requested_setup(options.capture);
+  const Setup setup = swept ? paper_ring() : requested_setup_without_bounces(options.capture);
   BenchReport report{.command = swept ? "pmdsim bench" : "pmdsim bench " + options.capture.setup.string(),
                      .request = request,
                      .machine = this_machine(Camera(request.device)),

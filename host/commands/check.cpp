@@ -54,6 +54,11 @@ ordered_json illuminator_json(const std::pair<std::string, LightFindings> &illum
   return json;
 }
 
+// What is asked for. What it takes, elements and time, belongs beside it, once the engine tells beforehand.
+ordered_json asked_bounces_json(const Setup &setup) {
+  return {{"bounces", setup.as_used.at("bounces")}, {"bounce_error_m", setup.bounces.max_error_m}};
+}
+
 // The keys of the first sensor (and its first frequency) stand at the top too.
 ordered_json report_json(const Setup &setup, const Findings &findings) {
   std::vector<std::string> warnings = setup.warnings;
@@ -64,6 +69,7 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   report.update(light_json(findings.light));
   report["shadows"] = setup.shadows == Shadows::automatic ? "auto" : "off";
   report["shadow_casters"] = findings.shadow_casters;
+  report.update(asked_bounces_json(setup));
   report["frames"] = frames_json(setup.frames);
   report["moves"] = setup.motion != nullptr;
   report["ambiguity_m"] = sensors[0]["ambiguity_m"][0];
@@ -152,6 +158,14 @@ std::string shadows_text(Shadows shadows, std::size_t casters) {
                       : fmt::format("on, {} shapes that may cast them", casters);
 }
 
+std::string asked_bounces_text(const Setup &setup) {
+  if (!setup.bounces.any())
+    return "0, light comes by one surface alone";
+  const std::string count =
+      setup.bounces.count == all_bounces ? "all" : fmt::format("{}", setup.bounces.count);
+  return fmt::format("{}, multipath within {:.6g} mm is asked for", count, 1e3 * setup.bounces.max_error_m);
+}
+
 std::string report_text(const Setup &setup, const Findings &findings) {
   const Scene &scene = setup.start.scene;
   std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
@@ -160,7 +174,7 @@ std::string report_text(const Setup &setup, const Findings &findings) {
     text += line("points", fmt::format("{}", scene.discs.size()));
   text += illuminators_text(findings) +
           line("shadows", shadows_text(setup.shadows, findings.shadow_casters)) +
-          line("frames", frames_text(setup.frames)) +
+          line("bounces", asked_bounces_text(setup)) + line("frames", frames_text(setup.frames)) +
           line("motion", setup.motion ? "the scene moves; what is visible is told of the first frame"
                                       : "nothing moves");
   for (const SensorFindings &sensor : findings.sensors)

@@ -147,6 +147,8 @@ ordered_json frame_json(const DeformedFrame &frame) {
                     {"modulation_hz", record.sensor.modulation_hz},
                     {"deformation_mm", array_of(frame.statistics, statistics_json)}};
   json.update(accuracy_json(record));
+  if (record.bounces) // of the bistatic frame
+    json["bounces"] = bounces_json(*record.bounces);
   return json;
 }
 

@@ -38,8 +38,12 @@ std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
                                : std::string();
     text += spread_line("distance" + at, measurement.returns[i].distance_m, "m");
     text += spread_line("amplitude" + at, measurement.returns[i].amplitude, "W/(m² sr)");
+    if (!measurement.returns[i].multipath_m.empty())
+      text += spread_line("multipath" + at, measurement.returns[i].multipath_m, "m");
   }
   text += fmt::format("{:.2f} % of the samples hit the scene\n", 100.0 * mean_coverage(measurement.coverage));
+  if (measurement.bounces)
+    text += bounces_text(*measurement.bounces) + "\n";
   return text + accuracy_text(mode, measurement.accuracy) + "\n";
 }
 
@@ -53,6 +57,8 @@ ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence)
                     {"frame_ms", frame.frame_ms},
                     {"passes_ms", passes_json(frame.passes)}};
   json.update(accuracy_json(frame));
+  if (frame.bounces)
+    json["bounces"] = bounces_json(*frame.bounces);
   json["outputs"] = paths;
   return json;
 }

@@ -192,7 +192,7 @@ std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff)
 } // namespace
 
 void run_tradeoff(const Options &options) {
-  const Setup setup = requested_setup(options.capture);
+  const Setup setup = requested_setup_without_bounces(options.capture);
   OutputSet files(options.capture.output_directory); // first, so that nothing is measured in vain
   Sensor sensor = setup.start.sensors.front();
   sensor.modulation_hz.resize(1);

@@ -80,6 +80,14 @@ std::string unpromised_text(const AccuracyReport &report, double max_error_m) {
                      report.unpromised, report.unpromised == 1 ? "" : "s", 1e3 * max_error_m);
 }
 
+std::string bounces_text(const BouncesReport &report) {
+  const std::string source = fmt::format("from {} elements and {} rays", report.elements, report.rays);
+  return std::isnan(report.claimed_m)
+             ? "multipath " + source
+             : fmt::format("multipath error at most {:.3g} mm in 95 % of the pixels, estimated, {}",
+                           1e3 * report.claimed_m, source);
+}
+
 std::string accuracy_text(Mode mode, const AccuracyReport &report) {
   std::string text;
   if (mode != Mode::exact || report.precision == Precision::fp64)

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <tiny_gltf.h>
 #include <utility>
 
@@ -119,6 +120,19 @@ GltfFile::GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::M
       skins_(read_skins(*model_, nodes_, Place{file_})) {}
 
 bool GltfFile::moves() const { return animation_.moves(); }
+
+std::vector<std::string> GltfFile::materials_beyond_lambert() const {
+  std::set<int> used;
+  for (const SceneNode &node : nodes_)
+    if (const int mesh = model_->nodes[node.index].mesh; mesh >= 0)
+      for (const tinygltf::Primitive &primitive : model_->meshes[static_cast<std::size_t>(mesh)].primitives)
+        used.insert(primitive.material);
+  std::vector<std::string> found;
+  for (const int material : used)
+    if (const std::string words = materials_->beyond_lambert(material); !words.empty())
+      found.push_back(words);
+  return found;
+}
 
 GltfScene GltfFile::at(double time_s) const {
   const Place root{file_};

@@ -40,8 +40,12 @@ public:
   GltfFile(std::filesystem::path file, std::shared_ptr<const tinygltf::Model> model,
            std::shared_ptr<GltfMaterials> materials);
 
+  const std::filesystem::path &file() const { return file_; }
   // Whether any node of the active scene is animated.
   bool moves() const;
+  // Materials of the active scene that are metallic, glossy or transmitting, in words, each once: "\"brass\"
+  // (metallic)".
+  std::vector<std::string> materials_beyond_lambert() const;
   // At any finite time, before 0 too. Throws Error (input).
   GltfScene at(double time_s) const;
 

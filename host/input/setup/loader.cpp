@@ -6,7 +6,9 @@
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/parts.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <set>
 
 namespace pmdsim {
@@ -93,6 +95,7 @@ Setup load_setup(const std::filesystem::path &file) {
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
   setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
+  setup.bounces = bounces_of(setup.as_used, root);
   setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames");
 
   const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
@@ -110,6 +113,8 @@ Setup load_setup(const std::filesystem::path &file) {
   if (scene.scene.shape_count() == 0)
     setup.warnings.push_back(fmt::format(
         "{}: the scene has neither triangles nor points, nothing will be seen", scene_file.string()));
+  if (setup.bounces.any())
+    std::ranges::copy(bounce_warnings(scene.scene, gltf), std::back_inserter(setup.warnings));
   setup.start.scene = std::move(scene.scene);
   if (gltf.moves())
     setup.motion = std::make_shared<const Motion>(std::move(gltf), setup.as_used, root);

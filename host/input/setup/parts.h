@@ -2,6 +2,7 @@
 // The parts of a setup: sensors and illuminators, where they are, and how they move. JSON that functions take
 // has passed the schema and has its defaults filled in; `place` is where in the setup it stands.
 
+#include "engine/model/bounces.h"
 #include "engine/model/illuminator.h"
 #include "engine/model/sensor.h"
 #include "host/input/file/input_error.h"
@@ -41,6 +42,14 @@ std::optional<LensProblem> lens_problem(const Sensor &sensor);
 std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,
                                          const GltfScene &scene, const std::vector<Sensor> &sensors,
                                          std::vector<std::string> &warnings);
+
+// The setup's /bounces and /bounce_error. Throws Error (input): also where light that bounces meets another
+// /backscatter than lambert.
+Bounces bounces_of(const nlohmann::ordered_json &setup, const Place &root);
+
+// What the scene has that light that bounces does not heed, one line each: points, and surfaces that do not
+// scatter evenly.
+std::vector<std::string> bounce_warnings(const Scene &scene, const GltfFile &gltf);
 
 // How a setup's scene moves, and the sensors and illuminators with its nodes.
 class Motion {

@@ -1,6 +1,7 @@
 #pragma once
 // A setup file (docs/setup.md), loaded and checked once.
 
+#include "engine/model/bounces.h"
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
@@ -58,6 +59,7 @@ struct Setup {
   std::filesystem::path file;
   Backscatter backscatter = Backscatter::lambert;
   Shadows shadows = Shadows::automatic;
+  Bounces bounces;
   FrameTimes frames;
   Instant start;                        // at the first frame's time
   nlohmann::ordered_json as_used;       // the setup with every default filled in, as the manifest shows it

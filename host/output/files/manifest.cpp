@@ -33,6 +33,8 @@ ordered_json frame_json(const FrameRecord &record) {
                      {"frame_ms", record.frame_ms},
                      {"passes_ms", passes_json(record.passes)}};
   frame.update(accuracy_json(record));
+  if (record.bounces)
+    frame["bounces"] = bounces_json(*record.bounces);
   frame["outputs"] = record.outputs;
   return frame;
 }
@@ -98,6 +100,13 @@ ordered_json accuracy_json(const FrameRecord &record) {
   ordered_json json{{"mode", mode_name(record.mode)}};
   json.update(accuracy_json(record.accuracy));
   return json;
+}
+
+ordered_json bounces_json(const BouncesReport &report) {
+  return {{"elements", report.elements},
+          {"rays", report.rays},
+          {"products", report.products},
+          {"claimed_m", report.claimed_m}};
 }
 
 ordered_json passes_json(const std::vector<PassTime> &passes) {

@@ -31,7 +31,8 @@ struct FrameRecord {
   std::vector<PassTime> passes;
   Mode mode = Mode::exact; // that it was taken in
   AccuracyReport accuracy;
-  std::vector<std::string> outputs{}; // file names without directory
+  std::optional<BouncesReport> bounces{}; // nothing without
+  std::vector<std::string> outputs{};     // file names without directory
 };
 
 struct RunRecord {
@@ -84,6 +85,9 @@ std::vector<double> ambiguities_m(const Sensor &sensor);
 nlohmann::ordered_json accuracy_json(const AccuracyReport &report);
 // A frame's mode, then the keys of its report.
 nlohmann::ordered_json accuracy_json(const FrameRecord &record);
+
+// elements, rays, products, claimed_m (null where nothing is claimed).
+nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);

@@ -159,6 +159,18 @@ TEST_CASE("the setup's light casts its shadows, light in the lens none") {
   CHECK(lit(Light::beside_lens).empty());
 }
 
+TEST_CASE("where light bounces, that in the lens casts shadows as the setup has them") {
+  LoadedWall wall(0.0, false);
+  wall.setup.backscatter = Backscatter::lambert;
+  wall.setup.bounces.count = 1;
+  const auto lit = [&] {
+    return Exposures(wall.setup, "", false).take(0, 0.0, Light::in_lens, no_progress).measurement.lit;
+  };
+  CHECK(lit() == std::vector(64, 1.0f));
+  wall.setup.shadows = Shadows::off;
+  CHECK(lit().empty());
+}
+
 TEST_CASE("where nothing moves, one exposure serves all taps") {
   const LoadedWall still(1e-3, false);
   CHECK_FALSE(exposes_tap_by_tap(still.setup, still.setup.start.sensors[0]));

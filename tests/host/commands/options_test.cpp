@@ -1,7 +1,6 @@
 // The command line, parsed.
 
 #include "engine/model/error.h"
-#include "host/accuracy_options.h"
 #include "host/options.h"
 
 #include <catch2/catch.hpp>
@@ -35,21 +34,6 @@ std::string refusal(const std::vector<const char *> &more) {
 }
 
 } // namespace
-
-TEST_CASE("lengths have a unit") {
-  CHECK(length_m("0.1mm") == 1e-4);
-  CHECK(length_m("5um") == 5e-6);
-  CHECK(length_m("10um") == default_max_error_m);
-  CHECK(length_m("2m") == 2.0);
-  CHECK(length_m("1e-3mm") == 1e-6);
-  CHECK(length_m("1e-9m") == 1e-9);
-  CHECK(length_m("1e6m") == 1e6);
-  for (const char *text : {"", "5", "um", "5 um", "5cm", "5umm", "5MM", "-5um", "0um", "0.0009um", "1.1e6m",
-                           "1e999m", "nanm", "infmm", "0x5um", "5um "}) {
-    INFO(text);
-    CHECK_FALSE(length_m(text));
-  }
-}
 
 TEST_CASE("without a word about accuracy the mode is exact") {
   const Options options = rendered({});
@@ -107,6 +91,19 @@ TEST_CASE("the reference is exact, in double") {
             .starts_with("--device reference: expected precision fp64"));
   CHECK_THROWS_WITH(parsed({"tradeoff", "a.json", "--device", "reference"}),
                     Catch::StartsWith("--device reference: tradeoff "));
+}
+
+TEST_CASE("only the reference follows paths") {
+  CHECK(rendered({}).capture.paths == 0);
+  CHECK(rendered({"--device", "reference", "--paths", "16"}).capture.paths == 16);
+  CHECK(rendered({"--device", "Reference", "--paths", "1e9"}).capture.paths == 1'000'000'000);
+  CHECK(parsed({"deform", "a.json", "--device", "reference", "--paths", "100"}).capture.paths == 100);
+  for (const char *text : {"15", "1.1e9", "20.5", "many", "", "nan", "-20"})
+    CHECK(refusal({"--device", "reference", "--paths", text}) ==
+          std::string("--paths: expected a whole number from 16 to 1e9, found \"") + text + "\"");
+  CHECK(refusal({"--paths", "100"}).starts_with("--paths: only the reference follows paths"));
+  CHECK(refusal({"--device", "0", "--paths", "100"}).starts_with("--paths: only the reference"));
+  CHECK_THROWS_AS(parsed({"bench", "a.json", "--device", "reference", "--paths", "100"}), Error);
 }
 
 TEST_CASE("tradeoff takes a setup, samples, a device and a place for its files") {

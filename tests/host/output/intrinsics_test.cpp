@@ -189,8 +189,8 @@ TEST_CASE("a manifest lists frames and outputs, and knows no error of the exact 
       "some driver",
       {},
       {{"scene", "wall.gltf"}},
-      {{small_sensor(), 7, 0.35, 1.5, {{"accumulate", 1.25}}, Mode::exact, {}, {"pmd_0007.exr"}},
-       {small_sensor(), 8, 0.40, 1.5, {}, Mode::exact, {}, {"pmd_0008.exr"}}}};
+      {{small_sensor(), 7, 0.35, 1.5, {{"accumulate", 1.25}}, Mode::exact, {}, {}, {"pmd_0007.exr"}},
+       {small_sensor(), 8, 0.40, 1.5, {}, Mode::exact, {}, {}, {"pmd_0008.exr"}}}};
   const auto manifest = manifest_of(run);
   CHECK(manifest["setup"]["scene"] == "wall.gltf");
   CHECK(manifest["device"] == "some device");

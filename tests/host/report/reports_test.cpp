@@ -1,10 +1,14 @@
 // The reports of check and bench on a setup, in text and in JSON.
 
+#include "host/output/files/manifest.h"
+#include "host/report/report.h"
 #include "tests/program/program.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+using namespace pmdsim;
 using namespace pmdsim::test;
 using nlohmann::json;
 
@@ -76,6 +80,53 @@ TEST_CASE("check tells of shadows") {
   const json without = json::parse(run_pmdsim({"check", off, "--json"}).output);
   CHECK(without["shadows"] == "off");
   CHECK(without["shadow_casters"] == 0);
+}
+
+TEST_CASE("check tells of bounces and of the error that is asked for") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  json setup = json::parse(small_setup());
+  const auto text_of = [&] { return run_pmdsim({"check", work.write("setup.json", setup.dump())}).output; };
+  const auto json_of = [&] {
+    return json::parse(run_pmdsim({"check", work.write("setup.json", setup.dump()), "--json"}).output);
+  };
+  CHECK(text_of().find("\nbounces                  0, light comes by one surface alone\n") !=
+        std::string::npos);
+  CHECK(json_of()["bounces"] == 0);
+  CHECK(json_of()["bounce_error_m"] == 1e-3);
+  setup["backscatter"] = "lambert";
+  setup["bounces"] = 3;
+  CHECK(text_of().find("\nbounces                  3, multipath within 1 mm is asked for\n") !=
+        std::string::npos);
+  setup["bounces"] = "all";
+  setup["bounce_error"] = "0.5mm";
+  CHECK(text_of().find("\nbounces                  all, multipath within 0.5 mm is asked for\n") !=
+        std::string::npos);
+  CHECK(json_of()["bounces"] == "all");
+  CHECK(json_of()["bounce_error_m"] == 5e-4);
+}
+
+TEST_CASE("a setup whose light does not bounce takes no paths") {
+  const Workspace work;
+  work.write("wall.gltf", wall_gltf());
+  const std::string setup = work.write("setup.json", small_setup());
+  for (const char *command : {"render", "deform"}) {
+    const Run run = run_pmdsim({command, setup, "--device", "reference", "--paths", "100"});
+    CHECK(run.exit_code == 2);
+    CHECK(run.errors.find("--paths: no light bounces in ") != std::string::npos);
+  }
+}
+
+TEST_CASE("what bounces took is told with its error") {
+  BouncesReport report{2504, 100'000, 12, 8.2e-4};
+  CHECK(bounces_text(report) == "multipath error at most 0.82 mm in 95 % of the pixels, estimated, from 2504 "
+                                "elements and 100000 rays");
+  CHECK(bounces_json(report) ==
+        nlohmann::ordered_json::parse(R"({"elements": 2504, "rays": 100000, "products": 12,
+                                                "claimed_m": 8.2e-4})"));
+  report.claimed_m = std::nan("");
+  CHECK(bounces_text(report) == "multipath from 2504 elements and 100000 rays");
+  CHECK(json::parse(json_text(bounces_json(report)))["claimed_m"].is_null());
 }
 
 TEST_CASE("bench reports frames per second") {

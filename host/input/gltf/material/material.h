@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace pmdsim {
 
@@ -30,6 +31,10 @@ public:
   // luminance (ITU-R BT.709) of the linear base colour. alphaMode MASK masks; BLEND is taken as OPAQUE where
   // neither the factor nor the texture has an alpha below 1, else refused. Throws Error (input).
   GltfMaterial material_of(int material, bool has_colours);
+
+  // What /materials/`material` shows that a Lambert surface has not, with its name: "\"brass\" (metallic)",
+  // "number 3 (glossy)"; empty where there is nothing, and for -1.
+  std::string beyond_lambert(int material) const;
 
 private:
   double add_texture(const nlohmann::json &info, Paint &paint, GltfMaterial &result);

@@ -206,6 +206,8 @@ TEST_CASE("The setup as used states every default") {
     "scene": "scene.gltf",
     "backscatter": "lambert",
     "shadows": "auto",
+    "bounces": 0,
+    "bounce_error": "1mm",
     "sensors": [{
       "name": "pmd",
       "resolution": [64, 48],

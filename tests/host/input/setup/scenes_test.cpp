@@ -28,6 +28,7 @@ TEST_CASE("Every setup that ships loads without a warning") {
       {"bars.json", {1010, 240}},
       {"closed_box.json", {332, 240}},
       {"penumbra.json", {4, 240}},
+      {"corner.json", {6, 48}},
       {"sensor.json", {9950, 1}},
       {"signal.json", {9950, 1}},
       {"light.json", {9950, 17}},
