@@ -323,6 +323,32 @@ def penumbra():
     scene.write_gltf("penumbra.gltf")
 
 
+def corner():
+    """Two walls that meet at a right angle 2.5 m before the camera, and the floor between them."""
+    scene = Gltf()
+    walls = scene.material("wall paint", 0.8)
+    turn = math.radians(45) / 2
+    for name, left, right, side in (("left wall", -1.6, 0, 1), ("right wall", 0, 1.6, -1)):
+        scene.node(
+            {
+                "name": name,
+                "mesh": scene.mesh(*rectangle(left, right, -0.7, 0.9), walls),
+                "translation": [0, 0, -2.5],
+                "rotation": [0, side * math.sin(turn), 0, math.cos(turn)],
+            }
+        )
+    lying = math.radians(-90) / 2
+    scene.node(
+        {
+            "name": "floor",
+            "mesh": scene.mesh(*rectangle(-1.2, 1.2, 1.3, 2.5), scene.material("floor", 0.5)),
+            "translation": [0, -0.7, 0],
+            "rotation": [math.sin(lying), 0, 0, math.cos(lying)],
+        }
+    )
+    scene.write_gltf("corner.gltf")
+
+
 # The cameras of the analytic scenes: square pixels of 10 micrometres behind a lens of 1 m, one row of them. A pixel is
 # so narrow that every sample of it is equally far, to a few nanometres.
 PIXEL_PER_METRE = 10e-6
@@ -387,6 +413,7 @@ def main():
     bars()
     closed_box()
     penumbra()
+    corner()
     moving()
     cosine_diagram("led_cos3", 3)
     staircase("analytic/wrap_10mhz.gltf", [15.0, 20.0, 49.0])
