@@ -129,8 +129,8 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
   const auto &tones = state.tones.tones;
   const std::vector<std::vector<Phasor>> direct = direct_light(measurement, tones);
   double claimed = std::numeric_limits<double>::infinity();
+  Stopwatch stopwatch;
   for (int step = state.solution(0).step; step < finenesses; ++step) {
-    Stopwatch stopwatch;
     const Radiosity &radiosity = state.solution(step).radiosity;
     stopwatch.add_to(measurement, "bounces");
     const SeenPlaces seen(state.scene, state.sensor, measurement, radiosity.elements.origin_m);

@@ -1,5 +1,6 @@
 #include "engine/radiosity/bounce_tones.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace pmdsim {
@@ -47,9 +48,10 @@ BounceTones bounce_tones(const Sensor &sensor) {
       made.tones.push_back(
           {harmonic.number * sensor.modulation_hz[i], harmonic.number, i, harmonic.relative});
   if (sensor.waveform.kind == Waveform::Kind::square) {
-    made.rest = 1.0; // the triangle wave at phase 0
+    double left_out = 2.0 / 3.0; // the sum of a_h^2 over all odd h
     for (const Harmonic &harmonic : harmonics)
-      made.rest -= harmonic.relative;
+      left_out -= harmonic.relative * harmonic.relative;
+    made.rest = 2.0 * std::sqrt(left_out);
   }
   return made;
 }

@@ -20,8 +20,8 @@ struct BounceTone {
 
 struct BounceTones {
   std::vector<BounceTone> tones;
-  // The sum of the a_h that are left out, of each frequency: a bound of what they add, as a part of what
-  // bounced light would be if it had no phase.
+  // Twice the root of the sum of a_h^2 over the harmonics h that are left out, of each frequency: what they
+  // add, as a part of what the last one that is not brings before it is weighted, taken to have any phase.
   double rest = 0.0;
 
   bool operator==(const BounceTones &) const = default;
