@@ -43,6 +43,14 @@ float rounded_below(double value, double end) {
 
 } // namespace
 
+void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, double ambiguity_m) {
+  const double angle_rad = std::arg(z);
+  const double phase_rad = angle_rad < 0.0 ? angle_rad + full_turn_rad : angle_rad;
+  to.amplitude[pixel] = static_cast<float>(std::abs(z));
+  to.phase_rad[pixel] = rounded_below(phase_rad, full_turn_rad);
+  to.distance_m[pixel] = rounded_below(ambiguity_m * (phase_rad / full_turn_rad), ambiguity_m);
+}
+
 Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz) {
   const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_hz);
   const std::vector<std::complex<double>> weights = weights_of(taps.size());
@@ -53,13 +61,8 @@ Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_
                 {}};
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     const std::complex<double> z = z_of_pixel(taps, weights, pixel);
-    if (z == 0.0)
-      continue;
-    const double angle_rad = std::arg(z);
-    const double phase_rad = angle_rad < 0.0 ? angle_rad + full_turn_rad : angle_rad;
-    result.amplitude[pixel] = static_cast<float>(std::abs(z));
-    result.phase_rad[pixel] = rounded_below(phase_rad, full_turn_rad);
-    result.distance_m[pixel] = rounded_below(ambiguity_m * (phase_rad / full_turn_rad), ambiguity_m);
+    if (z != 0.0)
+      set_return(result, pixel, z, ambiguity_m);
   }
   result.taps = std::move(taps);
   return result;

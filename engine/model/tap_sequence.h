@@ -4,6 +4,7 @@
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
 
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,9 @@ inline double tap_time_s(const Sensor &sensor, double frame_s, std::size_t frequ
 inline double tap_sequence_s(const Sensor &sensor) {
   return static_cast<double>(sensor.modulation_hz.size() * sensor.taps) * sensor.tap_interval_s;
 }
+
+// Sets a pixel's amplitude, phase and distance to those of z, which is not 0; `ambiguity_m` is c / (2 f).
+void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, double ambiguity_m);
 
 // The camera's demodulation of a frequency's N taps, in double: z = (2/N) sum_k c_k exp(+j 2 pi k / N), and
 // the channels from z. The taps, one of each k and of one length, stay beside them. A |z| below what rounding

@@ -1,5 +1,7 @@
 #include "engine/multipath/bounced_channels.h"
 
+#include "engine/model/tap_sequence.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -16,12 +18,6 @@ constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 // Half of a variance lies across z, where it shows in the distance: two standard deviations of that half.
 constexpr double deviations = std::numbers::sqrt2;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-
-// Rounding can lift a value just below the end of its range to the end itself, which is the same as zero.
-float rounded_below(double value, double end) {
-  const auto rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) >= end ? 0.0f : rounded;
-}
 
 // What a harmonic adds to the z that a camera forms of N taps, for the sum Z of its paths' phasors: a_h Z, or
 // its conjugate, as docs/theory.md says ("Tones, harmonics and taps").
@@ -88,13 +84,8 @@ private:
       return;
     }
     const double turns_per_rad = 1.0 / full_turn_rad;
-    if (indirect != 0.0) { // else direct light's keep their bits
-      const double angle_rad = std::arg(z),
-                   phase_rad = angle_rad < 0.0 ? angle_rad + full_turn_rad : angle_rad;
-      to_.amplitude[pixel] = static_cast<float>(size);
-      to_.phase_rad[pixel] = rounded_below(phase_rad, full_turn_rad);
-      to_.distance_m[pixel] = rounded_below(ambiguity_m_ * phase_rad * turns_per_rad, ambiguity_m_);
-    }
+    if (indirect != 0.0) // else direct light's keep their bits
+      set_return(to_, pixel, z, ambiguity_m_);
     to_.indirect_share[pixel] = static_cast<float>(std::abs(indirect) / size);
     const double off_rad = error < size ? std::asin(error / size) : std::numbers::pi;
     to_.multipath_error_m[pixel] = static_cast<float>(ambiguity_m_ * off_rad * turns_per_rad);

@@ -18,7 +18,7 @@ public:
   DirectIrradiance(const std::vector<Illuminator> &illuminators, const glm::dvec3 &origin_m,
                    const FacetTree *tree, double clearance_m);
 
-  // Adds nothing: sets `irradiance`, one value a tone. Any number of threads may call this at once.
+  // Sets `irradiance`, one value a tone. Any number of threads may call this at once.
   void at(const SurfacePlace &place, std::span<const BounceTone> tones, std::span<Phasor> irradiance) const;
 
 private:
