@@ -43,14 +43,13 @@ public:
 
   void add_to(std::size_t pixel) {
     Number indirect = 0.0;
-    double variance = 0.0, missed = 0.0, rest = 0.0;
+    double variance = 0.0, rest = 0.0;
     for_each_tone([&](const BounceTone &tone, const BouncedTone &bounced) {
       const Number z(bounced.z[pixel]);
       const double relative = std::abs(tone.relative);
       if (shown(tone, taps_, 1.0) != 0.0) {
         const double deviation = relative * static_cast<double>(bounced.deviation[pixel]);
         variance += deviation * deviation;
-        missed += relative * static_cast<double>(bounced.missed[pixel]);
       }
       indirect += shown(tone, taps_, z);
       rest = tones_.rest * std::abs(z);
@@ -64,7 +63,7 @@ public:
     const bool is_lit = direct_amplitude > 0.0;
     const Number direct =
         is_lit ? std::polar(direct_amplitude, static_cast<double>(to_.direct_phase_rad[pixel])) : 0.0;
-    set(pixel, direct, indirect, deviations * std::sqrt(variance) + missed + rest);
+    set(pixel, direct, indirect, deviations * std::sqrt(variance) + rest);
   }
 
 private:

@@ -1,7 +1,6 @@
 #include "engine/multipath/bounced_image.h"
 
 #include "engine/multipath/image_cells.h"
-#include "engine/radiosity/hemisphere.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,30 +13,46 @@ namespace pmdsim {
 namespace {
 
 constexpr std::uint32_t largest_cell = 16; // samples along the edge of a first cell
-constexpr std::uint32_t no_node = 0xffffffffu;
-// Parts of what a pixel may be off by: what rays leave out (one standard deviation), and interpolation.
-constexpr float of_rays = 0.5f, of_interpolation = 0.4f;
-// Standard deviations of what rays leave out that interpolation may seem to miss.
+constexpr std::uint32_t not_gathered = 0xffffffffu;
+// Parts of what a pixel may be off by: what lines leave out at a place (one standard deviation), and what
+// corners miss at the middle of a cell, most of which the middle mends.
+constexpr float of_lines = 0.5f, of_interpolation = 1.0f;
+// Of what corners miss at a middle, squared: what is missed over the cell once its middle counts.
+constexpr float left_by_bend = 0.1f;
+// Standard deviations of what lines leave out that corners may seem to miss.
 constexpr float noise_let_through = 2.5f;
 
-// The part of a variance by rays that interpolation may miss unseen.
+// The part of a variance by lines that corners may miss unseen.
 constexpr float hidden_by_noise = 0.25f;
 
 // What is gathered at a sample.
 using Node = std::vector<Gathered>;
+
+// Radiance at the lens for each unit of irradiance.
+double gain_of(const SeenPlace &seen) { return seen.lens_gain * seen.reflectivity / std::numbers::pi; }
+
+// What diodes make arrive at a place that a sample sees: its pixel's light without the way to the lens.
+std::vector<Phasor> direct_at(const std::vector<BounceTone> &tones, const SeenPlaces &seen,
+                              const ImageAim &aim, const glm::uvec2 &sample, const SeenPlace &place) {
+  const auto gain = static_cast<float>(gain_of(place));
+  std::vector<Phasor> direct(tones.size());
+  for (std::size_t t = 0; t < tones.size() && gain > 0.0f; ++t)
+    direct[t] = (1.0f / gain) *
+                (unit_phasor(-tones[t].turns_per_m() * place.range_m) * aim.direct[t][seen.pixel_of(sample)]);
+  return direct;
+}
 
 class ImageGather {
 public:
   ImageGather(const Radiosity &radiosity, const std::vector<BounceTone> &tones, const SeenPlaces &seen,
               const glm::uvec2 &resolution, const ImageAim &aim)
       : gather_(radiosity, tones), tones_(tones), seen_(seen), aim_(aim),
-        node_of_sample_(std::size_t{seen.columns()} * seen.rows(), no_node) {
+        node_of_sample_(std::size_t{seen.columns()} * seen.rows(), not_gathered) {
     image_.tones.resize(tones.size());
     for (BouncedTone &tone : image_.tones) {
       const std::size_t pixels = std::size_t{resolution.x} * resolution.y;
       tone.z.resize(pixels);
       tone.deviation.resize(pixels);
-      tone.missed.resize(pixels);
     }
   }
 
@@ -79,7 +94,7 @@ private:
     std::vector<glm::uvec2> wanted;
     const auto want = [&](const glm::uvec2 &sample) {
       std::uint32_t &node = node_of_sample_[index(sample)];
-      if (node != no_node)
+      if (node != not_gathered)
         return;
       node = static_cast<std::uint32_t>(nodes_.size() + wanted.size());
       wanted.push_back(sample);
@@ -92,15 +107,15 @@ private:
     }
     const std::size_t first = nodes_.size();
     nodes_.resize(first + wanted.size());
-    std::vector<std::size_t> rays(wanted.size());
+    std::vector<std::size_t> lines(wanted.size());
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
       if (const auto seen = seen_.at(wanted[i]))
-        rays[i] =
+        lines[i] =
             gather_.at(seen->place, turn_of(index(wanted[i])), aim_at(wanted[i], *seen), nodes_[first + i]);
       else
         nodes_[first + i].assign(tones_.size(), {});
     });
-    image_.rays += std::accumulate(rays.begin(), rays.end(), std::size_t{0});
+    image_.lines += std::accumulate(lines.begin(), lines.end(), std::size_t{0});
     image_.gathered += wanted.size();
   }
 
@@ -135,57 +150,69 @@ private:
     return along_rows >= along_columns ? halves_by_column(cell) : halves_by_row(cell);
   }
 
-  // Radiance at the lens for each unit of irradiance.
-  static double gain_of(const SeenPlace &seen) {
-    return seen.lens_gain * seen.reflectivity / std::numbers::pi;
+  std::vector<Phasor> direct_at(const glm::uvec2 &sample, const SeenPlace &place) const {
+    return pmdsim::direct_at(tones_, seen_, aim_, sample, place);
   }
 
-  // What diodes make arrive at a place that a sample sees: its pixel's light without the way to the lens.
-  Phasor direct_at(const glm::uvec2 &sample, const SeenPlace &seen, std::size_t tone) const {
-    const auto gain = static_cast<float>(gain_of(seen));
-    const Phasor back = unit_phasor(-tones_[tone].turns_per_m() * seen.range_m);
-    return gain > 0.0f ? (1.0f / gain) * (back * aim_.direct[tone][seen_.pixel_of(sample)]) : Phasor{};
-  }
-
-  GatherAim aim_at(const glm::uvec2 &sample, const SeenPlace &seen) const {
-    GatherAim aim{{}, aim_.part};
-    for (std::size_t t = 0; t < tones_.size(); ++t) {
-      aim.direct.push_back(direct_at(sample, seen, t));
-      aim.part[t] *= of_rays;
-    }
+  GatherAim aim_at(const glm::uvec2 &sample, const SeenPlace &place) const {
+    GatherAim aim{direct_at(sample, place), aim_.part};
+    for (float &part : aim.part)
+      part *= of_lines;
     return aim;
   }
 
   const Node &node(const glm::uvec2 &sample) const { return nodes_[node_of_sample_[index(sample)]]; }
 
-  // Interpolated between the corners of a cell, their largest |missed| beside it.
-  Gathered between(const ImageCell &cell, const glm::uvec2 &sample, std::size_t tone) const {
-    Gathered sum;
+  // Between places at which light was gathered. What elements are off by is alike at all of them.
+  struct Interpolated {
+    Phasor irradiance;
+    float of_lines = 0.0f, of_elements = 0.0f; // variances
+
+    void add(float weight, const Gathered &at) {
+      irradiance += weight * at.irradiance;
+      of_lines += weight * weight * at.of_lines;
+      of_elements = std::max(of_elements, at.of_elements);
+    }
+  };
+
+  // By the corners of a cell alone.
+  Interpolated between(const ImageCell &cell, const glm::uvec2 &sample, std::size_t tone) const {
+    Interpolated sum;
     const auto corners = cell.corners();
     const auto weights = cell.weights(sample);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Gathered &corner = node(corners[i])[tone];
-      sum.irradiance += weights[i] * corner.irradiance;
-      sum.variance += weights[i] * weights[i] * corner.variance;
-      sum.missed.re = std::max(sum.missed.re, pmdsim::abs(corner.missed));
-    }
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      sum.add(weights[i], node(corners[i])[tone]);
     return sum;
   }
 
-  // What interpolation misses at a cell's middle, |irradiance| of each tone; nothing where that is too much.
+  // By the corners and the middle, where there is one.
+  Interpolated bent(const ImageCell &cell, const glm::uvec2 &sample, std::size_t tone) const {
+    if (!cell.is_divisible())
+      return between(cell, sample, tone);
+    Interpolated sum;
+    const auto corners = cell.corners();
+    const auto weights = cell.weights(sample), at_middle = cell.weights(cell.middle());
+    const float bend = cell.bend(sample);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      sum.add(weights[i] - bend * at_middle[i], node(corners[i])[tone]);
+    sum.add(bend, node(cell.middle())[tone]);
+    return sum;
+  }
+
+  // What corners miss at a cell's middle, |irradiance| of each tone; nothing where that is too much.
   std::optional<std::vector<float>> missed_at_middle(const ImageCell &cell) const {
     std::vector<float> missed(tones_.size());
     const auto seen = cell.is_divisible() ? seen_.at(cell.middle()) : std::nullopt;
+    const std::vector<Phasor> direct = seen ? direct_at(cell.middle(), *seen) : std::vector<Phasor>{};
     for (std::size_t t = 0; t < tones_.size() && seen; ++t) {
       const Gathered &found = node(cell.middle())[t];
-      const Gathered expected = between(cell, cell.middle(), t);
-      const float most = of_interpolation * aim_.part[t] *
-                         pmdsim::abs(direct_at(cell.middle(), *seen, t) + found.irradiance);
-      const float variance = expected.variance + found.variance,
+      const Interpolated expected = between(cell, cell.middle(), t);
+      const float most = of_interpolation * aim_.part[t] * pmdsim::abs(direct[t] + found.irradiance);
+      const float variance = expected.of_lines + found.of_lines,
                   off2 = norm(expected.irradiance - found.irradiance);
       if (off2 > std::max(most * most, noise_let_through * noise_let_through * variance))
         return std::nullopt;
-      // Beyond what rays leave out; where they leave out more than is missed, that hides some.
+      // Beyond what lines leave out; where they leave out more than is missed, that hides some.
       missed[t] = std::sqrt(std::max(off2 - variance, hidden_by_noise * variance));
     }
     return missed;
@@ -209,13 +236,13 @@ private:
     const auto gain = static_cast<float>(gain_of(*seen) / seen_.samples_of_pixel());
     const std::size_t pixel = seen_.pixel_of(sample);
     for (std::size_t t = 0; t < tones_.size(); ++t) {
-      const Gathered here = between(settled.cell, sample, t);
+      const Interpolated here = bent(settled.cell, sample, t);
       const Phasor z = gain * (unit_phasor(tones_[t].turns_per_m() * seen->range_m) * here.irradiance);
       BouncedTone &tone = image_.tones[t];
       tone.z[pixel] += std::complex<float>(z.re, z.im);
       const float missed = settled.missed[t];
-      tone.deviation[pixel] += gain * std::sqrt(here.variance + 0.5f * missed * missed);
-      tone.missed[pixel] += gain * here.missed.re;
+      tone.deviation[pixel] +=
+          gain * std::sqrt(here.of_lines + here.of_elements + left_by_bend * missed * missed);
     }
   }
 
@@ -223,13 +250,32 @@ private:
   const std::vector<BounceTone> &tones_;
   const SeenPlaces &seen_;
   const ImageAim &aim_;
-  std::vector<std::uint32_t> node_of_sample_; // or no_node
+  std::vector<std::uint32_t> node_of_sample_; // or not_gathered
   std::vector<Node> nodes_;
   std::vector<Settled> settled_;
   BouncedImage image_;
 };
 
 } // namespace
+
+double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones, const SeenPlaces &seen,
+                 const ImageAim &aim, double quantile) {
+  constexpr std::uint32_t places_per_edge = 20;
+  const glm::uvec2 samples(seen.columns(), seen.rows());
+  const Gather gather(radiosity, tones);
+  std::vector<double> times(places_per_edge * places_per_edge, 0.0);
+  tbb::parallel_for(std::size_t{0}, times.size(), [&](std::size_t i) {
+    const glm::uvec2 place(i % places_per_edge, i / places_per_edge);
+    const glm::uvec2 sample = (2u * place + 1u) * samples / (2u * places_per_edge);
+    if (const auto seen_place = seen.at(sample))
+      times[i] = gather.times_off(seen_place->place, turn_of(i),
+                                  direct_at(tones, seen, aim, sample, *seen_place), aim.part);
+  });
+  const auto at =
+      times.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(times.size() - 1));
+  std::ranges::nth_element(times, at);
+  return *at;
+}
 
 BouncedImage gather_image(const Radiosity &radiosity, const std::vector<BounceTone> &tones,
                           const SeenPlaces &seen, const glm::uvec2 &resolution, const ImageAim &aim,

@@ -14,14 +14,12 @@ namespace pmdsim {
 // One value for each pixel, of a tone.
 struct BouncedTone {
   std::vector<std::complex<float>> z; // mean over the samples of rho / pi times what arrives, W/(m^2 sr)
-  // Of z: the root of the mean square that rays between those cast and interpolation may make it, both parts
-  // of z together; and what elements miss, |z|.
-  std::vector<float> deviation, missed;
+  std::vector<float> deviation;       // of z, |z|: by lines, interpolation and elements
 };
 
 struct BouncedImage {
   std::vector<BouncedTone> tones;
-  std::size_t rays = 0, gathered = 0; // places at which light was gathered
+  std::size_t lines = 0, gathered = 0; // places at which light was gathered
 };
 
 // What the error of z may be, as a part of a pixel's light, tone by tone; and each pixel's direct light,
@@ -30,6 +28,11 @@ struct ImageAim {
   std::vector<float> part;
   std::vector<std::vector<Phasor>> direct;
 };
+
+// How many times its part of a pixel's light elements are off by, at the place that the share `quantile` of
+// some of the frame's places does not exceed, of the tone where that is most.
+double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones, const SeenPlaces &seen,
+                 const ImageAim &aim, double quantile);
 
 BouncedImage gather_image(const Radiosity &radiosity, const std::vector<BounceTone> &tones,
                           const SeenPlaces &seen, const glm::uvec2 &resolution, const ImageAim &aim,

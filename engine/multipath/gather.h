@@ -1,7 +1,8 @@
 #pragma once
-// The complex irradiance of a place by the surfaces around it: rays over the hemisphere, each of which stands
-// for the same share of what arrives, as many as the error that is asked for takes.
+// The complex irradiance of a place by the surfaces around it: lines over the hemisphere, as many as the
+// error that is asked for takes.
 
+#include "engine/radiosity/hemisphere_scan.h"
 #include "engine/radiosity/radiosity.h"
 
 #include <vector>
@@ -11,8 +12,8 @@ namespace pmdsim {
 // Of one tone, W/m^2.
 struct Gathered {
   Phasor irradiance;
-  Phasor missed;         // what surfaces' light is off by, with its phase (FaceLight::missed)
-  float variance = 0.0f; // of irradiance, |z|^2, as rays are as far apart as they are
+  // Of irradiance, |z|^2: as lines are as far apart as they are, and as elements are as large as they are.
+  float of_lines = 0.0f, of_elements = 0.0f;
 };
 
 // Tone by tone: the irradiance by diodes, and the standard deviation aimed at as a part of all that arrives,
@@ -27,14 +28,21 @@ public:
   // Both have to outlive this.
   Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones);
 
-  // Directions are turned about the normal by `turn` of a whole turn, which should be another for each place:
-  // then what rays leave out at one place has nothing to do with what they leave out at the next. Sets one
-  // value a tone; returns the number of rays. Any number of threads may call this at once.
+  // `turn` as HemisphereScan's. Sets one value a tone; returns the number of lines. Any number of threads may
+  // call this at once.
   std::size_t at(const SurfacePlace &place, double turn, const GatherAim &aim,
                  std::vector<Gathered> &gathered) const;
 
+  // How many times its part of all that arrives, diodes' light and bounced, elements may be off by there: two
+  // standard deviations of the half of it that turns the phase, of the tone where that is most.
+  double times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
+                   const std::vector<float> &part) const;
+
 private:
+  void sum(const SurfacePlace &place, double turn, std::uint32_t lines, std::vector<Gathered> &sums) const;
+
   const Radiosity &radiosity_;
+  std::vector<std::uint32_t> element_of_face_;
   std::vector<double> turns_per_m_;
 };
 

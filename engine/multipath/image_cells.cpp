@@ -40,13 +40,26 @@ bool ImageCell::has_middle_column() const {
   return std::ranges::any_of(runs, [](const Run &run) { return run.high - run.low > 1; });
 }
 
-std::array<float, 4> ImageCell::weights(const glm::uvec2 &sample) const {
+std::array<float, 2> ImageCell::place_in(const glm::uvec2 &sample) const {
   const Run &run = runs[sample.y - row];
   const auto part = [](std::uint32_t at, std::uint32_t low, std::uint32_t high) {
     return high > low ? static_cast<float>(at - low) / static_cast<float>(high - low) : 0.0f;
   };
-  const float x = part(sample.x, run.low, run.high), y = part(sample.y, row, last_row());
+  return {part(sample.x, run.low, run.high), part(sample.y, row, last_row())};
+}
+
+std::array<float, 4> ImageCell::weights(const glm::uvec2 &sample) const {
+  const auto [x, y] = place_in(sample);
   return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+}
+
+float ImageCell::bend(const glm::uvec2 &sample) const {
+  const auto bent = [&](const glm::uvec2 &at) {
+    const auto [x, y] = place_in(at);
+    return x * (1 - x) + y * (1 - y);
+  };
+  const float most = bent(middle());
+  return most > 0.0f ? bent(sample) / most : 0.0f;
 }
 
 std::vector<ImageCell> cells_of(const SeenPlaces &seen, const glm::uvec2 &low, const glm::uvec2 &high) {

@@ -42,6 +42,13 @@ struct ImageCell {
   bool has_middle_column() const;
   // How much each corner counts at a sample of it.
   std::array<float, 4> weights(const glm::uvec2 &sample) const;
+  // How far a function that bends as much along rows as along columns is off there from what corners tell, as
+  // a part of what it is off in the middle.
+  float bend(const glm::uvec2 &sample) const;
+
+private:
+  // From the first column to the last, and from the first row to the last: 0 to 1.
+  std::array<float, 2> place_in(const glm::uvec2 &sample) const;
 };
 
 // The cells of the samples from `low` to `high`, both included; those at `high` belong to the neighbours

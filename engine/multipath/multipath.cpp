@@ -17,10 +17,13 @@
 namespace pmdsim {
 namespace {
 
-constexpr int finenesses = 4;  // that are tried, each for half the error of the one before
-constexpr double gained = 0.8; // of the error claimed before: a step that leaves more of it is the last
-constexpr double most_elements = 10'000.0; // about: more take gigabytes
-constexpr double promised = 0.95;          // share of the pixels that keep what is claimed
+constexpr int most_tries = 4;  // each for less error than the one before
+constexpr double gained = 0.8; // of the error claimed before: a try that leaves more of it is the last
+// Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
+// off by. Together they come to it; measured over boxes and rooms.
+constexpr double of_gather = 0.75, of_elements = 0.75, most_of_elements = 0.7;
+constexpr double most_elements = 6'000.0; // about: more take gigabytes
+constexpr double promised = 0.95;         // share of the pixels that keep what is claimed
 
 class Stopwatch {
 public:
@@ -41,16 +44,13 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// What elements, rays and interpolation aim at; together they come to more.
-double error_at(const Bounces &bounces, int step) { return 0.6 * bounces.max_error_m / std::pow(2.0, step); }
-
-// Measured over boxes and rooms: 1,500 elements are off by less than 0.3 mm, and the error falls a little
+// Measured over boxes and rooms: 1,500 elements are off by less than 1 mm, and the error falls a little
 // faster than their number grows.
 Fineness fineness_of(const Scene &scene, double error_m) {
   const double millimetres = error_m / 1e-3;
   const double elements = std::clamp(1500.0 * std::pow(millimetres, -0.7), 300.0, most_elements);
   return {.element_m = std::sqrt(2.0 * reflecting_area_m2(scene) / elements),
-          .rays_per_edge = millimetres < 0.3 ? 24u : 16u,
+          .lines = 10,
           .facet_part = 2e-5 * millimetres};
 }
 
@@ -81,7 +81,7 @@ double claimed_m(const Measurement &measurement) {
 struct Multipath::State {
   struct Solved {
     std::vector<BounceTone> tones;
-    int step;
+    double error_m; // that its elements were made for
     Radiosity radiosity;
   };
 
@@ -93,17 +93,29 @@ struct Multipath::State {
   BounceTones tones;
   std::vector<Solved> solved;
 
-  // The solution of the tones that are asked for, at `step` or finer.
-  Solved &solution(int step) {
+  // The solution of the tones that are asked for, with elements made for that error or less.
+  Solved &solution(double error_m) {
     const auto known = std::ranges::find(solved, tones.tones, &Solved::tones);
-    if (known != solved.end() && known->step >= step)
+    if (known != solved.end() && known->error_m <= error_m)
       return *known;
-    Radiosity radiosity = solve_radiosity(scene, illuminators, shadows, bounces, tones.tones,
-                                          fineness_of(scene, error_at(bounces, step)));
-    if (known == solved.end())
-      return solved.emplace_back(tones.tones, step, std::move(radiosity));
-    *known = {tones.tones, step, std::move(radiosity)};
-    return *known;
+    if (known != solved.end())
+      solved.erase(known); // first, for its memory
+    Radiosity radiosity =
+        solve_radiosity(scene, illuminators, shadows, bounces, tones.tones, fineness_of(scene, error_m));
+    return solved.emplace_back(tones.tones, error_m, std::move(radiosity));
+  }
+
+  // A solution whose elements are off by no more than they may be where the frame looks, or the finest.
+  Solved &exact_solution(double error_m, const Measurement &measurement, const ImageAim &aim) {
+    Solved *found = &solution(of_elements * error_m);
+    for (int cut = 0; cut < most_tries; ++cut) {
+      const SeenPlaces seen(scene, sensor, measurement, found->radiosity.elements.origin_m);
+      const double times = times_off(found->radiosity, tones.tones, seen, aim, promised);
+      if (times <= most_of_elements)
+        break;
+      found = &solution(found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.8));
+    }
+    return *found;
   }
 };
 
@@ -128,18 +140,19 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
   State &state = *state_;
   const auto &tones = state.tones.tones;
   const std::vector<std::vector<Phasor>> direct = direct_light(measurement, tones);
-  double claimed = std::numeric_limits<double>::infinity();
+  double claimed = std::numeric_limits<double>::infinity(), error_m = state.bounces.max_error_m;
   Stopwatch stopwatch;
-  for (int step = state.solution(0).step; step < finenesses; ++step) {
-    const Radiosity &radiosity = state.solution(step).radiosity;
+  for (int i = 0; i < most_tries; ++i) {
+    const ImageAim asked{parts_of(tones, state.sensor, error_m), direct};
+    const Radiosity &radiosity = state.exact_solution(error_m, measurement, asked).radiosity;
     stopwatch.add_to(measurement, "bounces");
     const SeenPlaces seen(state.scene, state.sensor, measurement, radiosity.elements.origin_m);
-    const ImageAim aim{parts_of(tones, state.sensor, error_at(state.bounces, step)), direct};
+    const ImageAim aim{parts_of(tones, state.sensor, of_gather * error_m), direct};
     const BouncedImage image = gather_image(radiosity, tones, seen, state.sensor.resolution, aim, progress);
     Measurement with = measurement;
     add_bounced(image, state.tones, state.sensor, with);
     const double before = std::exchange(claimed, claimed_m(with));
-    with.bounces = BouncesReport{radiosity.elements.elements.size(), radiosity.rays + image.rays,
+    with.bounces = BouncesReport{radiosity.elements.elements.size(), radiosity.lines + image.lines,
                                  radiosity.products, claimed};
     stopwatch.add_to(with, "gather");
     if (claimed <= state.bounces.max_error_m) {
@@ -150,6 +163,7 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
     measurement.frame_ms = with.frame_ms;
     if (claimed > gained * before)
       break;
+    error_m *= std::clamp(0.9 * state.bounces.max_error_m / claimed, 0.3, 0.9);
   }
   throw Error(
       ExitCode::accuracy,

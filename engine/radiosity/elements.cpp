@@ -43,9 +43,10 @@ std::size_t longest_edge(const Corners &corners_m) {
   return longest;
 }
 
-// The halves of a piece, cut from the middle of its longest edge, which keeps them from becoming slivers.
-std::array<Piece, 2> halves_of(const Piece &piece) {
-  const std::size_t a = longest_edge(piece.corners_m), b = (a + 1) % 3;
+// The halves of a piece, cut from the middle of an edge. That of the longest keeps them from becoming
+// slivers.
+std::array<Piece, 2> halves_of(const Piece &piece, std::size_t edge) {
+  const std::size_t a = edge, b = (a + 1) % 3;
   std::array<Piece, 2> halves{piece, piece};
   for (Piece &half : halves) {
     const std::size_t moved = &half == &halves.front() ? b : a;
@@ -55,7 +56,58 @@ std::array<Piece, 2> halves_of(const Piece &piece) {
   return halves;
 }
 
-// Groups of small triangles: those whose centres lie in one cube and whose normals in one of 54 bins.
+// Makes a leaf the parent of two new ones; returns the first.
+std::uint32_t add_halves(Elements &elements, std::uint32_t node, std::size_t edge) {
+  const auto half = static_cast<std::uint32_t>(elements.nodes.size());
+  elements.nodes[node] = {half, no_facet, static_cast<std::uint8_t>(edge)};
+  elements.nodes.resize(elements.nodes.size() + 2);
+  return half;
+}
+
+void add_leaf(Elements &elements, const Facet &facet, std::uint32_t node) {
+  elements.nodes[node].facet = static_cast<std::uint32_t>(elements.facets.size());
+  elements.facets.push_back(facet);
+  elements.facets.back().node = node;
+}
+
+std::uint32_t add_element(Elements &elements) {
+  elements.elements.emplace_back();
+  return static_cast<std::uint32_t>(elements.elements.size() - 1);
+}
+
+// Makes the elements of a facet's sides what the facet is.
+void make_own_elements(Elements &elements, Facet &facet) {
+  for (std::size_t side = 0; side < 2; ++side)
+    if (facet.elements[side] != no_element)
+      elements.elements[facet.elements[side]] = {places_on(facet.corners_m, side), facet.area_m2()};
+  for (glm::length_t i = 0; i < 3; ++i) {
+    glm::dvec3 corner(0.0);
+    corner[i] = 1.0;
+    facet.in_element[static_cast<std::size_t>(i)] = gauss_weights(corner);
+  }
+}
+
+// Cuts a facet in two: the first half takes its place, the second the end of the list.
+std::array<std::uint32_t, 2> halve_facet(const Scene &scene, Elements &elements, std::uint32_t index) {
+  const Facet whole = elements.facets[index];
+  const std::size_t a = longest_edge(whole.corners_m), b = (a + 1) % 3;
+  const std::uint32_t half = add_halves(elements, whole.node, a);
+  const std::array<std::uint32_t, 2> indices{index, static_cast<std::uint32_t>(elements.facets.size())};
+  elements.facets.push_back(whole);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t moved = i == 0 ? b : a;
+    Facet &facet = elements.facets[indices[i]];
+    facet.corners_m[moved] = 0.5 * (whole.corners_m[a] + whole.corners_m[b]);
+    facet.in_triangle[moved] = 0.5 * (whole.in_triangle[a] + whole.in_triangle[b]);
+    facet.in_element[moved] = 0.5f * (whole.in_element[a] + whole.in_element[b]);
+    facet.reflectivity = static_cast<float>(mean_reflectivity(scene, facet.triangle, facet.in_triangle));
+    facet.node = half + static_cast<std::uint32_t>(i);
+    elements.nodes[facet.node].facet = indices[i];
+  }
+  return indices;
+}
+
+// Groups of small triangles: those whose centres lie in one cube and whose normals in one of 150 bins.
 using GroupKey = std::tuple<std::int64_t, std::int64_t, std::int64_t, int, bool>;
 
 int normal_bin(const glm::dvec3 &normal) {
@@ -63,9 +115,9 @@ int normal_bin(const glm::dvec3 &normal) {
   const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   const double along = normal[axis];
   const auto part = [&](int other) {
-    return std::clamp(static_cast<int>(1.5 * (normal[other] / std::abs(along) + 1.0)), 0, 2);
+    return std::clamp(static_cast<int>(2.5 * (normal[other] / std::abs(along) + 1.0)), 0, 4);
   };
-  return ((axis * 2 + (along < 0.0 ? 1 : 0)) * 3 + part((axis + 1) % 3)) * 3 + part((axis + 2) % 3);
+  return ((axis * 2 + (along < 0.0 ? 1 : 0)) * 5 + part((axis + 1) % 3)) * 5 + part((axis + 2) % 3);
 }
 
 class Builder {
@@ -77,10 +129,14 @@ public:
     for (std::uint32_t id = 0; id < scene_.triangles.size(); ++id) {
       const Corners corners_m = corners_of(id);
       const double area_m2 = area_of(corners_m);
+      made_.roots.push_back(no_node);
       if (!(area_m2 > 0.0))
         continue;
+      made_.roots.back() = static_cast<std::uint32_t>(made_.nodes.size());
+      made_.nodes.emplace_back();
       if (area_m2 > 0.25 * size_m_ * size_m_)
-        cut({corners_m, {CornerWeights{1, 0, 0}, CornerWeights{0, 1, 0}, CornerWeights{0, 0, 1}}}, id);
+        cut({corners_m, {CornerWeights{1, 0, 0}, CornerWeights{0, 1, 0}, CornerWeights{0, 0, 1}}}, id,
+            made_.roots.back());
       else
         add_small(corners_m, id);
     }
@@ -113,23 +169,19 @@ private:
     made_.size_m = std::max({half.x, half.y, half.z});
   }
 
-  void cut(const Piece &piece, std::uint32_t id) {
+  void cut(const Piece &piece, std::uint32_t id, std::uint32_t node) {
     if (area_of(piece.corners_m) > 0.5 * size_m_ * size_m_) {
-      for (const Piece &half : halves_of(piece))
-        cut(half, id);
+      const std::size_t edge = longest_edge(piece.corners_m);
+      std::uint32_t half = add_halves(made_, node, edge);
+      for (const Piece &part : halves_of(piece, edge))
+        cut(part, id, half++);
       return;
     }
-    Facet facet = facet_of(piece, id);
-    for (std::size_t side = 0; side < (is_double_sided(id) ? 2u : 1u); ++side) {
-      facet.elements[side] = static_cast<std::uint32_t>(made_.elements.size());
-      made_.elements.push_back({places_on(piece.corners_m, side), facet.area_m2()});
-    }
-    for (glm::length_t i = 0; i < 3; ++i) {
-      glm::dvec3 corner(0.0);
-      corner[i] = 1.0;
-      facet.in_element[static_cast<std::size_t>(i)] = gauss_weights(corner);
-    }
-    made_.facets.push_back(facet);
+    add_leaf(made_, facet_of(piece, id), node);
+    Facet &facet = made_.facets.back();
+    for (std::size_t side = 0; side < (is_double_sided(id) ? 2u : 1u); ++side)
+      facet.elements[side] = add_element(made_);
+    make_own_elements(made_, facet);
   }
 
   Facet facet_of(const Piece &piece, std::uint32_t id) const {
@@ -149,7 +201,7 @@ private:
                        static_cast<std::int64_t>(cube.z), normal_bin(glm::normalize(front_of(corners_m))),
                        is_double_sided(id)};
     groups_[key].push_back(static_cast<std::uint32_t>(made_.facets.size()));
-    made_.facets.push_back(facet);
+    add_leaf(made_, facet, made_.roots.back());
   }
 
   // The members of a group at which equal parts of its area end, so that large ones stand for more.
@@ -210,31 +262,25 @@ std::array<SurfacePlace, places_of_piece> places_of(const Facet &facet, std::siz
 }
 
 void split_facets(const Scene &scene, Elements &elements, const std::vector<std::uint32_t> &indices) {
-  constexpr std::array<std::array<glm::dvec3, 3>, 4> parts{{
-      {{{1.0, 0.0, 0.0}, {0.5, 0.5, 0.0}, {0.5, 0.0, 0.5}}},
-      {{{0.5, 0.5, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.5, 0.5}}},
-      {{{0.5, 0.0, 0.5}, {0.0, 0.5, 0.5}, {0.0, 0.0, 1.0}}},
-      {{{0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}}},
-  }};
-  for (const std::uint32_t index : indices) {
-    const Facet whole = elements.facets[index];
-    for (const auto &part : parts) {
-      Facet facet = whole;
-      for (std::size_t i = 0; i < 3; ++i) {
-        facet.corners_m[i] = mixed(whole.corners_m, part[i]);
-        facet.in_triangle[i] = mixed(whole.in_triangle, part[i]);
-        facet.in_element[i] = glm::vec3(0.0f);
-        for (glm::length_t k = 0; k < 3; ++k)
-          facet.in_element[i] +=
-              static_cast<float>(part[i][k]) * whole.in_element[static_cast<std::size_t>(k)];
+  for (const std::uint32_t index : indices)
+    for (const std::uint32_t half : halve_facet(scene, elements, index))
+      halve_facet(scene, elements, half);
+}
+
+std::vector<std::uint32_t> split_elements(const Scene &scene, Elements &elements,
+                                          const std::vector<std::uint32_t> &indices) {
+  std::vector<std::uint32_t> parts;
+  for (const std::uint32_t index : indices)
+    for (const std::uint32_t half : halve_facet(scene, elements, index))
+      for (const std::uint32_t part : halve_facet(scene, elements, half)) {
+        Facet &facet = elements.facets[part];
+        for (std::uint32_t &element : facet.elements)
+          if (part != index && element != no_element)
+            element = add_element(elements);
+        make_own_elements(elements, facet);
+        parts.push_back(part);
       }
-      facet.reflectivity = static_cast<float>(mean_reflectivity(scene, facet.triangle, facet.in_triangle));
-      if (&part == &parts.front())
-        elements.facets[index] = facet;
-      else
-        elements.facets.push_back(facet);
-    }
-  }
+  return parts;
 }
 
 } // namespace pmdsim

@@ -14,7 +14,7 @@
 
 namespace pmdsim {
 
-inline constexpr std::uint32_t no_element = 0xffffffffu;
+inline constexpr std::uint32_t no_element = 0xffffffffu, no_facet = 0xffffffffu, no_node = 0xffffffffu;
 
 // The places of a piece at which irradiance is known: three Gauss points, through which it is taken to be
 // linear (their mean integrates polynomials of degree 2), and the centre, which tells how wrong that is.
@@ -35,11 +35,22 @@ struct Facet {
   std::array<std::uint32_t, 2> elements{no_element, no_element};
   // How much the Gauss points of these elements count at each corner.
   std::array<glm::vec3, 3> in_element{};
-  bool whole = false; // a small triangle: its direct light is its element's
+  bool whole = false;           // a small triangle: its direct light is its element's
+  std::uint32_t node = no_node; // its leaf in Elements::nodes
 
   double area_m2() const {
     return 0.5 * glm::length(glm::cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]));
   }
+};
+
+// How a triangle is cut up: each cut goes from the middle of an edge to the corner that faces it.
+struct FacetNode {
+  std::uint32_t half =
+      no_node; // the first half, which keeps the edge's start, is nodes[half], the second follows
+  std::uint32_t facet = no_facet; // of a leaf
+  std::uint8_t edge = 0;          // from this corner to the next
+
+  bool is_leaf() const { return half == no_node; }
 };
 
 struct Element {
@@ -62,6 +73,8 @@ struct Elements {
   double size_m = 0.0;      // the largest coordinate of any corner from there
   std::vector<Facet> facets;
   std::vector<Element> elements;
+  std::vector<FacetNode> nodes;
+  std::vector<std::uint32_t> roots; // of each triangle of the scene; no_node without area
 
   // The distance from a surface at which rays start that leave it.
   double clearance_m() const { return 2e-6 * size_m; }
@@ -79,5 +92,8 @@ std::array<SurfacePlace, places_of_piece> places_of(const Facet &facet, std::siz
 
 // Cuts each of the facets with these indices into four, which take its place and the end of the list.
 void split_facets(const Scene &scene, Elements &elements, const std::vector<std::uint32_t> &indices);
+// The same of facets that are elements of their own, into four elements; returns the indices of all parts.
+std::vector<std::uint32_t> split_elements(const Scene &scene, Elements &elements,
+                                          const std::vector<std::uint32_t> &indices);
 
 } // namespace pmdsim

@@ -1,10 +1,10 @@
 #pragma once
-// How light bounces between elements: rays from each place of each element, each of which stands for the same
-// share of what arrives there, and what they meet. All tones and all bounces share them.
+// How light bounces between elements: what each place of each element sees of the others, along lines. All
+// tones and all bounces share it.
 
 #include "engine/radiosity/bounce_tones.h"
 #include "engine/radiosity/exitance.h"
-#include "engine/radiosity/facet_tree.h"
+#include "engine/radiosity/hemisphere_scan.h"
 
 #include <cstdint>
 #include <span>
@@ -14,10 +14,8 @@ namespace pmdsim {
 
 class Exchange {
 public:
-  // Casts `rays_per_edge` squared rays from each place; a multiple of 4.
-  Exchange(const Elements &elements, const FacetTree &tree, std::uint32_t rays_per_edge);
-
-  std::size_t rays() const { return meetings_.size(); }
+  // Looks along so many lines from each place.
+  Exchange(const Elements &elements, const HemisphereScan &scan, std::uint32_t lines);
 
   // Turns the following products into those of a tone.
   void set_tone(const BounceTone &tone);
@@ -27,13 +25,12 @@ public:
 
 private:
   struct Meeting {
-    std::uint32_t face; // or no_facet: the ray meets nothing, or a side that is dark
-    float u, v, length_m;
+    std::uint32_t face;
+    float u, v, length_m, share;
+    Phasor way; // of the tone: the share, turned by the length
   };
 
-  std::size_t per_place_;
-  std::vector<Meeting> meetings_;
-  std::vector<Phasor> turns_; // of the ways of rays, of the tone
+  std::vector<std::vector<Meeting>> of_places_;
 };
 
 } // namespace pmdsim

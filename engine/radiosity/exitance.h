@@ -1,6 +1,7 @@
 #pragma once
 // The light that leaves each side of each facet, W/m^2, for every tone: rho times the irradiance, direct and
-// bounced, linear over the facet; and by how much that misses what was found at its centre.
+// bounced, linear over the facet; and by how much
+// that misses what was found at its centre.
 
 #include "engine/radiosity/phasor.h"
 
@@ -16,7 +17,7 @@ inline std::size_t face_of(std::uint32_t facet, std::uint8_t side) { return 2 * 
 
 struct FaceLight {
   std::array<Phasor, 3> corners;
-  Phasor missed; // at the centre
+  float missed = 0.0f; // |z| at the centre
 };
 
 class Exitance {
@@ -35,13 +36,6 @@ private:
 // At the place of a facet with those weights of its second and third corner.
 inline Phasor at(const std::array<Phasor, 3> &corners, float u, float v) {
   return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
-}
-
-// What a linear function misses of a curved one, at that place, for each unit that it misses at the centre:
-// the quadratic function that is 0 at the Gauss points. Its mean is 0, as theirs integrates it exactly.
-inline float missed_part(float u, float v) {
-  const float w = 1.0f - u - v;
-  return 3.0f - 6.0f * (u * u + v * v + w * w);
 }
 
 } // namespace pmdsim

@@ -13,7 +13,6 @@ namespace pmdsim {
 
 inline constexpr std::size_t packet_columns = 4, packet_rows = 2; // of the grid of directions
 inline constexpr std::size_t packet_rays = packet_columns * packet_rows;
-inline constexpr std::uint32_t no_facet = 0xffffffffu;
 
 // Rays that leave one place in neighbouring directions, and what they meet first.
 struct RayPacket {

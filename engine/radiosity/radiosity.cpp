@@ -1,8 +1,10 @@
 #include "engine/radiosity/radiosity.h"
 
 #include "engine/model/error.h"
+#include "engine/radiosity/contacts.h"
 #include "engine/radiosity/direct_irradiance.h"
 #include "engine/radiosity/exchange.h"
+#include "engine/radiosity/facet_tree.h"
 #include "engine/radiosity/krylov.h"
 
 #include <algorithm>
@@ -49,25 +51,28 @@ public:
 
   Radiosity solve(const Bounces &bounces) {
     light_facets();
-    auto tree = std::make_unique<const FacetTree>(scene_, elements_);
     Exitance exitance = direct_exitance();
-    std::size_t rays = 0;
+    const std::vector<Sums> direct = sums_of(exitance);
+    auto scan = std::make_unique<const HemisphereScan>(scene_, elements_);
+    std::size_t lines = 0;
     std::uint32_t products = 0;
     if (bounces.count > 1) {
-      Exchange exchange(elements_, *tree, fineness_.rays_per_edge);
-      rays = exchange.rays();
+      Exchange exchange(elements_, *scan, fineness_.lines);
+      lines = elements_.elements.size() * places_of_piece * fineness_.lines;
       for (std::size_t t = 0; t < tones_.size(); ++t)
         products += add_bounces(exchange, bounces, t, exitance);
       if (bounces.count == all_bounces)
         refuse_divergence(exchange);
     }
-    return {std::move(elements_), std::move(tree), std::move(exitance), rays, products};
+    std::vector<float> off = off_by(direct, sums_of(exitance));
+    return {std::move(elements_), std::move(scan), std::move(exitance), std::move(off), lines, products};
   }
 
 private:
   // Direct light of all facets, cut where it varies too much; against the tree of what is not cut yet.
   void light_facets() {
     const FacetTree whole(scene_, elements_);
+    cut_at_contacts(scene_, whole, elements_);
     const DirectIrradiance direct(illuminators_, elements_.origin_m,
                                   shadows_ == Shadows::automatic ? &whole : nullptr, elements_.clearance_m());
     of_elements_.resize(elements_.elements.size());
@@ -78,6 +83,7 @@ private:
     std::vector<std::uint32_t> fresh(elements_.facets.size());
     std::iota(fresh.begin(), fresh.end(), 0u);
     light(direct, fresh);
+    light_small(direct);
     for (int cut = 0; cut < most_cuts; ++cut) {
       const std::vector<std::uint32_t> rough = rough_facets(fresh);
       if (rough.empty() || elements_.facets.size() + 3 * rough.size() > most_facets)
@@ -104,6 +110,22 @@ private:
     return light;
   }
 
+  // Small facets by one place each, where they are not too many; else by their group's.
+  void light_small(const DirectIrradiance &direct) {
+    tbb::parallel_for(std::size_t{0}, elements_.facets.size(), [&](std::size_t i) {
+      const Facet &facet = elements_.facets[i];
+      for (std::size_t side = 0; side < 2 && facet.whole; ++side)
+        if (facet.elements[side] != no_element) {
+          std::vector<Phasor> at_centre(tones_.size());
+          direct.at(places_of(facet, side)[3], tones_, at_centre);
+          PieceLight &light = of_facets_[i][side];
+          light.resize(tones_.size());
+          for (std::size_t t = 0; t < tones_.size(); ++t)
+            light[t].fill(at_centre[t]);
+        }
+    });
+  }
+
   void light(const DirectIrradiance &direct, const std::vector<std::uint32_t> &facets) {
     tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
       const Facet &facet = elements_.facets[facets[i]];
@@ -115,8 +137,7 @@ private:
 
   // What a side of a facet is lit by directly.
   const PieceLight &direct_light(std::size_t facet, std::size_t side) const {
-    const Facet &of = elements_.facets[facet];
-    return of.whole ? of_elements_[of.elements[side]] : of_facets_[facet][side];
+    return of_facets_[facet][side];
   }
   static const std::array<glm::vec3, 3> &direct_weights(const Facet &facet) {
     return facet.whole ? facet.in_element : own_weights;
@@ -158,10 +179,40 @@ private:
     return exitance;
   }
 
+  // Of a tone: all light that leaves, W, and the root of the sum of squares of what facets miss of it.
+  struct Sums {
+    double light_w = 0.0, missed_w = 0.0;
+  };
+
+  std::vector<Sums> sums_of(const Exitance &exitance) const {
+    std::vector<Sums> sums(tones_.size());
+    for (std::size_t face = 0; face < 2 * elements_.facets.size(); ++face)
+      for (std::size_t t = 0; t < sums.size(); ++t) {
+        const FaceLight &light = exitance.of(face, t);
+        const double area_m2 = elements_.facets[face / 2].area_m2(),
+                     missed_w = area_m2 * static_cast<double>(light.missed);
+        sums[t].light_w += area_m2 * static_cast<double>(abs(at(light.corners, 1.0f / 3.0f, 1.0f / 3.0f)));
+        sums[t].missed_w += missed_w * missed_w;
+      }
+    for (Sums &of_tone : sums)
+      of_tone.missed_w = std::sqrt(of_tone.missed_w);
+    return sums;
+  }
+
+  // Facets are off by chance, one this way and one that way; what they are off by bounces as light does.
+  static std::vector<float> off_by(const std::vector<Sums> &direct, const std::vector<Sums> &all) {
+    std::vector<float> off;
+    for (std::size_t t = 0; t < all.size(); ++t)
+      off.push_back(all[t].light_w > 0.0 && direct[t].light_w > 0.0
+                        ? static_cast<float>(all[t].missed_w / direct[t].light_w)
+                        : 0.0f);
+    return off;
+  }
+
   static void add(FaceLight &to, float reflectivity, const Linear &irradiance) {
     for (std::size_t k = 0; k < 3; ++k)
       to.corners[k] += reflectivity * irradiance.corners[k];
-    to.missed += reflectivity * irradiance.missed;
+    to.missed = std::hypot(to.missed, reflectivity * abs(irradiance.missed));
   }
 
   template <class Visit>

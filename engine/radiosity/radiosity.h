@@ -8,7 +8,7 @@
 #include "engine/model/scene.h"
 #include "engine/radiosity/bounce_tones.h"
 #include "engine/radiosity/exitance.h"
-#include "engine/radiosity/facet_tree.h"
+#include "engine/radiosity/hemisphere_scan.h"
 
 #include <memory>
 #include <vector>
@@ -17,16 +17,18 @@ namespace pmdsim {
 
 // How finely surfaces and directions are cut.
 struct Fineness {
-  double element_m;            // across an element
-  std::uint32_t rays_per_edge; // squared: rays from each of its places
-  double facet_part; // a facet is cut where it may be off by this part of all light that leaves surfaces
+  double element_m;    // across an element
+  std::uint32_t lines; // from each of its places
+  double facet_part;   // a facet is cut where it may be off by this part of all light that leaves surfaces
 };
 
 struct Radiosity {
   Elements elements;
-  std::unique_ptr<const FacetTree> tree;
+  std::unique_ptr<const HemisphereScan> scan; // of the elements
   Exitance exitance; // of all that leaves towards the lens's last surface: direct and bounces but one
-  std::size_t rays = 0;
+  // What all light together may be off by, of each tone, as a part of what arrives anywhere.
+  std::vector<float> off;
+  std::size_t lines = 0; // along which was looked
   std::uint32_t products = 0;
 };
 

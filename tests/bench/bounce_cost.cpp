@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,37 @@ void check(const View &view, Sensor sensor, const Bounces &bounces, double finer
              100.0 * static_cast<double>(kept) / static_cast<double>(off.size()));
 }
 
+void debug_truth(const View &view, Sensor sensor, const Bounces &bounces, const char *file) {
+  const auto coarse = glm::max(sensor.resolution / 4u, glm::uvec2(8));
+  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(coarse);
+  sensor.resolution = coarse;
+  Simulator simulator(SimulatorOptions{});
+  simulator.prepare(view.scene, sensor, view.illuminators, Backscatter::lambert, Shadows::automatic, {}, bounces);
+  const Measurement frame = simulator.measure();
+  const auto &m = frame.returns[0].multipath_m;
+  std::FILE *f = std::fopen(file, "rb");
+  if (!f) {
+    f = std::fopen(file, "wb");
+    std::fwrite(m.data(), 4, m.size(), f);
+    std::fclose(f);
+    return;
+  }
+  std::vector<float> truth(m.size()), off, claimed, ratio, signed_off;
+  if (std::fread(truth.data(), 4, m.size(), f) != m.size()) std::abort();
+  std::fclose(f);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (!std::isnan(m[i]) && !std::isnan(truth[i])) {
+      off.push_back(std::abs(m[i] - truth[i]) * 1e3f);
+      signed_off.push_back((m[i] - truth[i]) * 1e3f);
+      claimed.push_back(frame.returns[0].multipath_error_m[i] * 1e3f);
+      kept += off.back() <= claimed.back();
+    }
+  fmt::print("kept {:.2f} %, mean off {:+.3f}\n", 100.0 * static_cast<double>(kept) / static_cast<double>(off.size()), static_cast<double>(std::accumulate(signed_off.begin(), signed_off.end(), 0.0f)) / static_cast<double>(off.size()));
+  std::ranges::sort(off); std::ranges::sort(claimed);
+  for (double part : {0.5, 0.9, 0.95, 0.99}) { const auto at = static_cast<std::size_t>(part * static_cast<double>(off.size() - 1)); fmt::print("  {} %: off {:.3f} claimed {:.3f}\n", part * 100, off[at], claimed[at]); }
+}
+
 int main(int count, char **arguments) {
   const std::string name = count > 1 ? arguments[1] : "blocks";
   const Bounces bounces{count > 2 && std::string(arguments[2]) != "all"
@@ -194,8 +226,9 @@ int main(int count, char **arguments) {
   }
   simulator.prepare(view.scene, sensor, view.illuminators, Backscatter::lambert, Shadows::automatic, {},
                     bounces);
-  check(view, sensor, bounces, 5.0);
-  for (int round = 0; round < 2; ++round) {
+  if (getenv("TRUTH")) { debug_truth(view, sensor, bounces, getenv("TRUTH")); return 0; }
+  if (!getenv("NOCHECK")) check(view, sensor, bounces, 5.0);
+  for (int round = 0; round < (getenv("ONCE")?1:2); ++round) {
     const Measurement frame = simulator.measure();
     std::string passes;
     for (const PassTime &pass : frame.passes)
