@@ -33,15 +33,20 @@ private:
     first_line_.resize(count);
     is_below_.resize(count);
     const float lines_per_rad = static_cast<float>(lines_) / std::numbers::pi_v<float>;
+    const float *from_x = scene_->x_m_.data(), *from_y = scene_->y_m_.data(), *from_z = scene_->z_m_.data();
+    float *to_x = x_.data(), *to_y = y_.data(), *to_z = z_.data();
+    std::int32_t *first_line = first_line_.data(), *is_below = is_below_.data();
+#pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-      const glm::vec3 way(scene_->x_m_[i] - from.x, scene_->y_m_[i] - from.y, scene_->z_m_[i] - from.z);
-      x_[i] = glm::dot(x, way);
-      y_[i] = glm::dot(y, way);
-      z_[i] = glm::dot(z, way);
-      is_below_[i] = z_[i] < 0.0f ? 1 : 0;
+      const float dx = from_x[i] - from.x, dy = from_y[i] - from.y, dz = from_z[i] - from.z;
+      const float along = y.x * dx + y.y * dy + y.z * dz, up = z.x * dx + z.y * dy + z.z * dz;
+      to_x[i] = x.x * dx + x.y * dy + x.z * dz;
+      to_y[i] = along;
+      to_z[i] = up;
+      is_below[i] = up < 0.0f ? 1 : 0;
       // The plane of a line goes on below, where a vertex is as its mirror image is above.
-      const float angle = is_below_[i] != 0 ? angle_of(-y_[i], -z_[i]) : angle_of(y_[i], z_[i]);
-      first_line_[i] = static_cast<std::int32_t>(angle * lines_per_rad + 0.5f);
+      const float angle = angle_of(up < 0.0f ? -along : along, std::abs(up));
+      first_line[i] = static_cast<std::int32_t>(angle * lines_per_rad + 0.5f);
     }
   }
 
@@ -144,7 +149,7 @@ private:
   std::uint32_t lines_ = 0;
   std::vector<float> x_, y_, z_; // of vertices, in the place's frame
   std::vector<std::int32_t> first_line_;
-  std::vector<std::uint8_t> is_below_;
+  std::vector<std::int32_t> is_below_;
   std::vector<std::vector<std::uint32_t>> of_line_;
   float cosine_ = 0.0f, sine_ = 0.0f; // of the angle between the surface and the line's half plane
   LineSight sight_;

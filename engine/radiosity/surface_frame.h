@@ -3,7 +3,9 @@
 
 #include "engine/radiosity/elements.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pmdsim {
@@ -28,7 +30,7 @@ inline float cross(const glm::vec2 &a, const glm::vec2 &b) { return a.x * b.y - 
 inline float angle_of(float x, float y) {
   constexpr auto pi = std::numbers::pi_v<float>;
   const float wide = std::abs(x), low = std::min(wide, y), high = std::max(wide, y);
-  const float t = high > 0.0f ? low / high : 0.0f, q = t * t;
+  const float t = low / std::max(high, std::numeric_limits<float>::min()), q = t * t;
   // The arc tangent of 0 to 1, by least squares.
   const float angle =
       t * (0.99997726f +
