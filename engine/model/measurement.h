@@ -45,7 +45,7 @@ struct ExposureNumber {
 // What bounces took, and how far they are off.
 struct BouncesReport {
   std::size_t elements = 0;   // of surfaces, for which what bounces was solved
-  std::size_t rays = 0;       // of the solution and of the frame
+  std::size_t lines = 0;      // along which places looked around, of the solution and of the frame
   std::uint32_t products = 0; // of the iterations, all tones together
   double claimed_m = 0.0; // multipath_error_m of the first frequency, which 95 % of its pixels do not exceed
 };

@@ -67,7 +67,7 @@ void BouncesOfTaps::add(const Measurement &exposure, std::size_t frequency, std:
   if (!report_)
     report_ = BouncesReport{.claimed_m = std::numeric_limits<double>::quiet_NaN()};
   report_->elements = std::max(report_->elements, exposure.bounces->elements);
-  report_->rays += exposure.bounces->rays;
+  report_->lines += exposure.bounces->lines;
   report_->products += exposure.bounces->products;
   if (!is_sine)
     return;

@@ -81,7 +81,7 @@ std::string unpromised_text(const AccuracyReport &report, double max_error_m) {
 }
 
 std::string bounces_text(const BouncesReport &report) {
-  const std::string source = fmt::format("from {} elements and {} rays", report.elements, report.rays);
+  const std::string source = fmt::format("from {} elements and {} lines", report.elements, report.lines);
   return std::isnan(report.claimed_m)
              ? "multipath " + source
              : fmt::format("multipath error at most {:.3g} mm in 95 % of the pixels, estimated, {}",

@@ -28,7 +28,7 @@ std::string sum_text(Mode mode, const AccuracyReport &report);
 std::string errors_text(const AccuracyReport &report);
 // How many pixels may be off by more than was asked for; empty where there are none.
 std::string unpromised_text(const AccuracyReport &report, double max_error_m);
-// "multipath error at most 0.8 mm in 95 % of the pixels, estimated, from 2504 elements and 100000 rays".
+// "multipath error at most 0.8 mm in 95 % of the pixels, estimated, from 2504 elements and 100000 lines".
 std::string bounces_text(const BouncesReport &report);
 // A line of each of these texts, as far as they say something beyond mode exact in fp32.
 std::string accuracy_text(Mode mode, const AccuracyReport &report);

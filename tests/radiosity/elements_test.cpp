@@ -1,8 +1,7 @@
 // How surfaces are cut up, and the rules by which they are sampled.
 
+#include "engine/radiosity/contacts.h"
 #include "engine/radiosity/elements.h"
-#include "engine/radiosity/exitance.h"
-#include "engine/radiosity/hemisphere.h"
 #include "tests/support/random_rooms.h"
 
 #include <catch2/catch.hpp>
@@ -67,39 +66,37 @@ TEST_CASE("the Gauss points of an element give a linear function at the corners 
     }
 }
 
-TEST_CASE("what a linear function misses of a curved one is nothing at Gauss points and in the mean") {
-  for (std::size_t i = 0; i < 3; ++i)
-    CHECK(std::abs(missed_part(static_cast<float>(piece_weights[i].y),
-                               static_cast<float>(piece_weights[i].z))) < 1e-6f);
-  CHECK(missed_part(1.0f / 3.0f, 1.0f / 3.0f) == Approx(1.0f));
-  double sum = 0.0;
-  constexpr int n = 100;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n - i; ++j)
-      for (int down = 0; down < (i + j < n - 1 ? 2 : 1); ++down) {
-        const double third = down == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
-        sum += static_cast<double>(
-            missed_part(static_cast<float>((i + third) / n), static_cast<float>((j + third) / n)));
-      }
-  CHECK(std::abs(sum) / (n * n) < 1e-3);
+TEST_CASE("elements that are cut cover what they covered, each half with its own") {
+  SceneBuilder builder;
+  builder.add_triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2.5}, {.reflectivity = 0.5, .double_sided = true});
+  Elements elements = make_elements(builder.scene(), 0.9);
+  const double area_m2 = area_of_elements(elements);
+  const auto parts = split_elements(builder.scene(), elements, {0});
+  CHECK(parts.size() == 4);
+  CHECK(area_of_elements(elements) == Approx(area_m2));
+  for (const std::uint32_t part : parts)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Element &element = elements.elements[elements.facets[part].elements[side]];
+      CHECK(element.area_m2 == Approx(elements.facets[part].area_m2()));
+      CHECK(glm::distance(element.places[3].position_m,
+                          mixed(elements.facets[part].corners_m, piece_weights[3])) < 1e-12);
+    }
 }
 
-TEST_CASE("directions over a hemisphere stand for equal shares of what arrives") {
-  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
-  constexpr std::uint32_t n = 64;
-  const Hemisphere hemisphere(normal, 0.37, n);
-  glm::dvec3 mean(0.0);
-  double heights = 0.0, squares = 0.0;
-  for (std::uint32_t row = 0; row < n; ++row)
-    for (std::uint32_t column = 0; column < n; ++column) {
-      const glm::dvec3 direction(hemisphere.direction({column, row}));
-      CHECK(std::abs(glm::length(direction) - 1.0) < 1e-6);
-      const double height = glm::dot(direction, normal);
-      mean += direction / static_cast<double>(n * n);
-      heights += height / (n * n);
-      squares += height * height / (n * n);
-    }
-  CHECK(heights == Approx(2.0 / 3.0).epsilon(1e-6)); // the integral of cos^2 over that of cos
-  CHECK(squares == Approx(0.5).epsilon(1e-3));
-  CHECK(glm::length(mean - heights * normal) < 1e-6);
+TEST_CASE("an element that lies partly under a box is cut where the box begins") {
+  SceneBuilder builder;
+  const Surface surface{0.5};
+  builder.add_triangle({-2, 0, 1}, {-2, 0, 5}, {2, 0, 1}, surface);
+  builder.add_triangle({2, 0, 1}, {-2, 0, 5}, {2, 0, 5}, surface);
+  builder.add_mesh(box_corners({-0.4, 0.0, 2.3}, {0.4, 0.7, 3.1}, 0.3), box_faces(false), surface);
+  Elements elements = make_elements(builder.scene(), 0.5);
+  const std::size_t before = elements.elements.size();
+  const double area_m2 = area_of_elements(elements);
+  const FacetTree tree(builder.scene(), elements);
+  cut_at_contacts(builder.scene(), tree, elements);
+  CHECK(elements.elements.size() > before + 50);
+  CHECK(elements.elements.size() < before + 2'000);
+  CHECK(area_of_elements(elements) == Approx(area_m2));
+  for (const Facet &facet : elements.facets) // only the floor's
+    CHECK((facet.triangle < 2 || facet.area_m2() > 0.02));
 }

@@ -29,7 +29,7 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
   for (const double reflectivity : {0.3, 0.8}) {
     const Radiosity solved =
         solve_radiosity(closed_box(reflectivity), {lamp()}, Shadows::automatic, {all_bounces}, slow,
-                        {.element_m = 0.15, .rays_per_edge = 16, .facet_part = 2e-5});
+                        {.element_m = 0.15, .lines = 16, .facet_part = 2e-5});
     double absorbed_w = 0.0;
     for (std::size_t i = 0; i < solved.elements.facets.size(); ++i) {
       const FaceLight &light = solved.exitance.of(2 * i, 0);
@@ -44,8 +44,8 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
 TEST_CASE("what one wall sends to another is what the other sends to it") {
   const Scene scene = random_room(3).scene;
   const Elements elements = make_elements(scene, 0.15);
-  const FacetTree tree(scene, elements);
-  Exchange exchange(elements, tree, 16);
+  const HemisphereScan scan(scene, elements);
+  Exchange exchange(elements, scan, 16);
   exchange.set_tone({.hz = 20e6, .harmonic = 1, .frequency = 0, .relative = 1.0});
   const auto object_of = [&](const Facet &facet) { return scene.object_of(facet.triangle); };
   // What arrives on each object, W, of light that leaves the fronts of one, 1 W/m^2 everywhere.
@@ -79,7 +79,7 @@ TEST_CASE("what one wall sends to another is what the other sends to it") {
 TEST_CASE("light that nothing absorbs and that cannot leave is refused") {
   const auto solve = [](double reflectivity, std::uint32_t bounces) {
     return solve_radiosity(closed_box(reflectivity), {lamp()}, Shadows::automatic, {bounces}, slow,
-                           {.element_m = 0.4, .rays_per_edge = 8, .facet_part = 1e-3});
+                           {.element_m = 0.4, .lines = 8, .facet_part = 1e-3});
   };
   CHECK_THROWS_AS(solve(1.0, all_bounces), Error);
   CHECK_NOTHROW(solve(1.0, 3));

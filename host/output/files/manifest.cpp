@@ -104,7 +104,7 @@ ordered_json accuracy_json(const FrameRecord &record) {
 
 ordered_json bounces_json(const BouncesReport &report) {
   return {{"elements", report.elements},
-          {"rays", report.rays},
+          {"lines", report.lines},
           {"products", report.products},
           {"claimed_m", report.claimed_m}};
 }

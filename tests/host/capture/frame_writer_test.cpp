@@ -22,7 +22,7 @@ TEST_CASE("pictures show multipath and its share, and no channel without bounces
   returned.indirect_share = {0.1f, 0.2f};
   const MeasuredPart part = rendered_frame(taken, {0, 0.0, 0, "", {}}, {Format::png});
   REQUIRE(part.record.bounces);
-  CHECK(part.record.bounces->rays == 100);
+  CHECK(part.record.bounces->lines == 100);
   std::vector<std::string> names;
   for (const FileToWrite &file : part.files())
     names.push_back(file.name);

@@ -82,7 +82,7 @@ TEST_CASE("the exposures' bounces add up, the first frequency's largest error is
   const Measurement frame = at_rest(bouncing_sensor(), {{1.0, 0.1}});
   REQUIRE(frame.bounces);
   CHECK(frame.bounces->elements == 100);
-  CHECK(frame.bounces->rays == 10'000);
+  CHECK(frame.bounces->lines == 10'000);
   CHECK(frame.bounces->products == 70);
   CHECK(frame.bounces->claimed_m == Approx(5e-3));
 }
@@ -137,7 +137,7 @@ TEST_CASE("of other waveforms frames of taps have no channels of multipath") {
   CHECK(frame.returns[0].multipath_m.empty());
   CHECK(frame.returns[0].direct_amplitude.empty());
   REQUIRE(frame.bounces);
-  CHECK(frame.bounces->rays == 10'000);
+  CHECK(frame.bounces->lines == 10'000);
   CHECK(std::isnan(frame.bounces->claimed_m));
 }
 

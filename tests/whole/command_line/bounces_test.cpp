@@ -38,7 +38,7 @@ TEST_CASE("a frame with bounces tells what they took and how exact they are") {
   CHECK(done.errors.empty());
   const json frame = json::parse(done.output)["frames"][0];
   CHECK(frame["bounces"]["elements"] > 100);
-  CHECK(frame["bounces"]["rays"] > 10'000);
+  CHECK(frame["bounces"]["lines"] > 10'000);
   CHECK(frame["bounces"]["products"] > 2);
   CHECK(frame["bounces"]["claimed_m"] > 0.0);
   CHECK(frame["bounces"]["claimed_m"] <= 2e-3);
