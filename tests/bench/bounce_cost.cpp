@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -179,38 +178,13 @@ void check(const View &view, Sensor sensor, const Bounces &bounces, double finer
              100.0 * static_cast<double>(kept) / static_cast<double>(off.size()));
 }
 
-void debug_truth(const View &view, Sensor sensor, const Bounces &bounces, const char *file) {
-  const auto coarse = glm::max(sensor.resolution / 4u, glm::uvec2(8));
-  sensor.pixel_pitch_m *= glm::dvec2(sensor.resolution) / glm::dvec2(coarse);
-  sensor.resolution = coarse;
-  Simulator simulator(SimulatorOptions{});
-  simulator.prepare(view.scene, sensor, view.illuminators, Backscatter::lambert, Shadows::automatic, {}, bounces);
-  const Measurement frame = simulator.measure();
-  const auto &m = frame.returns[0].multipath_m;
-  std::FILE *f = std::fopen(file, "rb");
-  if (!f) {
-    f = std::fopen(file, "wb");
-    std::fwrite(m.data(), 4, m.size(), f);
-    std::fclose(f);
-    return;
-  }
-  std::vector<float> truth(m.size()), off, claimed, ratio, signed_off;
-  if (std::fread(truth.data(), 4, m.size(), f) != m.size()) std::abort();
-  std::fclose(f);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < m.size(); ++i)
-    if (!std::isnan(m[i]) && !std::isnan(truth[i])) {
-      off.push_back(std::abs(m[i] - truth[i]) * 1e3f);
-      signed_off.push_back((m[i] - truth[i]) * 1e3f);
-      claimed.push_back(frame.returns[0].multipath_error_m[i] * 1e3f);
-      kept += off.back() <= claimed.back();
-    }
-  fmt::print("kept {:.2f} %, mean off {:+.3f}\n", 100.0 * static_cast<double>(kept) / static_cast<double>(off.size()), static_cast<double>(std::accumulate(signed_off.begin(), signed_off.end(), 0.0f)) / static_cast<double>(off.size()));
-  std::ranges::sort(off); std::ranges::sort(claimed);
-  for (double part : {0.5, 0.9, 0.95, 0.99}) { const auto at = static_cast<std::size_t>(part * static_cast<double>(off.size() - 1)); fmt::print("  {} %: off {:.3f} claimed {:.3f}\n", part * 100, off[at], claimed[at]); }
-}
-
+// [check] blocks | sphereN | SETUP, then bounces, error_m and frequencies.
 int main(int count, char **arguments) {
+  const bool is_checked = count > 1 && std::string(arguments[1]) == "check";
+  if (is_checked) {
+    --count;
+    ++arguments;
+  }
   const std::string name = count > 1 ? arguments[1] : "blocks";
   const Bounces bounces{count > 2 && std::string(arguments[2]) != "all"
                             ? static_cast<std::uint32_t>(std::stoul(arguments[2]))
@@ -226,9 +200,9 @@ int main(int count, char **arguments) {
   }
   simulator.prepare(view.scene, sensor, view.illuminators, Backscatter::lambert, Shadows::automatic, {},
                     bounces);
-  if (getenv("TRUTH")) { debug_truth(view, sensor, bounces, getenv("TRUTH")); return 0; }
-  if (!getenv("NOCHECK")) check(view, sensor, bounces, 5.0);
-  for (int round = 0; round < (getenv("ONCE")?1:2); ++round) {
+  if (is_checked)
+    check(view, sensor, bounces, 3.0);
+  for (int round = 0; round < 2; ++round) {
     const Measurement frame = simulator.measure();
     std::string passes;
     for (const PassTime &pass : frame.passes)
@@ -236,9 +210,9 @@ int main(int count, char **arguments) {
     fmt::print("{:.0f} ms:{}\n", frame.frame_ms, passes);
     const Return &first = frame.returns[0];
     fmt::print(
-        "elements {} rays {:.1f} M products {} claimed {:.3f} mm, multipath median {:.3f} mm, share {:.3f}, "
+        "elements {} lines {:.2f} M products {} claimed {:.3f} mm, multipath median {:.3f} mm, share {:.3f}, "
         "distance {:.5f} amplitude {:.6f} of direct {:.6f}\n",
-        frame.bounces->elements, static_cast<double>(frame.bounces->rays) / 1e6, frame.bounces->products,
+        frame.bounces->elements, static_cast<double>(frame.bounces->lines) / 1e6, frame.bounces->products,
         1e3 * frame.bounces->claimed_m, 1e3 * median(first.multipath_m), median(first.indirect_share),
         median(first.distance_m), median(first.amplitude), median(first.direct_amplitude));
   }
