@@ -2,8 +2,8 @@
 // The complex irradiance of a place by the surfaces around it: lines over the hemisphere, as many as the
 // error that is asked for takes.
 
-#include "engine/radiosity/hemisphere_scan.h"
 #include "engine/radiosity/radiosity.h"
+#include "engine/surfaces/hemisphere_scan.h"
 
 #include <vector>
 

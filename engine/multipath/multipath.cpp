@@ -21,7 +21,7 @@ constexpr int most_tries = 4;  // each for less error than the one before
 constexpr double gained = 0.8; // of the error claimed before: a try that leaves more of it is the last
 // Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
 // off by. Together they come to it; measured over boxes and rooms.
-constexpr double of_gather = 0.75, of_elements = 0.75, most_of_elements = 0.7;
+constexpr double of_gather = 0.75, of_elements = 1.2, most_of_elements = 0.7;
 constexpr double most_elements = 6'000.0; // about: more take gigabytes
 constexpr double promised = 0.95;         // share of the pixels that keep what is claimed
 
@@ -67,6 +67,14 @@ std::vector<float> parts_of(const std::vector<BounceTone> &tones, const Sensor &
   return parts;
 }
 
+[[noreturn]] void refuse(double reached_m, double asked_m) {
+  throw Error(
+      ExitCode::accuracy,
+      fmt::format("multipath is off by up to {:.3g} mm in 95 % of the pixels, as estimated with the finest "
+                  "elements and the most lines: expected at most {:.3g} mm (\"bounce_error\")",
+                  1e3 * reached_m, 1e3 * asked_m));
+}
+
 // Of the frequency where it is largest.
 double claimed_m(const Measurement &measurement) {
   double most_m = 0.0;
@@ -105,17 +113,23 @@ struct Multipath::State {
     return solved.emplace_back(tones.tones, error_m, std::move(radiosity));
   }
 
-  // A solution whose elements are off by no more than they may be where the frame looks, or the finest.
+  // A solution whose elements are off by no more than they may be where the frame looks. Throws Error:
+  // accuracy, where they alone are off by more than was asked for, however fine.
   Solved &exact_solution(double error_m, const Measurement &measurement, const ImageAim &aim) {
     Solved *found = &solution(of_elements * error_m);
-    for (int cut = 0; cut < most_tries; ++cut) {
+    while (true) {
       const SeenPlaces seen(scene, sensor, measurement, found->radiosity.elements.origin_m);
       const double times = times_off(found->radiosity, tones.tones, seen, aim, promised);
       if (times <= most_of_elements)
-        break;
-      found = &solution(found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.8));
+        return *found;
+      const double finer_m = found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.8);
+      if (fineness_of(scene, finer_m).element_m == fineness_of(scene, found->error_m).element_m) {
+        if (times * error_m > bounces.max_error_m)
+          refuse(times * error_m, bounces.max_error_m);
+        return *found;
+      }
+      found = &solution(finer_m);
     }
-    return *found;
   }
 };
 
@@ -165,11 +179,7 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
       break;
     error_m *= std::clamp(0.9 * state.bounces.max_error_m / claimed, 0.3, 0.9);
   }
-  throw Error(
-      ExitCode::accuracy,
-      fmt::format("multipath is off by up to {:.3g} mm in 95 % of the pixels, as estimated with the finest "
-                  "elements and the most rays: expected at most {:.3g} mm (\"bounce_error\")",
-                  1e3 * claimed, 1e3 * state.bounces.max_error_m));
+  refuse(claimed, state.bounces.max_error_m);
 }
 
 } // namespace pmdsim

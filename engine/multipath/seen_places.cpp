@@ -1,6 +1,6 @@
 #include "engine/multipath/seen_places.h"
 
-#include "engine/radiosity/surface_paint.h"
+#include "engine/surfaces/surface_paint.h"
 
 #include <cmath>
 

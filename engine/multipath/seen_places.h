@@ -4,7 +4,7 @@
 #include "engine/lens/lens.h"
 #include "engine/model/measurement.h"
 #include "engine/model/scene.h"
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,8 +4,8 @@
 
 #include "engine/model/illuminator.h"
 #include "engine/radiosity/bounce_tones.h"
-#include "engine/radiosity/facet_tree.h"
 #include "engine/radiosity/phasor.h"
+#include "engine/surfaces/facet_tree.h"
 
 #include <span>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "engine/radiosity/bounce_tones.h"
 #include "engine/radiosity/exitance.h"
-#include "engine/radiosity/hemisphere_scan.h"
+#include "engine/surfaces/hemisphere_scan.h"
 
 #include <cstdint>
 #include <span>

@@ -12,9 +12,6 @@
 
 namespace pmdsim {
 
-// The side of a facet.
-inline std::size_t face_of(std::uint32_t facet, std::uint8_t side) { return 2 * std::size_t{facet} + side; }
-
 struct FaceLight {
   std::array<Phasor, 3> corners;
   float missed = 0.0f; // |z| at the centre

@@ -1,11 +1,11 @@
 #include "engine/radiosity/radiosity.h"
 
 #include "engine/model/error.h"
-#include "engine/radiosity/contacts.h"
 #include "engine/radiosity/direct_irradiance.h"
 #include "engine/radiosity/exchange.h"
-#include "engine/radiosity/facet_tree.h"
 #include "engine/radiosity/krylov.h"
+#include "engine/surfaces/facet_tree.h"
+#include "engine/surfaces/grading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double solved_residual = 1e-5; // of what bounces; no element is known better
 constexpr std::uint32_t most_products = 40;
-constexpr int most_cuts = 3;                 // of a facet, each to half its size
+constexpr int most_facet_cuts = 3;           // of a facet, each to half its size
 constexpr std::size_t most_facets = 200'000; // that are cut
 
 // Irradiance at the places of one piece, tone by tone.
@@ -72,7 +72,7 @@ private:
   // Direct light of all facets, cut where it varies too much; against the tree of what is not cut yet.
   void light_facets() {
     const FacetTree whole(scene_, elements_);
-    cut_at_contacts(scene_, whole, elements_);
+    grade_elements(scene_, whole, elements_);
     const DirectIrradiance direct(illuminators_, elements_.origin_m,
                                   shadows_ == Shadows::automatic ? &whole : nullptr, elements_.clearance_m());
     of_elements_.resize(elements_.elements.size());
@@ -84,7 +84,7 @@ private:
     std::iota(fresh.begin(), fresh.end(), 0u);
     light(direct, fresh);
     light_small(direct);
-    for (int cut = 0; cut < most_cuts; ++cut) {
+    for (int cut = 0; cut < most_facet_cuts; ++cut) {
       const std::vector<std::uint32_t> rough = rough_facets(fresh);
       if (rough.empty() || elements_.facets.size() + 3 * rough.size() > most_facets)
         break;

@@ -8,7 +8,7 @@
 #include "engine/model/scene.h"
 #include "engine/radiosity/bounce_tones.h"
 #include "engine/radiosity/exitance.h"
-#include "engine/radiosity/hemisphere_scan.h"
+#include "engine/surfaces/hemisphere_scan.h"
 
 #include <memory>
 #include <vector>

@@ -1,10 +1,9 @@
 // What places see along lines: against shares known in closed form, against rays, and through cutouts.
 
-#include "engine/radiosity/hemisphere_scan.h"
+#include "engine/surfaces/hemisphere_scan.h"
 
-#include "engine/radiosity/exitance.h"
-#include "engine/radiosity/facet_tree.h"
-#include "engine/radiosity/surface_frame.h"
+#include "engine/surfaces/facet_tree.h"
+#include "engine/surfaces/surface_frame.h"
 #include "tests/support/random_rooms.h"
 
 #include <catch2/catch.hpp>

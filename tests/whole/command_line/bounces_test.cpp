@@ -16,8 +16,8 @@ json shipped(const std::string &name) {
   std::ifstream in(std::string(PMDSIM_SCENES "/") + name + ".json");
   json setup = json::parse(in, nullptr, true, true);
   setup["scene"] = std::string(PMDSIM_SCENES "/") + setup["scene"].get<std::string>();
-  setup["sensors"][0]["resolution"] = {8, 6};
-  setup["sensors"][0]["pixel_pitch_m"] = {900e-6, 900e-6};
+  setup["sensors"][0]["resolution"] = {16, 12};
+  setup["sensors"][0]["pixel_pitch_m"] = {450e-6, 450e-6};
   return setup;
 }
 

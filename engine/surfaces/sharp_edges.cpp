@@ -1,6 +1,6 @@
-#include "engine/radiosity/sharp_edges.h"
+#include "engine/surfaces/sharp_edges.h"
 
-#include "engine/radiosity/surface_frame.h"
+#include "engine/surfaces/surface_frame.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Coordinates about a place on a surface: x and y in it, z along its normal.
 
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <algorithm>
 #include <cmath>

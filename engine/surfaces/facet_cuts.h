@@ -1,7 +1,7 @@
 #pragma once
 // Where a straight stretch of a triangle runs from one of its facets into the next.
 
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <array>
 #include <cstdint>

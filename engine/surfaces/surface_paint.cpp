@@ -1,4 +1,4 @@
-#include "engine/radiosity/surface_paint.h"
+#include "engine/surfaces/surface_paint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 // Parts of lines over a hemisphere that lie in one facet each, and what they count.
 
-#include "engine/radiosity/hemisphere_scan.h"
-#include "engine/radiosity/surface_frame.h"
+#include "engine/surfaces/hemisphere_scan.h"
+#include "engine/surfaces/surface_frame.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // group of small triangles that face about the same way, over which it is constant.
 
 #include "engine/model/scene.h"
-#include "engine/radiosity/surface_paint.h"
+#include "engine/surfaces/surface_paint.h"
 
 #include <array>
 #include <cstdint>
@@ -52,6 +52,9 @@ struct FacetNode {
 
   bool is_leaf() const { return half == no_node; }
 };
+
+// The side of a facet, among all.
+inline std::size_t face_of(std::uint32_t facet, std::uint8_t side) { return 2 * std::size_t{facet} + side; }
 
 struct Element {
   std::array<SurfacePlace, places_of_piece> places;

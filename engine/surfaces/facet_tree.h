@@ -1,7 +1,7 @@
 #pragma once
 // Embree's tree over facets: the first that rays from a place meet, and whether the way to a place is free.
 
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <array>
 #include <cstdint>

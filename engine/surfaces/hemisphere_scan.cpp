@@ -1,8 +1,7 @@
-#include "engine/radiosity/hemisphere_scan.h"
+#include "engine/surfaces/hemisphere_scan.h"
 
-#include "engine/radiosity/exitance.h"
-#include "engine/radiosity/line_parts.h"
-#include "engine/radiosity/line_sight.h"
+#include "engine/surfaces/line_parts.h"
+#include "engine/surfaces/line_sight.h"
 
 namespace pmdsim {
 

@@ -1,4 +1,4 @@
-#include "engine/radiosity/facet_cuts.h"
+#include "engine/surfaces/facet_cuts.h"
 
 namespace pmdsim {
 

@@ -2,8 +2,8 @@
 // What is seen along one line over a hemisphere: coordinates in its half plane are x along the axis and y
 // above the surface, angles count from x.
 
-#include "engine/radiosity/hemisphere_scan.h"
-#include "engine/radiosity/surface_frame.h"
+#include "engine/surfaces/hemisphere_scan.h"
+#include "engine/surfaces/surface_frame.h"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 // what, and where one facet ends and the next begins, is known all along the line, where rays are samples of
 // it (N. Billen and P. Dutré, "Line sampling for direct illumination", Computer Graphics Forum 35, 2016).
 
-#include "engine/radiosity/facet_cuts.h"
-#include "engine/radiosity/sharp_edges.h"
+#include "engine/surfaces/facet_cuts.h"
+#include "engine/surfaces/sharp_edges.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "engine/radiosity/facet_tree.h"
+#include "engine/surfaces/facet_tree.h"
 
 #include "engine/model/error.h"
 

@@ -3,7 +3,7 @@
 // all but lies in the plane of a line comes into sight along the whole of its length from one line to the
 // next.
 
-#include "engine/radiosity/elements.h"
+#include "engine/surfaces/elements.h"
 
 #include <vector>
 
