@@ -263,7 +263,7 @@ double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tone
   constexpr std::uint32_t places_per_edge = 20;
   const glm::uvec2 samples(seen.columns(), seen.rows());
   const Gather gather(radiosity, tones);
-  std::vector<double> times(places_per_edge * places_per_edge, 0.0);
+  std::vector<double> times(std::size_t{places_per_edge} * places_per_edge, 0.0);
   tbb::parallel_for(std::size_t{0}, times.size(), [&](std::size_t i) {
     const glm::uvec2 place(i % places_per_edge, i / places_per_edge);
     const glm::uvec2 sample = (2u * place + 1u) * samples / (2u * places_per_edge);

@@ -4,6 +4,7 @@
 
 #include "engine/radiosity/phasor.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 

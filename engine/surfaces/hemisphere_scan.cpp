@@ -32,10 +32,11 @@ private:
     first_line_.resize(count);
     is_below_.resize(count);
     const float lines_per_rad = static_cast<float>(lines_) / std::numbers::pi_v<float>;
-    const float *from_x = scene_->x_m_.data(), *from_y = scene_->y_m_.data(), *from_z = scene_->z_m_.data();
-    float *to_x = x_.data(), *to_y = y_.data(), *to_z = z_.data();
-    std::int32_t *first_line = first_line_.data(), *is_below = is_below_.data();
-#pragma GCC ivdep
+    // What is written lies apart from what is read, which the compiler cannot know.
+    const float *__restrict from_x = scene_->x_m_.data(), *__restrict from_y = scene_->y_m_.data(),
+                            *__restrict from_z = scene_->z_m_.data();
+    float *__restrict to_x = x_.data(), *__restrict to_y = y_.data(), *__restrict to_z = z_.data();
+    std::int32_t *__restrict first_line = first_line_.data(), *__restrict is_below = is_below_.data();
     for (std::size_t i = 0; i < count; ++i) {
       const float dx = from_x[i] - from.x, dy = from_y[i] - from.y, dz = from_z[i] - from.z;
       const float along = y.x * dx + y.y * dy + y.z * dz, up = z.x * dx + z.y * dy + z.z * dz;
@@ -45,7 +46,8 @@ private:
       is_below[i] = up < 0.0f ? 1 : 0;
       // The plane of a line goes on below, where a vertex is as its mirror image is above.
       const float angle = angle_of(up < 0.0f ? -along : along, std::abs(up));
-      first_line[i] = static_cast<std::int32_t>(angle * lines_per_rad + 0.5f);
+      // Lines lie half a step after whole ones.
+      first_line[i] = static_cast<std::int32_t>(0.5f * (2.0f * angle * lines_per_rad + 1.0f));
     }
   }
 

@@ -55,12 +55,15 @@ public:
     for (auto *values : {&sightings.u, &sightings.v, &sightings.length_m, &sightings.share})
       values->resize(count_);
     sightings.face.assign(face_.begin(), face_.begin() + static_cast<std::ptrdiff_t>(count_));
-    const float *low_x = low_x_.data(), *low_y = low_y_.data(), *high_x = high_x_.data(),
-                *high_y = high_y_.data(), *low_u = low_u_.data(), *low_v = low_v_.data(),
-                *high_u = high_u_.data(), *high_v = high_v_.data(), *weights = weight_.data();
-    float *u = sightings.u.data(), *v = sightings.v.data(), *length_m = sightings.length_m.data(),
-          *share = sightings.share.data();
-#pragma GCC ivdep
+    // What is written lies apart from what is read, which the compiler cannot know.
+    const float *__restrict low_x = low_x_.data(), *__restrict low_y = low_y_.data(),
+                            *__restrict high_x = high_x_.data(), *__restrict high_y = high_y_.data(),
+                            *__restrict low_u = low_u_.data(), *__restrict low_v = low_v_.data(),
+                            *__restrict high_u = high_u_.data(), *__restrict high_v = high_v_.data(),
+                            *__restrict weights = weight_.data();
+    float *__restrict u = sightings.u.data(), *__restrict v = sightings.v.data(),
+                      *__restrict length_m = sightings.length_m.data(),
+                      *__restrict share = sightings.share.data();
     for (std::size_t i = 0; i < count_; ++i) {
       const float lx = low_x[i], ly = low_y[i], hx = high_x[i], hy = high_y[i];
       const float low_m = std::sqrt(lx * lx + ly * ly), high_m = std::sqrt(hx * hx + hy * hy);
