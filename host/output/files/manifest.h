@@ -86,7 +86,7 @@ nlohmann::ordered_json accuracy_json(const AccuracyReport &report);
 // A frame's mode, then the keys of its report.
 nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 
-// elements, rays, products, claimed_m (null where nothing is claimed).
+// elements, lines, products, claimed_m (null where nothing is claimed).
 nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
 // {"NAME": milliseconds, ...}

@@ -120,12 +120,12 @@ TEST_CASE("a setup whose light does not bounce takes no paths") {
 TEST_CASE("what bounces took is told with its error") {
   BouncesReport report{2504, 100'000, 12, 8.2e-4};
   CHECK(bounces_text(report) == "multipath error at most 0.82 mm in 95 % of the pixels, estimated, from 2504 "
-                                "elements and 100000 rays");
+                                "elements and 100000 lines");
   CHECK(bounces_json(report) ==
-        nlohmann::ordered_json::parse(R"({"elements": 2504, "rays": 100000, "products": 12,
+        nlohmann::ordered_json::parse(R"({"elements": 2504, "lines": 100000, "products": 12,
                                                 "claimed_m": 8.2e-4})"));
   report.claimed_m = std::nan("");
-  CHECK(bounces_text(report) == "multipath from 2504 elements and 100000 rays");
+  CHECK(bounces_text(report) == "multipath from 2504 elements and 100000 lines");
   CHECK(json::parse(json_text(bounces_json(report)))["claimed_m"].is_null());
 }
 
