@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -258,12 +259,13 @@ private:
 
 } // namespace
 
-double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones, const SeenPlaces &seen,
-                 const ImageAim &aim, double quantile) {
+std::vector<float> times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones,
+                             const SeenPlaces &seen, const ImageAim &aim) {
   constexpr std::uint32_t places_per_edge = 20;
   const glm::uvec2 samples(seen.columns(), seen.rows());
   const Gather gather(radiosity, tones);
-  std::vector<double> times(std::size_t{places_per_edge} * places_per_edge, 0.0);
+  std::vector<float> times(std::size_t{places_per_edge} * places_per_edge,
+                           std::numeric_limits<float>::quiet_NaN());
   tbb::parallel_for(std::size_t{0}, times.size(), [&](std::size_t i) {
     const glm::uvec2 place(i % places_per_edge, i / places_per_edge);
     const glm::uvec2 sample = (2u * place + 1u) * samples / (2u * places_per_edge);
@@ -271,10 +273,7 @@ double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tone
       times[i] = gather.times_off(seen_place->place, turn_of(i),
                                   direct_at(tones, seen, aim, sample, *seen_place), aim.part);
   });
-  const auto at =
-      times.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(times.size() - 1));
-  std::ranges::nth_element(times, at);
-  return *at;
+  return times;
 }
 
 BouncedImage gather_image(const Radiosity &radiosity, const std::vector<BounceTone> &tones,

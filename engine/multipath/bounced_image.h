@@ -29,10 +29,10 @@ struct ImageAim {
   std::vector<std::vector<Phasor>> direct;
 };
 
-// How many times its part of a pixel's light elements are off by, at the place that the share `quantile` of
-// some of the frame's places does not exceed, of the tone where that is most.
-double times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones, const SeenPlaces &seen,
-                 const ImageAim &aim, double quantile);
+// How many times its part of a pixel's light elements are off by, of the tone where that is most, at 400
+// places all over the frame; NaN where these see nothing.
+std::vector<float> times_off(const Radiosity &radiosity, const std::vector<BounceTone> &tones,
+                             const SeenPlaces &seen, const ImageAim &aim);
 
 BouncedImage gather_image(const Radiosity &radiosity, const std::vector<BounceTone> &tones,
                           const SeenPlaces &seen, const glm::uvec2 &resolution, const ImageAim &aim,

@@ -98,8 +98,8 @@ std::size_t Gather::at(const SurfacePlace &place, double turn, const GatherAim &
   return first_lines + lines;
 }
 
-double Gather::times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
-                         const std::vector<float> &part) const {
+float Gather::times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
+                        const std::vector<float> &part) const {
   std::vector<Gathered> sums;
   sum(place, turn, first_lines, sums);
   float most = 0.0f;
@@ -108,7 +108,7 @@ double Gather::times_off(const SurfacePlace &place, double turn, const std::vect
     most = std::max(most,
                     std::sqrt(2.0f * sums[t].of_elements) / std::max(all, std::numeric_limits<float>::min()));
   }
-  return static_cast<double>(most);
+  return most;
 }
 
 void Gather::sum(const SurfacePlace &place, double turn, std::uint32_t lines,

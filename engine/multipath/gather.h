@@ -35,8 +35,8 @@ public:
 
   // How many times its part of all that arrives, diodes' light and bounced, elements may be off by there: two
   // standard deviations of the half of it that turns the phase, of the tone where that is most.
-  double times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
-                   const std::vector<float> &part) const;
+  float times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
+                  const std::vector<float> &part) const;
 
 private:
   void sum(const SurfacePlace &place, double turn, std::uint32_t lines, std::vector<Gathered> &sums) const;

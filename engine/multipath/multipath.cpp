@@ -119,7 +119,7 @@ struct Multipath::State {
     Solved *found = &solution(of_elements * error_m);
     while (true) {
       const SeenPlaces seen(scene, sensor, measurement, found->radiosity.elements.origin_m);
-      const double times = times_off(found->radiosity, tones.tones, seen, aim, promised);
+      const double times = quantile(times_off(found->radiosity, tones.tones, seen, aim), promised);
       if (times <= most_of_elements)
         return *found;
       const double finer_m = found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.8);

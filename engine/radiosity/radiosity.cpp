@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <tbb/parallel_for.h>
 
 namespace pmdsim {
@@ -75,15 +76,10 @@ private:
     grade_elements(scene_, whole, elements_);
     const DirectIrradiance direct(illuminators_, elements_.origin_m,
                                   shadows_ == Shadows::automatic ? &whole : nullptr, elements_.clearance_m());
-    of_elements_.resize(elements_.elements.size());
-    tbb::parallel_for(std::size_t{0}, of_elements_.size(), [&](std::size_t i) {
-      of_elements_[i] = light_of(direct, elements_.elements[i].places);
-    });
     of_facets_.resize(elements_.facets.size());
     std::vector<std::uint32_t> fresh(elements_.facets.size());
     std::iota(fresh.begin(), fresh.end(), 0u);
     light(direct, fresh);
-    light_small(direct);
     for (int cut = 0; cut < most_facet_cuts; ++cut) {
       const std::vector<std::uint32_t> rough = rough_facets(fresh);
       if (rough.empty() || elements_.facets.size() + 3 * rough.size() > most_facets)
@@ -98,49 +94,31 @@ private:
     }
   }
 
-  PieceLight light_of(const DirectIrradiance &direct,
-                      const std::array<SurfacePlace, places_of_piece> &places) const {
+  // At the places of a piece, or at one that stands for all of them.
+  PieceLight light_of(const DirectIrradiance &direct, std::span<const SurfacePlace> places) const {
     PieceLight light(tones_.size());
     std::vector<Phasor> of_place(tones_.size());
     for (std::size_t i = 0; i < places_of_piece; ++i) {
-      direct.at(places[i], tones_, of_place);
+      if (i < places.size())
+        direct.at(places[i], tones_, of_place);
       for (std::size_t t = 0; t < tones_.size(); ++t)
         light[t][i] = of_place[t];
     }
     return light;
   }
 
-  // Small facets by one place each, where they are not too many; else by their group's.
-  void light_small(const DirectIrradiance &direct) {
-    tbb::parallel_for(std::size_t{0}, elements_.facets.size(), [&](std::size_t i) {
-      const Facet &facet = elements_.facets[i];
-      for (std::size_t side = 0; side < 2 && facet.whole; ++side)
-        if (facet.elements[side] != no_element) {
-          std::vector<Phasor> at_centre(tones_.size());
-          direct.at(places_of(facet, side)[3], tones_, at_centre);
-          PieceLight &light = of_facets_[i][side];
-          light.resize(tones_.size());
-          for (std::size_t t = 0; t < tones_.size(); ++t)
-            light[t].fill(at_centre[t]);
-        }
-    });
-  }
-
+  // Small facets by their centres alone.
   void light(const DirectIrradiance &direct, const std::vector<std::uint32_t> &facets) {
     tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
       const Facet &facet = elements_.facets[facets[i]];
-      for (std::size_t side = 0; side < 2 && !facet.whole; ++side)
-        if (facet.elements[side] != no_element)
-          of_facets_[facets[i]][side] = light_of(direct, places_of(facet, side));
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (facet.elements[side] == no_element)
+          continue;
+        auto places = places_of(facet, side);
+        of_facets_[facets[i]][side] =
+            light_of(direct, facet.whole ? std::span(&places[3], 1) : std::span(places));
+      }
     });
-  }
-
-  // What a side of a facet is lit by directly.
-  const PieceLight &direct_light(std::size_t facet, std::size_t side) const {
-    return of_facets_[facet][side];
-  }
-  static const std::array<glm::vec3, 3> &direct_weights(const Facet &facet) {
-    return facet.whole ? facet.in_element : own_weights;
   }
 
   double light_of_all() const {
@@ -149,7 +127,7 @@ private:
       for (std::size_t side = 0; side < 2; ++side)
         if (elements_.facets[i].elements[side] != no_element)
           sum += elements_.facets[i].area_m2() *
-                 static_cast<double>(elements_.facets[i].reflectivity * abs(direct_light(i, side)[0][3]));
+                 static_cast<double>(elements_.facets[i].reflectivity * abs(of_facets_[i][side][0][3]));
     return sum;
   }
 
@@ -161,8 +139,8 @@ private:
       double missed = 0.0;
       for (std::size_t side = 0; side < 2; ++side)
         if (facet.elements[side] != no_element)
-          missed = std::max(
-              missed, static_cast<double>(abs(linear_of(direct_light(i, side)[0], own_weights).missed)));
+          missed = std::max(missed,
+                            static_cast<double>(abs(linear_of(of_facets_[i][side][0], own_weights).missed)));
       if (!facet.whole && missed * facet.area_m2() * static_cast<double>(facet.reflectivity) > most)
         rough.push_back(i);
     }
@@ -172,9 +150,9 @@ private:
   Exitance direct_exitance() const {
     Exitance exitance(elements_.facets.size(), tones_.size());
     for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
-      const PieceLight &light = direct_light(face / 2, side);
+      const PieceLight &light = of_facets_[face / 2][side];
       for (std::size_t t = 0; t < tones_.size(); ++t)
-        add(exitance.of(face, t), facet.reflectivity, linear_of(light[t], direct_weights(facet)));
+        add(exitance.of(face, t), facet.reflectivity, linear_of(light[t], own_weights));
     });
     return exitance;
   }
@@ -312,8 +290,7 @@ private:
   const std::vector<BounceTone> &tones_;
   const Fineness fineness_;
   Elements elements_;
-  std::vector<PieceLight> of_elements_;              // direct
-  std::vector<std::array<PieceLight, 2>> of_facets_; // likewise, of those that are not whole
+  std::vector<std::array<PieceLight, 2>> of_facets_; // direct
 };
 
 } // namespace

@@ -35,7 +35,7 @@ struct Facet {
   std::array<std::uint32_t, 2> elements{no_element, no_element};
   // How much the Gauss points of these elements count at each corner.
   std::array<glm::vec3, 3> in_element{};
-  bool whole = false;           // a small triangle: its direct light is its element's
+  bool whole = false;           // a small triangle, one of its element's group
   std::uint32_t node = no_node; // its leaf in Elements::nodes
 
   double area_m2() const {

@@ -48,14 +48,13 @@ public:
 
 private:
   Surroundings around(const SurfacePlace &place) const {
-    constexpr double golden = 0.61803398874989484820;
     const SurfaceFrame frame(place, 0.0);
     Surroundings found{0.0, false};
     for (std::size_t first = 0; first < directions; first += packet_rays) {
       RayPacket packet;
       for (std::size_t i = 0; i < packet_rays; ++i) {
         const double number = static_cast<double>(first + i), part = (number + 0.5) / directions,
-                     angle = 2.0 * std::numbers::pi * golden * number;
+                     angle = 2.0 * std::numbers::pi * std::numbers::phi * number;
         packet.directions[i] =
             glm::vec3(std::sqrt(part) * (std::cos(angle) * frame.x + std::sin(angle) * frame.y) +
                       std::sqrt(1.0 - part) * frame.z);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace pmdsim {
@@ -52,7 +53,7 @@ private:
 // A turn of lines for the place with that number, far from those of its neighbours (the golden ratio's
 // sequence).
 inline double turn_of(std::uint64_t number) {
-  const double turns = 0.61803398874989484820 * static_cast<double>(number % 1'000'003);
+  const double turns = std::numbers::phi * static_cast<double>(number % 1'000'003);
   return turns - std::floor(turns);
 }
 

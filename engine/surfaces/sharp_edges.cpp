@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 
 namespace pmdsim {
 namespace {
@@ -66,13 +65,12 @@ SharpEdges::SharpEdges(const Elements &elements, const Scene &scene) {
 }
 
 double SharpEdges::best_turn(const SurfacePlace &place, double turn, std::uint32_t lines) const {
-  constexpr double golden = 0.61803398874989484820;
   const SurfaceFrame frame(place, 0.0);
   const glm::vec3 x(frame.x), y(frame.y), z(frame.z), from(frame.from_m);
   std::array<double, turns> tried;
   std::array<glm::vec2, turns> axes;
   for (std::size_t k = 0; k < turns; ++k) {
-    tried[k] = turn + golden * static_cast<double>(k);
+    tried[k] = turn + std::numbers::phi * static_cast<double>(k);
     tried[k] -= std::floor(tried[k]);
     axes[k] = glm::vec2(std::cos(std::numbers::pi * tried[k]), std::sin(std::numbers::pi * tried[k]));
   }

@@ -34,7 +34,7 @@ std::vector<double> shares_by_rays(const Scene &scene, const Elements &elements,
     RayPacket packet;
     for (std::size_t i = 0; i < packet_rays; ++i) {
       const double number = static_cast<double>(first + i), part = (number + 0.5) / rays,
-                   angle = 2.0 * std::numbers::pi * 0.61803398874989484820 * number;
+                   angle = 2.0 * std::numbers::pi * std::numbers::phi * number;
       packet.directions[i] =
           glm::vec3(std::sqrt(part) * (std::cos(angle) * frame.x + std::sin(angle) * frame.y) +
                     std::sqrt(1.0 - part) * frame.z);
