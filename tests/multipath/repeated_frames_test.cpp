@@ -26,7 +26,7 @@ bool same(Measurement &a, Measurement &b) {
 }
 
 Room small_room(std::uint32_t samples = 1) {
-  Room room = random_room(9);
+  Room room = random_room(2);
   room.sensor.samples = samples;
   return room;
 }

@@ -27,7 +27,7 @@ std::vector<double> shares_of(const Scene &scene, const Elements &elements, cons
 // The same by rays.
 std::vector<double> shares_by_rays(const Scene &scene, const Elements &elements, const FacetTree &tree,
                                    const SurfacePlace &place) {
-  constexpr std::size_t rays = std::size_t{1} << 17;
+  constexpr std::size_t rays = std::size_t{1} << 15;
   const SurfaceFrame frame(place, 0.0);
   std::vector<double> shares(scene.objects.size());
   for (std::size_t first = 0; first < rays; first += packet_rays) {

@@ -29,7 +29,7 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
   for (const double reflectivity : {0.3, 0.8}) {
     const Radiosity solved =
         solve_radiosity(closed_box(reflectivity), {lamp()}, Shadows::automatic, {all_bounces}, slow,
-                        {.element_m = 0.15, .lines = 16, .facet_part = 2e-5});
+                        {.element_m = 0.25, .lines = 16, .facet_part = 2e-5});
     double absorbed_w = 0.0;
     for (std::size_t i = 0; i < solved.elements.facets.size(); ++i) {
       const FaceLight &light = solved.exitance.of(2 * i, 0);
