@@ -201,7 +201,7 @@ int main(int count, char **arguments) {
   simulator.prepare(view.scene, sensor, view.illuminators, Backscatter::lambert, Shadows::automatic, {},
                     bounces);
   if (is_checked)
-    check(view, sensor, bounces, 3.0);
+    check(view, sensor, bounces, 2.0);
   for (int round = 0; round < 2; ++round) {
     const Measurement frame = simulator.measure();
     std::string passes;
