@@ -1,5 +1,7 @@
 #include "engine/multipath/gather.h"
 
+#include "engine/radiosity/line_light.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -84,6 +86,7 @@ Gather::Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones)
   for (const Facet &facet : radiosity.elements.facets)
     for (const std::uint32_t element : facet.elements)
       element_of_face_.push_back(element);
+  element_of_face_.push_back(no_element);
 }
 
 std::size_t Gather::at(const SurfacePlace &place, double turn, const GatherAim &aim,
@@ -113,29 +116,34 @@ float Gather::times_off(const SurfacePlace &place, double turn, const std::vecto
 
 void Gather::sum(const SurfacePlace &place, double turn, std::uint32_t lines,
                  std::vector<Gathered> &sums) const {
-  thread_local Sightings seen;
-  thread_local ElementErrors missed;
-  missed.resize(radiosity_.elements.elements.size());
-  radiosity_.scan->at(place, turn, lines, seen);
-  sums.assign(turns_per_m_.size(), {});
-  for (std::size_t t = 0; t < turns_per_m_.size(); ++t) {
-    Differences differences;
-    std::size_t i = 0;
-    for (const std::uint32_t end : seen.line_ends) {
-      Phasor of_line;
-      for (; i < end; ++i) {
-        const FaceLight &leaving = radiosity_.exitance.of(seen.face[i], t);
-        const Phasor way =
-            seen.share[i] * unit_phasor(turns_per_m_[t] * static_cast<double>(seen.length_m[i]));
-        of_line += way * pmdsim::at(leaving.corners, seen.u[i], seen.v[i]);
-        missed.add(element_of_face_[seen.face[i]], seen.share[i] * leaving.missed);
+  thread_local std::vector<Differences> differences;
+  thread_local std::vector<ElementErrors> missed;
+  const std::size_t tones = turns_per_m_.size();
+  missed.resize(tones);
+  for (ElementErrors &of_tone : missed)
+    of_tone.resize(radiosity_.elements.elements.size());
+  differences.assign(tones, {});
+  sums.assign(tones, {});
+  const LineLightLoops &loops = line_light_loops();
+  radiosity_.scan->at(place, turn, lines, [&](const SeenLine &line) {
+    LineWays ways;
+    for (std::size_t t = 0; t < tones; ++t) {
+      const Exitance::OfFaces &faces = radiosity_.exitance.of_tone(t);
+      loops.find_ways(line, turns_per_m_[t], ways);
+      const Phasor arrives = loops.add_light(line, ways, faces.data()).arrives;
+      differences[t].add(arrives);
+      sums[t].irradiance += arrives;
+      for (std::size_t i = 0; i < bins_of_line; ++i) {
+        const auto face = static_cast<std::size_t>(line.face[i]);
+        if (const std::uint32_t element = element_of_face_[face]; element != no_element)
+          missed[t].add(element, line.share[i] * faces[face].missed);
       }
-      differences.add(of_line);
-      sums[t].irradiance += of_line;
     }
-    sums[t].of_lines = differences.variance();
+  });
+  for (std::size_t t = 0; t < tones; ++t) {
+    sums[t].of_lines = differences[t].variance();
     const float of_all = by_more_than_chance * radiosity_.off[t];
-    sums[t].of_elements = missed.variance() + of_all * of_all * norm(sums[t].irradiance);
+    sums[t].of_elements = missed[t].variance() + of_all * of_all * norm(sums[t].irradiance);
   }
 }
 

@@ -42,7 +42,7 @@ private:
   void sum(const SurfacePlace &place, double turn, std::uint32_t lines, std::vector<Gathered> &sums) const;
 
   const Radiosity &radiosity_;
-  std::vector<std::uint32_t> element_of_face_;
+  std::vector<std::uint32_t> element_of_face_; // and no_element where nothing is seen
   std::vector<double> turns_per_m_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// How light bounces between elements: what each place of each element sees of the others, along lines. All
-// tones and all bounces share it.
+// How light bounces between elements: what arrives at each place of each element of what leaves the others,
+// tone by tone. All bounces share it.
 
 #include "engine/radiosity/bounce_tones.h"
 #include "engine/radiosity/exitance.h"
@@ -14,23 +14,30 @@ namespace pmdsim {
 
 class Exchange {
 public:
-  // Looks along so many lines from each place.
-  Exchange(const Elements &elements, const HemisphereScan &scan, std::uint32_t lines);
+  // Looks along so many lines from each place. What arrives there directly from faces, of `direct`'s tones in
+  // that order, is found on the way.
+  Exchange(const Elements &elements, const HemisphereScan &scan, std::uint32_t lines,
+           const std::vector<BounceTone> &tones, const Exitance &direct);
 
-  // Turns the following products into those of a tone.
-  void set_tone(const BounceTone &tone);
-  // What arrives at the places of all elements, in order, of light that leaves faces, whose values at the
-  // corners are given: W/m^2 both.
-  void arrive(std::span<const std::array<Phasor, 3>> faces, std::span<Phasor> places) const;
+  // W/m^2, at the places of all elements in order.
+  const std::vector<Phasor> &first(std::size_t tone) const { return tones_[tone].first; }
+
+  // What arrives at them of the light of a tone that arrives on elements, each of its faces scattering the part
+  // that it reflects. It is given as it is on the elements' triangles.
+  void arrive(std::size_t tone, std::span<const TriangleLight> elements, std::span<Phasor> places) const;
 
 private:
-  struct Meeting {
-    std::uint32_t face;
-    float u, v, length_m, share;
-    Phasor way; // of the tone: the share, turned by the length
+  // How much each coefficient of an element's light counts at a place.
+  struct Entry {
+    std::uint32_t element;
+    TriangleLight weights;
+  };
+  struct OfTone {
+    std::vector<Phasor> first;
+    std::vector<std::vector<Entry>> places;
   };
 
-  std::vector<std::vector<Meeting>> of_places_;
+  std::vector<OfTone> tones_;
 };
 
 } // namespace pmdsim

@@ -1,38 +1,26 @@
 #pragma once
 // The light that leaves each side of each facet, W/m^2, for every tone: rho times the irradiance, direct and
-// bounced, linear over the facet; and by how much
-// that misses what was found at its centre.
+// bounced, linear over the facet; and by how much that misses what was found at its centre.
 
-#include "engine/radiosity/phasor.h"
+#include "engine/radiosity/face_light.h"
 
-#include <array>
-#include <cstdint>
-#include <span>
+#include <cstddef>
 #include <vector>
 
 namespace pmdsim {
 
-struct FaceLight {
-  std::array<Phasor, 3> corners;
-  float missed = 0.0f; // |z| at the centre
-};
-
 class Exitance {
 public:
-  Exitance(std::size_t facets, std::size_t tones) : tones_(tones), light_(2 * facets * tones) {}
+  Exitance(std::size_t facets, std::size_t tones) : of_tones_(tones, OfFaces(2 * facets + 1)) {}
 
-  std::size_t tones() const { return tones_; }
-  FaceLight &of(std::size_t face, std::size_t tone) { return light_[face * tones_ + tone]; }
-  const FaceLight &of(std::size_t face, std::size_t tone) const { return light_[face * tones_ + tone]; }
+  // The faces of a tone; those that nothing leaves are 0, as is one more behind the last.
+  using OfFaces = std::vector<FaceLight>;
+  const OfFaces &of_tone(std::size_t tone) const { return of_tones_[tone]; }
+  FaceLight &of(std::size_t face, std::size_t tone) { return of_tones_[tone][face]; }
+  const FaceLight &of(std::size_t face, std::size_t tone) const { return of_tones_[tone][face]; }
 
 private:
-  std::size_t tones_;
-  std::vector<FaceLight> light_; // dark sides are 0
+  std::vector<OfFaces> of_tones_;
 };
-
-// At the place of a facet with those weights of its second and third corner.
-inline Phasor at(const std::array<Phasor, 3> &corners, float u, float v) {
-  return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
-}
 
 } // namespace pmdsim

@@ -43,6 +43,24 @@ constexpr std::array<glm::vec3, 3> own_weights{glm::vec3{5.0f, -1.0f, -1.0f} / 3
                                                glm::vec3{-1.0f, 5.0f, -1.0f} / 3.0f,
                                                glm::vec3{-1.0f, -1.0f, 5.0f} / 3.0f};
 
+// From a linear function's values at the corners of a facet to it as TriangleLight has it, by rows.
+glm::dmat3 triangle_from_corners(const Facet &facet) {
+  glm::dmat3 corner_from_triangle; // its columns are rows
+  for (glm::length_t k = 0; k < 3; ++k) {
+    const CornerWeights &corner = facet.in_triangle[static_cast<std::size_t>(k)];
+    corner_from_triangle[k] = {1.0, corner.y, corner.z};
+  }
+  return glm::transpose(glm::inverse(glm::transpose(corner_from_triangle)));
+}
+
+// By rows: from values at three places.
+TriangleLight times(const glm::mat3 &rows, const Phasor *values) {
+  const auto row = [&](glm::length_t i) {
+    return rows[i].x * values[0] + rows[i].y * values[1] + rows[i].z * values[2];
+  };
+  return {row(0), row(1), row(2)};
+}
+
 class Solver {
 public:
   Solver(const Scene &scene, const std::vector<Illuminator> &illuminators, Shadows shadows,
@@ -58,12 +76,13 @@ public:
     std::size_t lines = 0;
     std::uint32_t products = 0;
     if (bounces.count > 1) {
-      Exchange exchange(elements_, *scan, fineness_.lines);
+      find_shapes();
+      const Exchange exchange(elements_, *scan, fineness_.lines, tones_, exitance);
       lines = elements_.elements.size() * places_of_piece * fineness_.lines;
       for (std::size_t t = 0; t < tones_.size(); ++t)
         products += add_bounces(exchange, bounces, t, exitance);
       if (bounces.count == all_bounces)
-        refuse_divergence(exchange);
+        refuse_divergence(*scan);
     }
     std::vector<float> off = off_by(direct, sums_of(exitance));
     return {std::move(elements_), std::move(scan), std::move(exitance), std::move(off), lines, products};
@@ -152,7 +171,7 @@ private:
     for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
       const PieceLight &light = of_facets_[face / 2][side];
       for (std::size_t t = 0; t < tones_.size(); ++t)
-        add(exitance.of(face, t), facet.reflectivity, linear_of(light[t], own_weights));
+        add(exitance.of(face, t), facet, linear_of(light[t], own_weights));
     });
     return exitance;
   }
@@ -169,7 +188,7 @@ private:
         const FaceLight &light = exitance.of(face, t);
         const double area_m2 = elements_.facets[face / 2].area_m2(),
                      missed_w = area_m2 * static_cast<double>(light.missed);
-        sums[t].light_w += area_m2 * static_cast<double>(abs(at(light.corners, 1.0f / 3.0f, 1.0f / 3.0f)));
+        sums[t].light_w += area_m2 * static_cast<double>(abs(light_at_centre(face, light)));
         sums[t].missed_w += missed_w * missed_w;
       }
     for (Sums &of_tone : sums)
@@ -187,10 +206,17 @@ private:
     return off;
   }
 
-  static void add(FaceLight &to, float reflectivity, const Linear &irradiance) {
-    for (std::size_t k = 0; k < 3; ++k)
-      to.corners[k] += reflectivity * irradiance.corners[k];
-    to.missed = std::hypot(to.missed, reflectivity * abs(irradiance.missed));
+  Phasor light_at_centre(std::size_t face, const FaceLight &light) const {
+    const auto &corners = elements_.facets[face / 2].in_triangle;
+    const CornerWeights centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+    return light_at(light.leaving, static_cast<float>(centre.y), static_cast<float>(centre.z));
+  }
+
+  // What a facet sends of light that arrives on it.
+  static void add(FaceLight &to, const Facet &facet, const Linear &irradiance) {
+    to.leaving +=
+        facet.reflectivity * times(glm::mat3(triangle_from_corners(facet)), irradiance.corners.data());
+    to.missed = std::hypot(to.missed, facet.reflectivity * abs(irradiance.missed));
   }
 
   template <class Visit>
@@ -202,74 +228,78 @@ private:
     });
   }
 
-  using Faces = std::vector<std::array<Phasor, 3>>;
-
-  static std::array<Phasor, places_of_piece> of_element(const std::vector<Phasor> &places,
-                                                        std::uint32_t element) {
-    std::array<Phasor, places_of_piece> own;
-    std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(places_of_piece * element), places_of_piece,
-                own.begin());
-    return own;
+  // How the light on an element follows from that at its Gauss points; any of its facets tells it.
+  void find_shapes() {
+    shapes_.resize(elements_.elements.size());
+    for (const Facet &facet : elements_.facets) {
+      const glm::dmat3 rows = triangle_from_corners(facet);
+      glm::mat3 shape(0.0f);
+      for (glm::length_t i = 0; i < 3; ++i)
+        for (glm::length_t k = 0; k < 3; ++k)
+          shape[i] += static_cast<float>(rows[i][k]) * facet.in_element[static_cast<std::size_t>(k)];
+      for (const std::uint32_t element : facet.elements)
+        if (element != no_element)
+          shapes_[element] = shape;
+    }
   }
 
-  // What leaves faces, of the light that arrives at the places of elements.
-  Faces reflected(const std::vector<Phasor> &places) const {
-    Faces faces(2 * elements_.facets.size());
-    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
-      FaceLight light{};
-      add(light, facet.reflectivity, linear_of(of_element(places, facet.elements[side]), facet.in_element));
-      faces[face] = light.corners;
-    });
-    return faces;
+  // Light that arrives at the places of elements, all over these.
+  std::vector<TriangleLight> spread(const std::vector<Phasor> &places) const {
+    std::vector<TriangleLight> light(shapes_.size());
+    for (std::size_t i = 0; i < light.size(); ++i)
+      light[i] = times(shapes_[i], &places[places_of_piece * i]);
+    return light;
   }
 
-  std::vector<Phasor> arriving(const Exchange &exchange, const Faces &faces) const {
-    std::vector<Phasor> places(places_of_piece * elements_.elements.size());
-    exchange.arrive(faces, places);
-    return places;
+  // The light of a tone at the places of elements, after one bounce more.
+  std::vector<Phasor> bounced(const Exchange &exchange, std::size_t tone,
+                              const std::vector<Phasor> &places) const {
+    std::vector<Phasor> next(places.size());
+    exchange.arrive(tone, spread(places), next);
+    return next;
   }
 
   // Adds to the exitance of a tone what has bounced; returns the number of products.
-  std::uint32_t add_bounces(Exchange &exchange, const Bounces &bounces, std::size_t tone,
+  std::uint32_t add_bounces(const Exchange &exchange, const Bounces &bounces, std::size_t tone,
                             Exitance &exitance) const {
-    exchange.set_tone(tones_[tone]);
-    Faces direct(2 * elements_.facets.size());
-    for (std::size_t face = 0; face < direct.size(); ++face)
-      direct[face] = exitance.of(face, tone).corners;
-    const std::vector<Phasor> first = arriving(exchange, direct);
-    const auto bounce = [&](const std::vector<Phasor> &places) {
-      return arriving(exchange, reflected(places));
-    };
-    KrylovSolution bounced{first, 1, 0.0};
+    const std::vector<Phasor> &first = exchange.first(tone);
+    const auto bounce = [&](const std::vector<Phasor> &places) { return bounced(exchange, tone, places); };
+    KrylovSolution sum{first, 1, 0.0};
     if (bounces.count == all_bounces) {
-      bounced = solve_series(first, bounce, solved_residual, most_products);
+      sum = solve_series(first, bounce, solved_residual, most_products);
     } else {
       std::vector<Phasor> last = first;
-      for (std::uint32_t n = 2; n < bounces.count; ++n, ++bounced.products) {
+      for (std::uint32_t n = 2; n < bounces.count; ++n, ++sum.products) {
         last = bounce(last);
         for (std::size_t i = 0; i < last.size(); ++i)
-          bounced.x[i] += last[i];
+          sum.x[i] += last[i];
       }
     }
+    const std::vector<TriangleLight> light = spread(sum.x);
     for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
-      add(exitance.of(face, tone), facet.reflectivity,
-          linear_of(of_element(bounced.x, facet.elements[side]), facet.in_element));
+      const std::size_t element = facet.elements[side];
+      const Phasor *places = &sum.x[places_of_piece * element];
+      const Phasor missed = places[3] - (1.0f / 3.0f) * (places[0] + places[1] + places[2]);
+      FaceLight &to = exitance.of(face, tone);
+      to.leaving += facet.reflectivity * light[element];
+      to.missed = std::hypot(to.missed, facet.reflectivity * abs(missed));
     });
-    return bounced.products;
+    return sum.products;
   }
 
   // At rest, without phase, light that neither leaves the scene nor is absorbed adds up without end.
-  void refuse_divergence(Exchange &exchange) const {
+  void refuse_divergence(const HemisphereScan &scan) const {
     constexpr float harmless = 0.99f;
     constexpr double stays = 1.0 - 1e-4;
     if (std::ranges::none_of(elements_.facets,
                              [](const Facet &facet) { return facet.reflectivity > harmless; }))
       return;
-    exchange.set_tone({.hz = 0.0, .harmonic = 1, .frequency = 0, .relative = 1.0});
+    const Exchange exchange(elements_, scan, fineness_.lines, {{0.0, 1, 0, 1.0}},
+                            Exitance(elements_.facets.size(), 1));
     std::vector<Phasor> places(places_of_piece * elements_.elements.size(), Phasor{1.0f, 0.0f});
     double ratio = 0.0, before = 1.0;
     for (int i = 0; i < 60; ++i) {
-      places = arriving(exchange, reflected(places));
+      places = bounced(exchange, 0, places);
       float most = 0.0f;
       for (const Phasor &place : places)
         most = std::max(most, abs(place));
@@ -291,6 +321,7 @@ private:
   const Fineness fineness_;
   Elements elements_;
   std::vector<std::array<PieceLight, 2>> of_facets_; // direct
+  std::vector<glm::mat3> shapes_;                    // of elements, by rows
 };
 
 } // namespace
