@@ -8,6 +8,37 @@
 #include <utility>
 
 namespace pmdsim {
+
+// What the elements in sight are off by: each as it is found to be at its centre, all of it alike, and
+// independent of others.
+class ElementErrors {
+public:
+  void resize(std::size_t elements) { off_.resize(elements); }
+
+  void add(std::uint32_t element, float off) {
+    if (off_[element] == 0.0f)
+      touched_.push_back(element);
+    off_[element] += off;
+  }
+  // And starts again.
+  float variance() {
+    // The mean of three places is off by a third of the variance of one; their difference from a fourth, which
+    // is what is known, has four thirds of it.
+    constexpr float variance_of_centre = 0.25f;
+    float sum = 0.0f;
+    for (const std::uint32_t element : touched_) {
+      const float off = std::exchange(off_[element], 0.0f);
+      sum += off * off;
+    }
+    touched_.clear();
+    return variance_of_centre * sum;
+  }
+
+private:
+  std::vector<float> off_; // 0 but for those touched
+  std::vector<std::uint32_t> touched_;
+};
+
 namespace {
 
 constexpr std::uint32_t first_lines = 16, most_lines = 256;
@@ -15,10 +46,6 @@ constexpr std::uint32_t first_lines = 16, most_lines = 256;
 // almost without an error, and what jumps or bends shows in them. Measured over places of boxes, rooms and
 // meshes the variance is 1/80 to 1/200 of their squares' sum, and falls with the cube of the number of lines.
 constexpr float variance_of_differences = 1.0f / 80.0f;
-
-// The mean of three places is off by a third of the variance of one; their difference from a fourth, which is
-// what is known, has four thirds of it.
-constexpr float variance_of_centre = 0.25f;
 
 // Radiosity::off takes facets to be off by chance. Beside frames with finer elements it is half of what is
 // found.
@@ -51,33 +78,6 @@ private:
   float sum_ = 0.0f;
 };
 
-// What the elements in sight are off by: each as it is found to be at its centre, all of it alike, and
-// independent of others.
-class ElementErrors {
-public:
-  void resize(std::size_t elements) { off_.resize(elements); }
-
-  void add(std::uint32_t element, float off) {
-    if (off_[element] == 0.0f)
-      touched_.push_back(element);
-    off_[element] += off;
-  }
-  // And starts again.
-  float variance() {
-    float sum = 0.0f;
-    for (const std::uint32_t element : touched_) {
-      const float off = std::exchange(off_[element], 0.0f);
-      sum += off * off;
-    }
-    touched_.clear();
-    return variance_of_centre * sum;
-  }
-
-private:
-  std::vector<float> off_; // 0 but for those touched
-  std::vector<std::uint32_t> touched_;
-};
-
 } // namespace
 
 Gather::Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones) : radiosity_(radiosity) {
@@ -91,20 +91,20 @@ Gather::Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones)
 
 std::size_t Gather::at(const SurfacePlace &place, double turn, const GatherAim &aim,
                        std::vector<Gathered> &gathered) const {
-  sum(place, turn, first_lines, gathered);
+  look(place, turn, first_lines, true, gathered);
   const float excess = excess_of(gathered, aim);
   if (!(excess > 1.0f))
     return first_lines;
   const auto lines = static_cast<std::uint32_t>(std::min(
       std::ceil(static_cast<float>(first_lines) * std::cbrt(excess)), static_cast<float>(most_lines)));
-  sum(place, turn, lines, gathered);
+  look(place, turn, lines, false, gathered);
   return first_lines + lines;
 }
 
 float Gather::times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
                         const std::vector<float> &part) const {
   std::vector<Gathered> sums;
-  sum(place, turn, first_lines, sums);
+  look(place, turn, first_lines, true, sums);
   float most = 0.0f;
   for (std::size_t t = 0; t < sums.size(); ++t) {
     const float all = part[t] * pmdsim::abs(direct[t] + sums[t].irradiance);
@@ -114,8 +114,8 @@ float Gather::times_off(const SurfacePlace &place, double turn, const std::vecto
   return most;
 }
 
-void Gather::sum(const SurfacePlace &place, double turn, std::uint32_t lines,
-                 std::vector<Gathered> &sums) const {
+void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, bool finds_elements_off,
+                  std::vector<Gathered> &sums) const {
   thread_local std::vector<Differences> differences;
   thread_local std::vector<ElementErrors> missed;
   const std::size_t tones = turns_per_m_.size();
@@ -123,7 +123,9 @@ void Gather::sum(const SurfacePlace &place, double turn, std::uint32_t lines,
   for (ElementErrors &of_tone : missed)
     of_tone.resize(radiosity_.elements.elements.size());
   differences.assign(tones, {});
-  sums.assign(tones, {});
+  sums.resize(tones);
+  for (Gathered &sum : sums)
+    sum.irradiance = {};
   const LineLightLoops &loops = line_light_loops();
   radiosity_.scan->at(place, turn, lines, [&](const SeenLine &line) {
     LineWays ways;
@@ -133,17 +135,27 @@ void Gather::sum(const SurfacePlace &place, double turn, std::uint32_t lines,
       const Phasor arrives = loops.add_light(line, ways, faces.data()).arrives;
       differences[t].add(arrives);
       sums[t].irradiance += arrives;
-      for (std::size_t i = 0; i < bins_of_line; ++i) {
-        const auto face = static_cast<std::size_t>(line.face[i]);
-        if (const std::uint32_t element = element_of_face_[face]; element != no_element)
-          missed[t].add(element, line.share[i] * faces[face].missed);
-      }
+      if (finds_elements_off)
+        add_missed(line, faces, missed[t]);
     }
   });
   for (std::size_t t = 0; t < tones; ++t) {
     sums[t].of_lines = differences[t].variance();
+    if (!finds_elements_off)
+      continue;
     const float of_all = by_more_than_chance * radiosity_.off[t];
     sums[t].of_elements = missed[t].variance() + of_all * of_all * norm(sums[t].irradiance);
+  }
+}
+
+void Gather::add_missed(const SeenLine &line, const Exitance::OfFaces &faces, ElementErrors &missed) const {
+  for (std::size_t i = 0; i < bins_of_line; ++i) {
+    const auto face = static_cast<std::size_t>(line.face[i]);
+    float share = line.share[i];
+    for (; i + 1 < bins_of_line && line.face[i + 1] == line.face[i]; ++i)
+      share += line.share[i + 1];
+    if (const std::uint32_t element = element_of_face_[face]; element != no_element)
+      missed.add(element, share * faces[face].missed);
   }
 }
 

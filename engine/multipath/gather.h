@@ -23,6 +23,8 @@ struct GatherAim {
   std::vector<float> part;
 };
 
+class ElementErrors;
+
 class Gather {
 public:
   // Both have to outlive this.
@@ -39,7 +41,10 @@ public:
                   const std::vector<float> &part) const;
 
 private:
-  void sum(const SurfacePlace &place, double turn, std::uint32_t lines, std::vector<Gathered> &sums) const;
+  // What elements are off by stays what it is where that is not asked for.
+  void look(const SurfacePlace &place, double turn, std::uint32_t lines, bool finds_elements_off,
+            std::vector<Gathered> &sums) const;
+  void add_missed(const SeenLine &line, const Exitance::OfFaces &faces, ElementErrors &missed) const;
 
   const Radiosity &radiosity_;
   std::vector<std::uint32_t> element_of_face_; // and no_element where nothing is seen

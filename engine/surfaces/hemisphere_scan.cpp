@@ -33,7 +33,7 @@ public:
     const ScanScene &scene = scan.board_;
     reserve(scene);
     scan.loops_.see_vertices(scene, board_frame(frame, lines), vertices_);
-    scan.loops_.find_lines(scene, vertices_, first_.data(), end_.data());
+    met_count_ = scan.loops_.find_triangles(scene, vertices_, met_);
     sort_into_lines(scene, lines);
     SeenLine seen;
     for (std::uint32_t line = 0; line < lines; ++line) {
@@ -73,9 +73,9 @@ private:
       vertices_ = {coordinates_.data(), coordinates_.data() + vertices, coordinates_.data() + 2 * vertices,
                    codes_.data()};
     }
-    if (first_.size() < triangles) {
-      first_.resize(triangles);
-      end_.resize(triangles);
+    if (met_values_.size() < 3 * triangles) {
+      met_values_.resize(3 * triangles);
+      met_ = {met_values_.data(), met_values_.data() + triangles, met_values_.data() + 2 * triangles};
       stretch_values_.resize(stretch_floats * triangles);
       stretch_integers_.resize(stretch_integers * triangles);
       float *values = stretch_values_.data();
@@ -90,10 +90,11 @@ private:
   // Visits (line, triangle) of all that meet.
   template <class Visit>
   void for_each_meeting(const ScanScene &scene, std::uint32_t lines, const Visit &visit) const {
-    for (std::uint32_t i = 0; i < scene.triangles; ++i) {
-      if (first_[i] >= 0) {
-        for (std::int32_t line = first_[i]; line < end_[i]; ++line)
-          visit(static_cast<std::uint32_t>(line), static_cast<std::int32_t>(i));
+    for (std::uint32_t k = 0; k < met_count_; ++k) {
+      const std::int32_t i = met_.triangle[k];
+      if (met_.first_line[k] >= 0) {
+        for (std::int32_t line = met_.first_line[k]; line < met_.end_line[k]; ++line)
+          visit(static_cast<std::uint32_t>(line), i);
         continue;
       }
       const auto is_beyond = [&](std::size_t corner, std::uint32_t line) {
@@ -102,7 +103,7 @@ private:
       };
       for (std::uint32_t line = 0; line < lines; ++line)
         if (const bool side = is_beyond(0, line); side != is_beyond(1, line) || side != is_beyond(2, line))
-          visit(line, static_cast<std::int32_t>(i));
+          visit(line, i);
     }
   }
 
@@ -121,7 +122,9 @@ private:
   std::vector<std::int32_t> codes_, stretch_integers_;
   ScanVertices vertices_{};
   Stretches stretches_{};
-  std::vector<std::int32_t> first_, end_;           // lines of each triangle
+  std::vector<std::int32_t> met_values_;
+  MetTriangles met_{};
+  std::uint32_t met_count_ = 0;
   std::vector<std::int32_t> of_lines_;              // triangles, line by line
   std::vector<std::uint32_t> line_starts_, next_;
 };

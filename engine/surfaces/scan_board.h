@@ -7,7 +7,7 @@
 
 namespace pmdsim {
 
-inline constexpr std::size_t bins_of_line = 256;
+inline constexpr std::size_t bins_of_line = 192;
 
 // What one line over a hemisphere sees, a direction in the middle of each of its bins, from the axis to the
 // axis's other end. Where it sees nothing its share is 0, and its face one that sends no light.
@@ -61,6 +61,12 @@ struct ScanVertices {
   std::int32_t *code;
 };
 
+// Triangles that lines meet, with the first line that does and one past the last. The first is -1 where these do
+// not tell, as a part of the triangle lies below. There is room for 16 more than the scene has.
+struct MetTriangles {
+  std::int32_t *triangle, *first_line, *end_line;
+};
+
 // The parts of a line's plane that triangles are, ends in the order of their angles. Coordinates in the half
 // plane are x along the axis and y above the surface. 1 / length, and each weight over the length, are linear
 // in the direction.
@@ -82,10 +88,9 @@ struct LineTask {
 
 struct ScanLoops {
   void (*see_vertices)(const ScanScene &scene, const ScanFrame &frame, const ScanVertices &to);
-  // Sets the first line that meets each triangle, and one past the last; first is -1 where these do not tell,
-  // as a part of it lies below.
-  void (*find_lines)(const ScanScene &scene, const ScanVertices &vertices, std::int32_t *first,
-                     std::int32_t *end);
+  // Lists the triangles that some line may meet; returns their number.
+  std::uint32_t (*find_triangles)(const ScanScene &scene, const ScanVertices &vertices,
+                                  const MetTriangles &to);
   // `stretches` has room for 16 more than the task's triangles.
   void (*see_line)(const ScanScene &scene, const ScanVertices &vertices, const LineTask &task,
                    const Stretches &stretches, SeenLine &seen);

@@ -73,18 +73,25 @@ void see_vertices(const ScanScene &scene, const ScanFrame &frame, const ScanVert
   });
 }
 
-void find_lines(const ScanScene &scene, const ScanVertices &vertices, std::int32_t *first,
-                std::int32_t *end) {
+std::uint32_t find_triangles(const ScanScene &scene, const ScanVertices &vertices, const MetTriangles &to) {
+  std::uint32_t count = 0;
   for_each_vector(scene.triangles, [&](std::uint32_t i) {
+    const Ints triangle = lane_numbers() + static_cast<std::int32_t>(i);
     const auto code = [&](int corner) {
       return gathered(vertices.code, load<Ints>(scene.corners[corner] + i));
     };
     const Ints a = code(0), b = code(1), c = code(2);
     const Ints any_below = (a | b | c) & 1, all_below = a & b & c & 1;
-    const Ints low = smaller(smaller(a, b), c) >> 1, high = larger(larger(a, b), c) >> 1;
-    store(first + i, all_below != 0 ? all(0) : (any_below != 0 ? all(-1) : low));
-    store(end + i, all_below != 0 ? all(0) : high);
+    const Ints first = smaller(smaller(a, b), c) >> 1, end = larger(larger(a, b), c) >> 1;
+    const Ints is_met = (all_below == 0) & ((any_below != 0) | (first < end)) &
+                        (triangle < static_cast<std::int32_t>(scene.triangles));
+    const Packing pack(bits_of(is_met));
+    store(to.triangle + count, pack(triangle));
+    store(to.first_line + count, pack(any_below != 0 ? all(-1) : first));
+    store(to.end_line + count, pack(end));
+    count += static_cast<std::uint32_t>(pack.count());
   });
+  return count;
 }
 
 struct LineCorner {
@@ -374,6 +381,6 @@ void see_line(const ScanScene &scene, const ScanVertices &vertices, const LineTa
 } // namespace
 
 extern const ScanLoops scan_loops;
-const ScanLoops scan_loops{see_vertices, find_lines, see_line};
+const ScanLoops scan_loops{see_vertices, find_triangles, see_line};
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET
