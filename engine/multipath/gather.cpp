@@ -127,7 +127,7 @@ void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, b
   for (Gathered &sum : sums)
     sum.irradiance = {};
   const LineLightLoops &loops = line_light_loops();
-  radiosity_.scan->at(place, turn, lines, [&](const SeenLine &line) {
+  radiosity_.scan->at(radiosity_.scan->frame(place, turn, lines), lines, [&](const SeenLine &line) {
     LineWays ways;
     for (std::size_t t = 0; t < tones; ++t) {
       const Exitance::OfFaces &faces = radiosity_.exitance.of_tone(t);

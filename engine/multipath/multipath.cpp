@@ -21,7 +21,7 @@ constexpr int most_tries = 4;  // each for less error than the one before
 constexpr double gained = 0.8; // of the error claimed before: a try that leaves more of it is the last
 // Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
 // off by. Together they come to it; measured over boxes and rooms.
-constexpr double of_gather = 0.75, of_elements = 1.2, most_of_elements = 0.7;
+constexpr double of_gather = 0.7, of_elements = 1.2, most_of_elements = 0.65;
 constexpr double most_elements = 6'000.0; // about: more take gigabytes
 constexpr double promised = 0.95;         // share of the pixels that keep what is claimed
 
@@ -122,7 +122,7 @@ struct Multipath::State {
       const double times = quantile(times_off(found->radiosity, tones.tones, seen, aim), promised);
       if (times <= most_of_elements)
         return *found;
-      const double finer_m = found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.8);
+      const double finer_m = found->error_m * std::clamp(std::pow(most_of_elements / times, 1.5), 0.3, 0.55);
       if (fineness_of(scene, finer_m).element_m == fineness_of(scene, found->error_m).element_m) {
         if (times * error_m > bounces.max_error_m)
           refuse(times * error_m, bounces.max_error_m);

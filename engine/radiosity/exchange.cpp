@@ -1,6 +1,6 @@
 #include "engine/radiosity/exchange.h"
 
-#include "engine/radiosity/line_light.h"
+#include "engine/radiosity/line_tilt.h"
 
 #include <tbb/parallel_for.h>
 
@@ -9,20 +9,26 @@ namespace {
 
 // What scatters light: the element of a face, and how much of it.
 struct Scattering {
-  std::uint32_t element;
-  float reflectivity;
+  std::uint32_t element = no_element; // where nothing is seen
+  float reflectivity = 0.0f;
+  bool is_tilted = false; // a member of a group, which has its tilt in place of what a line sees
+  glm::vec2 tilt{0.0f};
 };
 
-std::vector<Scattering> scattering_of(const Elements &elements) {
-  std::vector<Scattering> faces;
-  for (const Facet &facet : elements.facets)
-    for (const std::uint32_t element : facet.elements)
-      faces.push_back({element, facet.reflectivity});
-  faces.push_back({no_element, 0.0f}); // where nothing is seen
+std::vector<Scattering> scattering_of(const Elements &elements, const ElementLight &layout) {
+  std::vector<Scattering> faces(2 * elements.facets.size() + 1);
+  for (std::size_t i = 0; i < elements.facets.size(); ++i)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Facet &facet = elements.facets[i];
+      if (facet.elements[side] == no_element)
+        continue;
+      faces[2 * i + side] = {facet.elements[side], facet.reflectivity, facet.whole,
+                             facet.whole ? layout.tilt_of(facet, side) : glm::vec2(0.0f)};
+    }
   return faces;
 }
 
-// The entries of a place, while they are summed up.
+// The entries of a value, while they are summed up.
 class OpenRow {
 public:
   void reserve(std::size_t elements) {
@@ -31,20 +37,23 @@ public:
   }
   std::size_t size() const { return open_.size(); }
 
-  void add(const SeenLine &line, const LineWays &ways, const std::vector<Scattering> &faces) {
+  void add(const SeenLine &line, const LineWays &ways, const LineTilt &part,
+           const std::vector<Scattering> &faces) {
+    const auto &cotangents = cotangents_of_line();
     for (std::size_t i = 0; i < bins_of_line; ++i) {
-      const auto [element, reflectivity] = faces[static_cast<std::size_t>(line.face[i])];
+      const auto &[element, reflectivity, is_tilted, tilt] = faces[static_cast<std::size_t>(line.face[i])];
       if (element == no_element)
         continue;
       if (is_open_[element] == 0) {
         is_open_[element] = 1;
         open_.push_back(element);
       }
-      const Phasor way = reflectivity * Phasor{ways.re[i], ways.im[i]};
+      const Phasor way =
+          reflectivity * (part.of_line + part.of_bins * cotangents[i]) * Phasor{ways.re[i], ways.im[i]};
       TriangleLight &sum = weights_[element];
       sum.at += way;
-      sum.by_u += line.u[i] * way;
-      sum.by_v += line.v[i] * way;
+      sum.by_u += (is_tilted ? tilt.x : line.u[i]) * way;
+      sum.by_v += (is_tilted ? tilt.y : line.v[i]) * way;
     }
   }
 
@@ -65,51 +74,71 @@ private:
   std::vector<std::uint32_t> open_;
 };
 
+// How each of a place's values, as ElementLight has them, follows from the parts of a line.
+using ValueParts = std::array<LineTilt, ElementLight::values_of_group_place>;
+
+ValueParts parts_of(const Element &element, const SurfaceFrame &frame, const SeenLine &line) {
+  if (!element.is_group)
+    return {LineTilt{1.0f, 0.0f}};
+  LineTilt along_mean = tilt_towards(element.axes[0], frame, line);
+  along_mean.of_line += 1.0f;
+  return {along_mean, tilt_towards(element.axes[1], frame, line), tilt_towards(element.axes[2], frame, line)};
+}
+
 } // namespace
 
-Exchange::Exchange(const Elements &elements, const HemisphereScan &scan, std::uint32_t lines,
-                   const std::vector<BounceTone> &tones, const Exitance &direct)
+Exchange::Exchange(const Elements &elements, const ElementLight &layout, const HemisphereScan &scan,
+                   std::uint32_t lines, const std::vector<BounceTone> &tones, const Exitance &direct)
     : tones_(tones.size()) {
-  const std::vector<Scattering> faces = scattering_of(elements);
-  const std::size_t places = elements.elements.size() * places_of_piece;
+  const std::vector<Scattering> faces = scattering_of(elements, layout);
   for (OfTone &of_tone : tones_) {
-    of_tone.first.resize(places);
-    of_tone.places.resize(places);
+    of_tone.first.resize(layout.values());
+    of_tone.values.resize(layout.values());
   }
   const LineLightLoops &loops = line_light_loops();
-  tbb::parallel_for(std::size_t{0}, places, [&](std::size_t number) {
-    thread_local std::vector<OpenRow> rows;
-    rows.resize(tones.size());
+  tbb::parallel_for(std::size_t{0}, elements.elements.size() * places_of_piece, [&](std::size_t number) {
+    thread_local std::vector<OpenRow> rows; // of each tone's values
+    const std::size_t of_element = number / places_of_piece, of_place = number % places_of_piece;
+    const Element &element = elements.elements[of_element];
+    const std::size_t first = layout.first_value(of_element, of_place),
+                      count = layout.values_of_place(of_element);
+    rows.resize(tones.size() * count);
     for (OpenRow &row : rows)
       row.reserve(elements.elements.size());
-    const SurfacePlace &place = elements.elements[number / places_of_piece].places[number % places_of_piece];
-    scan.at(place, turn_of(number), lines, [&](const SeenLine &line) {
+    const SurfaceFrame frame = scan.frame(element.places[of_place], turn_of(number), lines);
+    scan.at(frame, lines, [&](const SeenLine &line) {
+      const ValueParts parts = parts_of(element, frame, line);
       LineWays ways;
       for (std::size_t t = 0; t < tones.size(); ++t) {
         loops.find_ways(line, tones[t].turns_per_m(), ways);
-        tones_[t].first[number] += loops.add_light(line, ways, direct.of_tone(t).data()).arrives;
-        rows[t].add(line, ways, faces);
+        const LineLight light = loops.add_light(line, ways, direct.of_tone(t).data());
+        for (std::size_t k = 0; k < count; ++k) {
+          tones_[t].first[first + k] += parts[k].of(light);
+          rows[t * count + k].add(line, ways, parts[k], faces);
+        }
       }
     });
-    for (std::size_t t = 0; t < tones.size(); ++t) {
-      tones_[t].places[number].reserve(rows[t].size());
-      rows[t].close([&](std::uint32_t element, const TriangleLight &weights) {
-        tones_[t].places[number].push_back({element, weights});
-      });
-    }
+    for (std::size_t t = 0; t < tones.size(); ++t)
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<Entry> &entries = tones_[t].values[first + k];
+        entries.reserve(rows[t * count + k].size());
+        rows[t * count + k].close([&](std::uint32_t seen, const TriangleLight &weights) {
+          entries.push_back({seen, weights});
+        });
+      }
   });
 }
 
-void Exchange::arrive(std::size_t tone, std::span<const TriangleLight> elements,
-                      std::span<Phasor> places) const {
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t number) {
-    Phasor sum;
-    for (const auto &[element, weights] : tones_[tone].places[number]) {
+std::vector<Phasor> Exchange::bounced(std::size_t tone, std::span<const TriangleLight> elements) const {
+  const OfTone &of = tones_[tone];
+  std::vector<Phasor> values(of.values.size());
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+    for (const auto &[element, weights] : of.values[i]) {
       const TriangleLight &light = elements[element];
-      sum += weights.at * light.at + weights.by_u * light.by_u + weights.by_v * light.by_v;
+      values[i] += weights.at * light.at + weights.by_u * light.by_u + weights.by_v * light.by_v;
     }
-    places[number] = sum;
   });
+  return values;
 }
 
 } // namespace pmdsim

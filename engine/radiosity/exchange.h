@@ -3,6 +3,7 @@
 // tone by tone. All bounces share it.
 
 #include "engine/radiosity/bounce_tones.h"
+#include "engine/radiosity/element_light.h"
 #include "engine/radiosity/exitance.h"
 #include "engine/surfaces/hemisphere_scan.h"
 
@@ -16,25 +17,25 @@ class Exchange {
 public:
   // Looks along so many lines from each place. What arrives there directly from faces, of `direct`'s tones in
   // that order, is found on the way.
-  Exchange(const Elements &elements, const HemisphereScan &scan, std::uint32_t lines,
-           const std::vector<BounceTone> &tones, const Exitance &direct);
+  Exchange(const Elements &elements, const ElementLight &layout, const HemisphereScan &scan,
+           std::uint32_t lines, const std::vector<BounceTone> &tones, const Exitance &direct);
 
-  // W/m^2, at the places of all elements in order.
+  // W/m^2, the values at all places as ElementLight has them.
   const std::vector<Phasor> &first(std::size_t tone) const { return tones_[tone].first; }
 
-  // What arrives at them of the light of a tone that arrives on elements, each of its faces scattering the part
-  // that it reflects. It is given as it is on the elements' triangles.
-  void arrive(std::size_t tone, std::span<const TriangleLight> elements, std::span<Phasor> places) const;
+  // The values of a tone's light that arrives on elements and bounces once, each face scattering the part that
+  // it reflects.
+  std::vector<Phasor> bounced(std::size_t tone, std::span<const TriangleLight> elements) const;
 
 private:
-  // How much each coefficient of an element's light counts at a place.
+  // How much each coefficient of an element's light counts in a value.
   struct Entry {
     std::uint32_t element;
     TriangleLight weights;
   };
   struct OfTone {
     std::vector<Phasor> first;
-    std::vector<std::vector<Entry>> places;
+    std::vector<std::vector<Entry>> values;
   };
 
   std::vector<OfTone> tones_;

@@ -43,24 +43,6 @@ constexpr std::array<glm::vec3, 3> own_weights{glm::vec3{5.0f, -1.0f, -1.0f} / 3
                                                glm::vec3{-1.0f, 5.0f, -1.0f} / 3.0f,
                                                glm::vec3{-1.0f, -1.0f, 5.0f} / 3.0f};
 
-// From a linear function's values at the corners of a facet to it as TriangleLight has it, by rows.
-glm::dmat3 triangle_from_corners(const Facet &facet) {
-  glm::dmat3 corner_from_triangle; // its columns are rows
-  for (glm::length_t k = 0; k < 3; ++k) {
-    const CornerWeights &corner = facet.in_triangle[static_cast<std::size_t>(k)];
-    corner_from_triangle[k] = {1.0, corner.y, corner.z};
-  }
-  return glm::transpose(glm::inverse(glm::transpose(corner_from_triangle)));
-}
-
-// By rows: from values at three places.
-TriangleLight times(const glm::mat3 &rows, const Phasor *values) {
-  const auto row = [&](glm::length_t i) {
-    return rows[i].x * values[0] + rows[i].y * values[1] + rows[i].z * values[2];
-  };
-  return {row(0), row(1), row(2)};
-}
-
 class Solver {
 public:
   Solver(const Scene &scene, const std::vector<Illuminator> &illuminators, Shadows shadows,
@@ -76,13 +58,13 @@ public:
     std::size_t lines = 0;
     std::uint32_t products = 0;
     if (bounces.count > 1) {
-      find_shapes();
-      const Exchange exchange(elements_, *scan, fineness_.lines, tones_, exitance);
+      const ElementLight layout(elements_);
+      const Exchange exchange(elements_, layout, *scan, fineness_.lines, tones_, exitance);
       lines = elements_.elements.size() * places_of_piece * fineness_.lines;
       for (std::size_t t = 0; t < tones_.size(); ++t)
-        products += add_bounces(exchange, bounces, t, exitance);
+        products += add_bounces(layout, exchange, bounces, t, exitance);
       if (bounces.count == all_bounces)
-        refuse_divergence(*scan);
+        refuse_divergence(layout, *scan);
     }
     std::vector<float> off = off_by(direct, sums_of(exitance));
     return {std::move(elements_), std::move(scan), std::move(exitance), std::move(off), lines, products};
@@ -228,42 +210,13 @@ private:
     });
   }
 
-  // How the light on an element follows from that at its Gauss points; any of its facets tells it.
-  void find_shapes() {
-    shapes_.resize(elements_.elements.size());
-    for (const Facet &facet : elements_.facets) {
-      const glm::dmat3 rows = triangle_from_corners(facet);
-      glm::mat3 shape(0.0f);
-      for (glm::length_t i = 0; i < 3; ++i)
-        for (glm::length_t k = 0; k < 3; ++k)
-          shape[i] += static_cast<float>(rows[i][k]) * facet.in_element[static_cast<std::size_t>(k)];
-      for (const std::uint32_t element : facet.elements)
-        if (element != no_element)
-          shapes_[element] = shape;
-    }
-  }
-
-  // Light that arrives at the places of elements, all over these.
-  std::vector<TriangleLight> spread(const std::vector<Phasor> &places) const {
-    std::vector<TriangleLight> light(shapes_.size());
-    for (std::size_t i = 0; i < light.size(); ++i)
-      light[i] = times(shapes_[i], &places[places_of_piece * i]);
-    return light;
-  }
-
-  // The light of a tone at the places of elements, after one bounce more.
-  std::vector<Phasor> bounced(const Exchange &exchange, std::size_t tone,
-                              const std::vector<Phasor> &places) const {
-    std::vector<Phasor> next(places.size());
-    exchange.arrive(tone, spread(places), next);
-    return next;
-  }
-
   // Adds to the exitance of a tone what has bounced; returns the number of products.
-  std::uint32_t add_bounces(const Exchange &exchange, const Bounces &bounces, std::size_t tone,
-                            Exitance &exitance) const {
+  std::uint32_t add_bounces(const ElementLight &layout, const Exchange &exchange, const Bounces &bounces,
+                            std::size_t tone, Exitance &exitance) const {
     const std::vector<Phasor> &first = exchange.first(tone);
-    const auto bounce = [&](const std::vector<Phasor> &places) { return bounced(exchange, tone, places); };
+    const auto bounce = [&](const std::vector<Phasor> &values) {
+      return exchange.bounced(tone, layout.spread(values));
+    };
     KrylovSolution sum{first, 1, 0.0};
     if (bounces.count == all_bounces) {
       sum = solve_series(first, bounce, solved_residual, most_products);
@@ -275,34 +228,44 @@ private:
           sum.x[i] += last[i];
       }
     }
-    const std::vector<TriangleLight> light = spread(sum.x);
-    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
-      const std::size_t element = facet.elements[side];
-      const Phasor *places = &sum.x[places_of_piece * element];
-      const Phasor missed = places[3] - (1.0f / 3.0f) * (places[0] + places[1] + places[2]);
-      FaceLight &to = exitance.of(face, tone);
-      to.leaving += facet.reflectivity * light[element];
-      to.missed = std::hypot(to.missed, facet.reflectivity * abs(missed));
-    });
+    add_scattered(layout, sum.x, tone, exitance);
     return sum.products;
   }
 
+  // What faces send of light that arrives on elements.
+  void add_scattered(const ElementLight &layout, const std::vector<Phasor> &values, std::size_t tone,
+                     Exitance &exitance) const {
+    const std::vector<TriangleLight> light = layout.spread(values);
+    for_each_lit_side([&](std::size_t face, const Facet &facet, std::size_t side) {
+      const std::uint32_t element = facet.elements[side];
+      TriangleLight arrives = light[element];
+      if (facet.whole) {
+        const glm::vec2 tilt = layout.tilt_of(facet, side);
+        arrives = {light_at(arrives, tilt.x, tilt.y), {}, {}};
+      }
+      FaceLight &to = exitance.of(face, tone);
+      to.leaving += facet.reflectivity * arrives;
+      to.missed = std::hypot(to.missed, facet.reflectivity * abs(layout.missed(values, element)));
+    });
+  }
+
   // At rest, without phase, light that neither leaves the scene nor is absorbed adds up without end.
-  void refuse_divergence(const HemisphereScan &scan) const {
+  void refuse_divergence(const ElementLight &layout, const HemisphereScan &scan) const {
     constexpr float harmless = 0.99f;
     constexpr double stays = 1.0 - 1e-4;
     if (std::ranges::none_of(elements_.facets,
                              [](const Facet &facet) { return facet.reflectivity > harmless; }))
       return;
-    const Exchange exchange(elements_, scan, fineness_.lines, {{0.0, 1, 0, 1.0}},
+    const Exchange exchange(elements_, layout, scan, fineness_.lines, {{0.0, 1, 0, 1.0}},
                             Exitance(elements_.facets.size(), 1));
-    std::vector<Phasor> places(places_of_piece * elements_.elements.size(), Phasor{1.0f, 0.0f});
+    std::vector<TriangleLight> light(elements_.elements.size(), TriangleLight{{1.0f, 0.0f}, {}, {}});
     double ratio = 0.0, before = 1.0;
     for (int i = 0; i < 60; ++i) {
-      places = bounced(exchange, 0, places);
+      const std::vector<Phasor> values = exchange.bounced(0, light);
+      light = layout.spread(values);
       float most = 0.0f;
-      for (const Phasor &place : places)
-        most = std::max(most, abs(place));
+      for (const Phasor &value : values)
+        most = std::max(most, abs(value));
       ratio = static_cast<double>(most) / before;
       before = static_cast<double>(most);
       if (ratio < stays)
@@ -321,7 +284,6 @@ private:
   const Fineness fineness_;
   Elements elements_;
   std::vector<std::array<PieceLight, 2>> of_facets_; // direct
-  std::vector<glm::mat3> shapes_;                    // of elements, by rows
 };
 
 } // namespace

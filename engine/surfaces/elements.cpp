@@ -1,5 +1,7 @@
 #include "engine/surfaces/elements.h"
 
+#include "engine/surfaces/surface_frame.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -220,6 +222,14 @@ private:
     return chosen;
   }
 
+  std::array<glm::dvec3, 3> axes_of(const std::vector<std::uint32_t> &group, std::size_t side) const {
+    glm::dvec3 sum(0.0);
+    for (const std::uint32_t member : group)
+      sum += (side == 0 ? 1.0 : -1.0) * front_of(made_.facets[member].corners_m);
+    const SurfaceFrame frame({glm::dvec3(0.0), glm::normalize(sum)}, 0.0);
+    return {frame.z, frame.x, frame.y};
+  }
+
   void finish_groups() {
     for (const auto &[key, group] : groups_) {
       double area_m2 = 0.0;
@@ -227,7 +237,7 @@ private:
         area_m2 += made_.facets[member].area_m2();
       const auto chosen = spokesmen(group, area_m2);
       for (std::size_t side = 0; side < (std::get<bool>(key) ? 2u : 1u); ++side) {
-        Element element{{}, area_m2};
+        Element element{{}, area_m2, true, axes_of(group, side)};
         for (std::size_t i = 0; i < places_of_piece; ++i)
           element.places[i] = places_on(made_.facets[chosen[i]].corners_m, side)[3];
         for (const std::uint32_t member : group)

@@ -56,9 +56,13 @@ struct FacetNode {
 // The side of a facet, among all.
 inline std::size_t face_of(std::uint32_t facet, std::uint8_t side) { return 2 * std::size_t{facet} + side; }
 
+// A piece of a large triangle, or a group of small ones.
 struct Element {
   std::array<SurfacePlace, places_of_piece> places;
   double area_m2;
+  bool is_group = false;
+  // Of a group: the mean of its normals, and two directions across it, all of unit length.
+  std::array<glm::dvec3, 3> axes{};
 };
 
 // The Gauss points and the centre of a triangle, as weights of its corners.

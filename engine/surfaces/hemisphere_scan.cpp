@@ -1,7 +1,6 @@
 #include "engine/surfaces/hemisphere_scan.h"
 
 #include "engine/model/instruction_sets.h"
-#include "engine/surfaces/surface_frame.h"
 #include "engine/surfaces/surface_paint.h"
 
 #include <algorithm>
@@ -35,7 +34,7 @@ public:
     scan.loops_.see_vertices(scene, board_frame(frame, lines), vertices_);
     met_count_ = scan.loops_.find_triangles(scene, vertices_, met_);
     sort_into_lines(scene, lines);
-    SeenLine seen;
+    SeenLine seen{};
     for (std::uint32_t line = 0; line < lines; ++line) {
       const double angle = std::numbers::pi * (line + 0.5) / lines;
       // The strip about a line, over pi: those of all lines are 2 / pi, and half of pi is what each sums to.
@@ -47,6 +46,8 @@ public:
                           static_cast<float>(std::cos(angle)),
                           static_cast<float>(std::sin(angle)),
                           static_cast<float>(strip / std::numbers::pi)};
+      seen.cosine = task.cosine;
+      seen.sine = task.sine;
       scan.loops_.see_line(scene, vertices_, task, stretches_, seen);
       visit(seen);
     }
@@ -174,10 +175,14 @@ HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements)
   }
 }
 
-void HemisphereScan::at(const SurfacePlace &place, double turn, std::uint32_t lines,
+SurfaceFrame HemisphereScan::frame(const SurfacePlace &place, double turn, std::uint32_t lines) const {
+  return SurfaceFrame(place, edges_.best_turn(place, turn, lines));
+}
+
+void HemisphereScan::at(const SurfaceFrame &frame, std::uint32_t lines,
                         const std::function<void(const SeenLine &)> &visit) const {
   thread_local PlaceScan scan;
-  scan.run(*this, SurfaceFrame(place, edges_.best_turn(place, turn, lines)), lines, visit);
+  scan.run(*this, frame, lines, visit);
 }
 
 } // namespace pmdsim

@@ -19,6 +19,7 @@ struct SeenLine {
   // Of what arrives at the place, for each unit that leaves the face; in a closed scene those of all lines
   // sum to 1.
   alignas(64) float share[bins_of_line];
+  float cosine, sine; // of the angle between the surface and the half plane
 };
 
 // at + u * weight of the second corner + v * that of the third, of a place in a triangle. Places where it is
