@@ -169,34 +169,38 @@ private:
     Phasor irradiance;
     float of_lines = 0.0f, of_elements = 0.0f; // variances
 
-    void add(float weight, const Gathered &at) {
-      irradiance += weight * at.irradiance;
+    // On a surface with that normal there.
+    void add(float weight, const Gathered &at, const glm::vec3 &normal) {
+      irradiance += weight * (at.irradiance + normal.x * at.by_tilt[0] + normal.y * at.by_tilt[1] +
+                              normal.z * at.by_tilt[2]);
       of_lines += weight * weight * at.of_lines;
       of_elements = std::max(of_elements, at.of_elements);
     }
   };
 
   // By the corners of a cell alone.
-  Interpolated between(const ImageCell &cell, const glm::uvec2 &sample, std::size_t tone) const {
+  Interpolated between(const ImageCell &cell, const glm::uvec2 &sample, const glm::vec3 &normal,
+                       std::size_t tone) const {
     Interpolated sum;
     const auto corners = cell.corners();
     const auto weights = cell.weights(sample);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      sum.add(weights[i], node(corners[i])[tone]);
+      sum.add(weights[i], node(corners[i])[tone], normal);
     return sum;
   }
 
   // By the corners and the middle, where there is one.
-  Interpolated bent(const ImageCell &cell, const glm::uvec2 &sample, std::size_t tone) const {
+  Interpolated bent(const ImageCell &cell, const glm::uvec2 &sample, const glm::vec3 &normal,
+                    std::size_t tone) const {
     if (!cell.is_divisible())
-      return between(cell, sample, tone);
+      return between(cell, sample, normal, tone);
     Interpolated sum;
     const auto corners = cell.corners();
     const auto weights = cell.weights(sample), at_middle = cell.weights(cell.middle());
     const float bend = cell.bend(sample);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      sum.add(weights[i] - bend * at_middle[i], node(corners[i])[tone]);
-    sum.add(bend, node(cell.middle())[tone]);
+      sum.add(weights[i] - bend * at_middle[i], node(corners[i])[tone], normal);
+    sum.add(bend, node(cell.middle())[tone], normal);
     return sum;
   }
 
@@ -207,7 +211,7 @@ private:
     const std::vector<Phasor> direct = seen ? direct_at(cell.middle(), *seen) : std::vector<Phasor>{};
     for (std::size_t t = 0; t < tones_.size() && seen; ++t) {
       const Gathered &found = node(cell.middle())[t];
-      const Interpolated expected = between(cell, cell.middle(), t);
+      const Interpolated expected = between(cell, cell.middle(), glm::vec3(seen->place.normal), t);
       const float most = of_interpolation * aim_.part[t] * pmdsim::abs(direct[t] + found.irradiance);
       const float variance = expected.of_lines + found.of_lines,
                   off2 = norm(expected.irradiance - found.irradiance);
@@ -237,7 +241,7 @@ private:
     const auto gain = static_cast<float>(gain_of(*seen) / seen_.samples_of_pixel());
     const std::size_t pixel = seen_.pixel_of(sample);
     for (std::size_t t = 0; t < tones_.size(); ++t) {
-      const Interpolated here = bent(settled.cell, sample, t);
+      const Interpolated here = bent(settled.cell, sample, glm::vec3(seen->place.normal), t);
       const Phasor z = gain * (unit_phasor(tones_[t].turns_per_m() * seen->range_m) * here.irradiance);
       BouncedTone &tone = image_.tones[t];
       tone.z[pixel] += std::complex<float>(z.re, z.im);

@@ -1,6 +1,6 @@
 #include "engine/multipath/gather.h"
 
-#include "engine/radiosity/line_light.h"
+#include "engine/radiosity/line_tilt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ public:
   }
   // And starts again.
   float variance() {
-    // The mean of three places is off by a third of the variance of one; their difference from a fourth, which
-    // is what is known, has four thirds of it.
+    // The mean of three places is off by a third of the variance of one; their difference from a fourth,
+    // which is what is known, has four thirds of it.
     constexpr float variance_of_centre = 0.25f;
     float sum = 0.0f;
     for (const std::uint32_t element : touched_) {
@@ -124,17 +124,26 @@ void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, b
     of_tone.resize(radiosity_.elements.elements.size());
   differences.assign(tones, {});
   sums.resize(tones);
-  for (Gathered &sum : sums)
+  for (Gathered &sum : sums) {
     sum.irradiance = {};
+    sum.by_tilt = {};
+  }
   const LineLightLoops &loops = line_light_loops();
-  radiosity_.scan->at(radiosity_.scan->frame(place, turn, lines), lines, [&](const SeenLine &line) {
+  const SurfaceFrame frame = radiosity_.scan->frame(place, turn, lines);
+  const std::array<glm::dvec3, 3> world{glm::dvec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  radiosity_.scan->at(frame, lines, [&](const SeenLine &line) {
+    std::array<LineTilt, 3> by_tilt;
+    for (std::size_t k = 0; k < 3; ++k)
+      by_tilt[k] = tilt_towards(world[k], frame, line);
     LineWays ways;
     for (std::size_t t = 0; t < tones; ++t) {
       const Exitance::OfFaces &faces = radiosity_.exitance.of_tone(t);
       loops.find_ways(line, turns_per_m_[t], ways);
-      const Phasor arrives = loops.add_light(line, ways, faces.data()).arrives;
-      differences[t].add(arrives);
-      sums[t].irradiance += arrives;
+      const LineLight light = loops.add_light(line, ways, faces.data());
+      differences[t].add(light.arrives);
+      sums[t].irradiance += light.arrives;
+      for (std::size_t k = 0; k < 3; ++k)
+        sums[t].by_tilt[k] += by_tilt[k].of(light);
       if (finds_elements_off)
         add_missed(line, faces, missed[t]);
     }

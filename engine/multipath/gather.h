@@ -5,6 +5,7 @@
 #include "engine/radiosity/radiosity.h"
 #include "engine/surfaces/hemisphere_scan.h"
 
+#include <array>
 #include <vector>
 
 namespace pmdsim {
@@ -12,6 +13,9 @@ namespace pmdsim {
 // Of one tone, W/m^2.
 struct Gathered {
   Phasor irradiance;
+  // The change with a tilt of the surface, by coordinates of the world: times the direction towards which its
+  // normal moves.
+  std::array<Phasor, 3> by_tilt;
   // Of irradiance, |z|^2: as lines are as far apart as they are, and as elements are as large as they are.
   float of_lines = 0.0f, of_elements = 0.0f;
 };

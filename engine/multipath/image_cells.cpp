@@ -5,23 +5,17 @@
 namespace pmdsim {
 namespace {
 
-struct RunOfShape {
-  Run run;
-  std::uint32_t shape;
-};
-
-// The runs of a row that see one plane each.
-std::vector<RunOfShape> runs_of(const SeenPlaces &seen, std::uint32_t row, std::uint32_t low,
-                                std::uint32_t high) {
-  std::vector<RunOfShape> runs;
+// The runs of a row that see one surface each.
+std::vector<Run> runs_of(const SeenPlaces &seen, std::uint32_t row, std::uint32_t low, std::uint32_t high) {
+  std::vector<Run> runs;
   for (std::uint32_t column = low; column <= high; ++column) {
-    const std::uint32_t shape = seen.shape({column, row});
-    if (shape == no_id)
+    if (seen.shape({column, row}) == no_id)
       continue;
-    if (!runs.empty() && runs.back().run.high + 1 == column && seen.in_one_plane(runs.back().shape, shape))
-      runs.back().run.high = column;
+    if (!runs.empty() && runs.back().high + 1 == column &&
+        seen.are_continuous({column - 1, row}, {column, row}))
+      runs.back().high = column;
     else
-      runs.push_back({{column, column}, shape});
+      runs.push_back({column, column});
   }
   return runs;
 }
@@ -63,35 +57,30 @@ float ImageCell::bend(const glm::uvec2 &sample) const {
 }
 
 std::vector<ImageCell> cells_of(const SeenPlaces &seen, const glm::uvec2 &low, const glm::uvec2 &high) {
-  struct Open {
-    ImageCell cell;
-    std::uint32_t shape;
-  };
-  std::vector<ImageCell> closed;
-  std::vector<Open> open;
+  std::vector<ImageCell> closed, open;
   const bool is_lowest = high.y + 1 == seen.rows(), is_rightmost = high.x + 1 == seen.columns();
-  const auto close = [&](Open &&done) {
+  const auto close = [&](ImageCell &&done) {
     // A last row inside the block has nobody else to own it.
-    done.cell.owns_last_row = done.cell.last_row() < high.y || is_lowest;
-    if (owns_any(done.cell))
-      closed.push_back(std::move(done.cell));
+    done.owns_last_row = done.last_row() < high.y || is_lowest;
+    if (owns_any(done))
+      closed.push_back(std::move(done));
   };
   for (std::uint32_t row = low.y; row <= high.y; ++row) {
-    std::vector<Open> next;
-    const std::vector<RunOfShape> runs = runs_of(seen, row, low.x, high.x);
+    std::vector<ImageCell> next;
     std::vector<std::uint8_t> taken(open.size());
-    for (const auto &[run, shape] : runs) {
-      const auto continues = [&](const Open &above) {
-        return overlap(above.cell.runs.back(), run) && seen.in_one_plane(above.shape, shape) &&
-               above.cell.owns_last_column == (run.high < high.x || is_rightmost);
+    for (const Run &run : runs_of(seen, row, low.x, high.x)) {
+      const auto continues = [&](const ImageCell &above) {
+        const std::uint32_t column = std::max(above.runs.back().low, run.low);
+        return overlap(above.runs.back(), run) && seen.are_continuous({column, row - 1}, {column, row}) &&
+               above.owns_last_column == (run.high < high.x || is_rightmost);
       };
       const auto above = std::ranges::find_if(open, continues);
       if (above != open.end() && !taken[static_cast<std::size_t>(above - open.begin())]) {
         taken[static_cast<std::size_t>(above - open.begin())] = 1;
         next.push_back(*above);
-        next.back().cell.runs.push_back(run);
+        next.back().runs.push_back(run);
       } else {
-        next.push_back({{row, {run}, false, run.high < high.x || is_rightmost}, shape});
+        next.push_back({row, {run}, false, run.high < high.x || is_rightmost});
       }
     }
     for (std::size_t i = 0; i < open.size(); ++i)
@@ -99,7 +88,7 @@ std::vector<ImageCell> cells_of(const SeenPlaces &seen, const glm::uvec2 &low, c
         close(std::move(open[i]));
     open = std::move(next);
   }
-  for (Open &last : open)
+  for (ImageCell &last : open)
     close(std::move(last));
   return closed;
 }

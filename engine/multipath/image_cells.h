@@ -1,6 +1,6 @@
 #pragma once
-// Parts of a frame, one sample or more, whose samples see one plane: between their corners what arrives there
-// is interpolated, so none reaches over an edge.
+// Parts of a frame, one sample or more, whose samples see one surface that is flat or smooth: between their
+// corners what arrives there is interpolated, so none reaches over an edge.
 
 #include "engine/multipath/seen_places.h"
 

@@ -56,10 +56,14 @@ std::uint32_t SeenPlaces::shape(const glm::uvec2 &sample) const {
   return shapes[std::size_t{sample.y} * columns() + sample.x];
 }
 
-std::optional<SeenPlace> SeenPlaces::at(const glm::uvec2 &sample) const {
+std::optional<glm::dvec3> SeenPlaces::ray(const glm::uvec2 &sample) const {
   const glm::dvec2 pixel(sample / samples_), k(sample % samples_);
   const glm::dvec2 from_centre = fill_factor_ * ((k + 0.5) / static_cast<double>(samples_) - 0.5);
-  const auto ray = lens_.ray(lens_.on_chip_m(pixel + 0.5 + from_centre));
+  return lens_.ray(lens_.on_chip_m(pixel + 0.5 + from_centre));
+}
+
+std::optional<SeenPlace> SeenPlaces::at(const glm::uvec2 &sample) const {
+  const auto ray = this->ray(sample);
   const std::uint32_t shape = this->shape(sample);
   if (shape == no_id)
     return std::nullopt;
@@ -80,15 +84,33 @@ std::optional<SeenPlace> SeenPlaces::at(const glm::uvec2 &sample) const {
                    vignetting_ == Vignetting::cos4 ? std::pow(std::max(ray->z, 0.0), 4.0) : 1.0};
 }
 
-bool SeenPlaces::in_one_plane(std::uint32_t a, std::uint32_t b) const {
-  if (a == b)
+bool SeenPlaces::are_continuous(const glm::uvec2 &a, const glm::uvec2 &b) const {
+  const std::uint32_t of_a = shape(a), of_b = shape(b);
+  if (of_a == of_b)
     return true;
-  if (a == no_id || b == no_id || scene_.is_disc(a) || scene_.is_disc(b))
+  if (of_a == no_id || of_b == no_id || scene_.is_disc(of_a) || scene_.is_disc(of_b))
     return false;
   constexpr double same_direction = 1.0 - 1e-10, same_place = 1e-6;
-  const Plane &p = planes_[a], &q = planes_[b];
-  return glm::dot(p.normal, q.normal) > same_direction &&
-         std::abs(p.offset_m - q.offset_m) <= same_place * std::abs(p.offset_m);
+  const Plane &p = planes_[of_a], &q = planes_[of_b];
+  const double cosine = glm::dot(p.normal, q.normal);
+  if (cosine > same_direction && std::abs(p.offset_m - q.offset_m) <= same_place * std::abs(p.offset_m))
+    return true;
+  constexpr double smooth = 0.9; // of some 25 degrees
+  return cosine > smooth && scene_.object_of(of_a) == scene_.object_of(of_b) && is_unbroken(a, b);
+}
+
+bool SeenPlaces::is_unbroken(const glm::uvec2 &a, const glm::uvec2 &b) const {
+  constexpr double slope = 0.35; // from the one plane to the other
+  const auto to_a = ray(a), to_b = ray(b);
+  if (!to_a || !to_b)
+    return false;
+  const Plane &p = planes_[shape(a)], &q = planes_[shape(b)];
+  const auto on = [](const Plane &plane, const glm::dvec3 &along) {
+    return plane.offset_m / glm::dot(plane.normal, along) * along;
+  };
+  const glm::dvec3 at_a = on(p, *to_a), at_b = on(q, *to_b), beside_a = on(p, *to_b), beside_b = on(q, *to_a);
+  return glm::distance(at_b, beside_a) <= slope * glm::distance(at_a, beside_a) &&
+         glm::distance(at_a, beside_b) <= slope * glm::distance(at_b, beside_b);
 }
 
 } // namespace pmdsim

@@ -40,9 +40,9 @@ public:
   // Where it sees it; nothing where its ray runs along that shape's plane.
   std::optional<SeenPlace> at(const glm::uvec2 &sample) const;
 
-  // Whether two shapes lie in one plane and are seen from the same side, so that what arrives there from
-  // elsewhere is continuous from one to the other.
-  bool in_one_plane(std::uint32_t a, std::uint32_t b) const;
+  // Whether what arrives from elsewhere is continuous from one sample to its neighbour, but for what a small
+  // tilt changes: they see one plane from the same side, or one object where it is smooth.
+  bool are_continuous(const glm::uvec2 &a, const glm::uvec2 &b) const;
 
 private:
   struct Plane {
@@ -50,6 +50,9 @@ private:
     double offset_m = 0.0;
   };
   Plane plane_of(std::uint32_t shape) const;
+  std::optional<glm::dvec3> ray(const glm::uvec2 &sample) const;
+  // Whether a surface goes on from one sample's plane to its neighbour's, without a step.
+  bool is_unbroken(const glm::uvec2 &a, const glm::uvec2 &b) const;
 
   const Scene &scene_;
   const Measurement &measurement_;

@@ -71,8 +71,8 @@ Phasor ElementLight::missed(const std::vector<Phasor> &values, std::size_t eleme
   const glm::vec2 tilt = tilt_in(of, of.places[gauss_points].normal);
   Phasor missed = light_at(at_place(values, first_value(element, gauss_points)), tilt.x, tilt.y);
   for (std::size_t place = 0; place < gauss_points; ++place)
-    missed += (-1.0f / gauss_points) *
-              light_at(at_place(values, first_value(element, place)), tilt.x, tilt.y);
+    missed +=
+        (-1.0f / gauss_points) * light_at(at_place(values, first_value(element, place)), tilt.x, tilt.y);
   return missed;
 }
 

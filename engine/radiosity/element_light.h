@@ -19,8 +19,8 @@ TriangleLight times(const glm::mat3 &rows, const Phasor *values);
 
 class ElementLight {
 public:
-  // A piece has one value a place: what arrives there. A group has three: what would arrive there on a surface
-  // along its mean normal, and the change with a tilt towards each of its directions.
+  // A piece has one value a place: what arrives there. A group has three: what would arrive there on a
+  // surface along its mean normal, and the change with a tilt towards each of its directions.
   static constexpr std::size_t values_of_group_place = 3;
 
   // The elements have to outlive this; the facets have to be cut by then.

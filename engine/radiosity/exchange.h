@@ -23,8 +23,8 @@ public:
   // W/m^2, the values at all places as ElementLight has them.
   const std::vector<Phasor> &first(std::size_t tone) const { return tones_[tone].first; }
 
-  // The values of a tone's light that arrives on elements and bounces once, each face scattering the part that
-  // it reflects.
+  // The values of a tone's light that arrives on elements and bounces once, each face scattering the part
+  // that it reflects.
   std::vector<Phasor> bounced(std::size_t tone, std::span<const TriangleLight> elements) const;
 
 private:

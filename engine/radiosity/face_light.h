@@ -18,9 +18,7 @@ struct TriangleLight {
   }
 };
 
-inline TriangleLight operator*(float s, const TriangleLight &a) {
-  return {s * a.at, s * a.by_u, s * a.by_v};
-}
+inline TriangleLight operator*(float s, const TriangleLight &a) { return {s * a.at, s * a.by_u, s * a.by_v}; }
 
 inline Phasor light_at(const TriangleLight &light, float u, float v) {
   return light.at + u * light.by_u + v * light.by_v;

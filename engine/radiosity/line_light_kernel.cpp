@@ -1,5 +1,5 @@
-// The loops of light along a line. Compiled once for each instruction set, PMDSIM_INSTRUCTION_SET its name; see
-// engine/CMakeLists.txt.
+// The loops of light along a line. Compiled once for each instruction set, PMDSIM_INSTRUCTION_SET its name;
+// see engine/CMakeLists.txt.
 #include "engine/model/elementary_lanes.h"
 #include "engine/radiosity/line_light.h"
 

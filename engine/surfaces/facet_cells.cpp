@@ -6,7 +6,7 @@
 namespace pmdsim {
 namespace {
 
-constexpr double cells_of_facet = 4.0; // on average
+constexpr double cells_of_facet = 8.0; // on average
 constexpr std::int32_t most_along = 512;
 
 // How many facets a triangle is cut into.
@@ -74,14 +74,16 @@ void FacetCells::add_cells(const Elements &elements, std::uint32_t root) {
   const auto facets = static_cast<double>(facets_of(elements, root));
   // Half of the cells lie beyond the triangle.
   const std::int32_t along =
-      facets > 1.0
-          ? std::min(static_cast<std::int32_t>(std::ceil(std::sqrt(2.0 * cells_of_facet * facets))), most_along)
-          : 1;
+      facets > 1.0 ? std::min(static_cast<std::int32_t>(std::ceil(std::sqrt(2.0 * cells_of_facet * facets))),
+                              most_along)
+                   : 1;
   // A node that many cuts deep is as large as a cell.
   const int most_cuts = static_cast<int>(2.0 * std::log2(static_cast<double>(along)));
   first_cell_.push_back(static_cast<std::int32_t>(cells_.size()));
   cells_along_.push_back(along);
-  const auto middle = [&](std::int32_t i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(along); };
+  const auto middle = [&](std::int32_t i) {
+    return (static_cast<float>(i) + 0.5f) / static_cast<float>(along);
+  };
   for (std::int32_t row = 0; row < along; ++row)
     for (std::int32_t column = 0; column < along; ++column)
       cells_.push_back(cell_at(elements, root, middle(column), middle(row), most_cuts));

@@ -1,6 +1,6 @@
 #pragma once
-// Which facet a place of a triangle lies in, told by cells that cover the triangle: most lie in one facet, for
-// the others the cuts between facets are followed from there on.
+// Which facet a place of a triangle lies in, told by cells that cover the triangle: most lie in one facet,
+// for the others the cuts between facets are followed from there on.
 
 #include "engine/surfaces/elements.h"
 #include "engine/surfaces/scan_board.h"

@@ -10,7 +10,7 @@ PMDSIM_LOOPS_OF_EACH_SET(pmdsim::ScanLoops, scan_loops)
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t room = 16;          // that vectors need behind the last value
+constexpr std::size_t room = 16;           // that vectors need behind the last value
 constexpr std::uint32_t vector_bits = 512; // at most: sums are the same with any
 
 // The triangles of a scene that have an area.
@@ -83,8 +83,8 @@ private:
       const auto next = [&] { return std::exchange(values, values + triangles); };
       std::int32_t *integers = stretch_integers_.data();
       const auto next_integers = [&] { return std::exchange(integers, integers + triangles); };
-      stretches_ = {next(),          next(),          next(),          next(),         next(), next(), next(),
-                    next(),          next_integers(), next_integers(), next_integers(), next_integers()};
+      stretches_ = {next(), next(), next(),          next(),          next(),          next(),
+                    next(), next(), next_integers(), next_integers(), next_integers(), next_integers()};
     }
   }
 
@@ -126,13 +126,13 @@ private:
   std::vector<std::int32_t> met_values_;
   MetTriangles met_{};
   std::uint32_t met_count_ = 0;
-  std::vector<std::int32_t> of_lines_;              // triangles, line by line
+  std::vector<std::int32_t> of_lines_; // triangles, line by line
   std::vector<std::uint32_t> line_starts_, next_;
 };
 
 HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements)
-    : edges_(elements, scene), triangles_(triangles_of(elements)), cells_(elements, triangles_),
-      cutouts_{scene, triangles_}, loops_(widest_scan_loops(vector_bits)) {
+    : edges_(elements, scene), triangles_(triangles_of(elements)),
+      cells_(elements, triangles_), cutouts_{scene, triangles_}, loops_(widest_scan_loops(vector_bits)) {
   std::vector<std::int32_t> numbers(scene.positions_m.size(), -1);
   bool any_masked = false;
   for (const std::uint32_t id : triangles_) {

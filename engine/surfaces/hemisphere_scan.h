@@ -26,12 +26,12 @@ public:
   HemisphereScan &operator=(const HemisphereScan &) = delete;
 
   // The frame in which a place is to be looked from along so many lines. Its x, their axis, is chosen near
-  // `turn`, 0 to 1, which should be another for each place: then what lines leave out at one has nothing to do
-  // with what they leave out at the next.
+  // `turn`, 0 to 1, which should be another for each place: then what lines leave out at one has nothing to
+  // do with what they leave out at the next.
   SurfaceFrame frame(const SurfacePlace &place, double turn, std::uint32_t lines) const;
 
-  // Looks along so many lines; calls visit(line) for each, in the order of their angles. Any number of threads
-  // may call this at once.
+  // Looks along so many lines; calls visit(line) for each, in the order of their angles. Any number of
+  // threads may call this at once.
   void at(const SurfaceFrame &frame, std::uint32_t lines,
           const std::function<void(const SeenLine &)> &visit) const;
 

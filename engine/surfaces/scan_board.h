@@ -1,6 +1,6 @@
 #pragma once
-// The data that the loops of scan_kernel.cpp share with HemisphereScan: plain, as these loops are compiled for
-// several instruction sets.
+// The data that the loops of scan_kernel.cpp share with HemisphereScan: plain, as these loops are compiled
+// for several instruction sets.
 
 #include <cstddef>
 #include <cstdint>
@@ -62,8 +62,8 @@ struct ScanVertices {
   std::int32_t *code;
 };
 
-// Triangles that lines meet, with the first line that does and one past the last. The first is -1 where these do
-// not tell, as a part of the triangle lies below. There is room for 16 more than the scene has.
+// Triangles that lines meet, with the first line that does and one past the last. The first is -1 where these
+// do not tell, as a part of the triangle lies below. There is room for 16 more than the scene has.
 struct MetTriangles {
   std::int32_t *triangle, *first_line, *end_line;
 };

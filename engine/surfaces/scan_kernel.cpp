@@ -53,7 +53,7 @@ void for_each_vector(std::uint32_t count, const Visit &visit) {
 
 void see_vertices(const ScanScene &scene, const ScanFrame &frame, const ScanVertices &to) {
   const float lines_per_rad = static_cast<float>(frame.lines) / pi;
-  const auto turned = [](const float (&axis)[3], const Floats &x, const Floats &y, const Floats &z) {
+  const auto turned = [](const float(&axis)[3], const Floats &x, const Floats &y, const Floats &z) {
     return axis[0] * x + axis[1] * y + axis[2] * z;
   };
   for_each_vector(scene.vertices, [&](std::uint32_t i) {
@@ -96,7 +96,7 @@ std::uint32_t find_triangles(const ScanScene &scene, const ScanVertices &vertice
 
 struct LineCorner {
   Ints vertex;
-  Floats x, y, z;  // in the place's frame
+  Floats x, y, z;   // in the place's frame
   Floats aside, up; // from the line's plane, and in it above the surface
 };
 
@@ -111,8 +111,12 @@ struct Ends {
 };
 
 LineCorner corner_of(const ScanVertices &vertices, const LineTask &task, const Ints &vertex) {
-  LineCorner corner{vertex, gathered(vertices.x_m, vertex), gathered(vertices.y_m, vertex),
-                gathered(vertices.z_m, vertex), Floats{}, Floats{}};
+  LineCorner corner{vertex,
+                    gathered(vertices.x_m, vertex),
+                    gathered(vertices.y_m, vertex),
+                    gathered(vertices.z_m, vertex),
+                    Floats{},
+                    Floats{}};
   corner.aside = task.cosine * corner.z - task.sine * corner.y;
   corner.up = task.cosine * corner.y + task.sine * corner.z;
   return corner;
@@ -126,8 +130,8 @@ struct Meeting {
 Meeting meet(const LineCorner &a, const LineCorner &b) {
   const Ints in_order = a.vertex < b.vertex;
   const Floats before = in_order ? a.aside : b.aside, after = in_order ? b.aside : a.aside;
-  const Floats from_x = in_order ? a.x : b.x, from_y = in_order ? a.up : b.up,
-               to_x = in_order ? b.x : a.x, to_y = in_order ? b.up : a.up;
+  const Floats from_x = in_order ? a.x : b.x, from_y = in_order ? a.up : b.up, to_x = in_order ? b.x : a.x,
+               to_y = in_order ? b.up : a.up;
   const Floats part = before / (before - after);
   const Floats t = before != after ? smaller(larger(part, all(0.0f)), all(1.0f)) : all(0.5f);
   return {from_x + t * (to_x - from_x), from_y + t * (to_y - from_y), in_order ? t : 1.0f - t};
@@ -145,8 +149,8 @@ Ends ends_of(const ScanScene &scene, const ScanVertices &vertices, const LineTas
   // The corner that is alone on its side, and those that follow it.
   const Ints a_alone = (of_a ^ of_b) & (of_a ^ of_c), b_alone = (of_b ^ of_a) & (of_b ^ of_c);
   const LineCorner alone = corner_of(vertices, task, a_alone ? a : (b_alone ? b : c)),
-               second = corner_of(vertices, task, a_alone ? b : (b_alone ? c : a)),
-               third = corner_of(vertices, task, a_alone ? c : (b_alone ? a : b));
+                   second = corner_of(vertices, task, a_alone ? b : (b_alone ? c : a)),
+                   third = corner_of(vertices, task, a_alone ? c : (b_alone ? a : b));
   const Meeting near = meet(alone, second), far = meet(alone, third);
   const Floats none = all(0.0f);
   Ends ends;
@@ -157,8 +161,8 @@ Ends ends_of(const ScanScene &scene, const ScanVertices &vertices, const LineTas
   ends.are_there = (of_a ^ of_b) | (of_a ^ of_c);
   const Floats bx = second.x - alone.x, by = second.y - alone.y, bz = second.z - alone.z,
                cx = third.x - alone.x, cy = third.y - alone.y, cz = third.z - alone.z;
-  const Floats facing = (by * cz - bz * cy) * alone.x + (bz * cx - bx * cz) * alone.y +
-                        (bx * cy - by * cx) * alone.z;
+  const Floats facing =
+      (by * cz - bz * cy) * alone.x + (bz * cx - bx * cz) * alone.y + (bx * cy - by * cx) * alone.z;
   ends.side = facing < 0.0f ? all(0) : all(1);
   return ends;
 }
@@ -196,8 +200,9 @@ std::uint32_t find_stretches(const ScanScene &scene, const ScanVertices &vertice
     const Floats low_rad = low(a_rad, b_rad), high_rad = low(b_rad, a_rad);
     const Floats area = low_x * high_y - low_y * high_x, per_area = 1.0f / area;
     const Ints first = bin_from(low_rad), end = bin_from(high_rad);
-    const Ints is_new = ends.are_there & is_above & (area > 0.0f) & (first < end) &
-                        (lane_numbers() + static_cast<std::int32_t>(i) < static_cast<std::int32_t>(task.count));
+    const Ints is_new =
+        ends.are_there & is_above & (area > 0.0f) & (first < end) &
+        (lane_numbers() + static_cast<std::int32_t>(i) < static_cast<std::int32_t>(task.count));
     const Packing pack(bits_of(is_new));
     const auto of_x = [&](const Floats &at_low, const Floats &at_high) {
       return pack((at_low * high_y - at_high * low_y) * per_area);
@@ -245,8 +250,7 @@ void look_for_masked(const ScanScene &scene, const Stretches &stretches, std::in
   }
 }
 
-void find_nearest(const ScanScene &scene, const Stretches &stretches, std::uint32_t count,
-                  Nearest &nearest) {
+void find_nearest(const ScanScene &scene, const Stretches &stretches, std::uint32_t count, Nearest &nearest) {
   constexpr std::int32_t few = 3; // bins, which are faster one by one
   const Directions &of = directions();
   for (int i = 0; i < bins + lanes; i += lanes) {

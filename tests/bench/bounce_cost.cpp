@@ -122,6 +122,41 @@ View sphere(std::uint32_t rings) {
   return view;
 }
 
+// A closed room of 3 x 2.5 x 4 m with a block and a ball of that many triangles, which is not quite round.
+View mesh(std::uint32_t triangles) {
+  View view;
+  Scene &scene = view.scene;
+  add_box(scene, {0, 0, -1.5}, {1.5, 1.25, 2.0}, 0.0, 0.6, true);
+  add_box(scene, {-0.7, -0.9, -2.4}, {0.3, 0.35, 0.3}, 0.4, 0.5, false);
+  const auto surface = static_cast<std::uint32_t>(scene.surfaces.size());
+  scene.surfaces.push_back({0.7, false, std::nullopt});
+  scene.objects.emplace_back("ball");
+  const auto rings = static_cast<std::uint32_t>(std::sqrt(triangles / 4.0)), columns = 2 * rings;
+  const auto first = static_cast<std::uint32_t>(scene.positions_m.size());
+  for (std::uint32_t i = 0; i <= rings; ++i)
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const double t = std::numbers::pi * i / rings, p = 2.0 * std::numbers::pi * j / columns;
+      const double radius_m = 0.5 + 0.05 * std::sin(3.0 * t) * std::cos(5.0 * p);
+      scene.positions_m.push_back(
+          glm::dvec3(0.4, -0.5, -2.0) +
+          radius_m * glm::dvec3(std::sin(t) * std::cos(p), std::cos(t), std::sin(t) * std::sin(p)));
+    }
+  for (std::uint32_t i = 0; i < rings; ++i)
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const std::uint32_t a = first + i * columns + j, b = first + i * columns + (j + 1) % columns,
+                          c = a + columns, d = b + columns;
+      if (i > 0)
+        scene.triangles.push_back({{a, b, c}, surface, surface});
+      if (i + 1 < rings)
+        scene.triangles.push_back({{b, d, c}, surface, surface});
+    }
+  view.sensor.resolution = {320, 240};
+  view.sensor.pixel_pitch_m = {1e-5, 1e-5};
+  view.sensor.focal_length_m = 2.6e-3;
+  view.illuminators = ring(48, 1.0, 0.05);
+  return view;
+}
+
 View shipped(const std::string &file) {
   const Setup setup = load_setup(file);
   return {setup.start.scene, setup.start.sensors[0], setup.start.illuminators};
@@ -132,6 +167,8 @@ View view_of(const std::string &name) {
     return blocks();
   if (name.starts_with("sphere"))
     return sphere(static_cast<std::uint32_t>(std::stoul(name.substr(6))));
+  if (name.starts_with("mesh"))
+    return mesh(static_cast<std::uint32_t>(std::stoul(name.substr(4))));
   return shipped(name);
 }
 

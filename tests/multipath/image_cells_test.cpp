@@ -38,7 +38,7 @@ std::vector<ImageCell> cut(std::vector<ImageCell> cells, Random &random) {
 
 } // namespace
 
-TEST_CASE("each sample that sees a surface is the own of one cell, which sees one plane") {
+TEST_CASE("each sample that sees a surface is the own of one cell, which sees one surface") {
   const auto samples = GENERATE(1u, 3u);
   Room room = random_room(5);
   room.sensor.samples = samples;
@@ -52,10 +52,12 @@ TEST_CASE("each sample that sees a surface is the own of one cell, which sees on
     for (std::uint32_t column = 0; column < end.x; column += block) {
       const glm::uvec2 low(column, row), high = glm::min(low + block, end);
       for (const ImageCell &cell : cut(cells_of(seen, low, high), random)) {
-        const std::uint32_t shape = seen.shape(cell.middle());
+        const std::uint32_t object = room.scene.object_of(seen.shape(cell.middle()));
         for_each_own(cell, [&](const glm::uvec2 &sample) {
           ++owners[sample.y * seen.columns() + sample.x];
-          CHECK(seen.in_one_plane(seen.shape(sample), shape));
+          CHECK(room.scene.object_of(seen.shape(sample)) == object);
+          if (sample.x > cell.runs[sample.y - cell.row].low)
+            CHECK(seen.are_continuous(sample - glm::uvec2(1, 0), sample));
         });
       }
     }

@@ -7,21 +7,34 @@
 #include "tests/support/random_rooms.h"
 
 #include <catch2/catch.hpp>
-#include <numeric>
+#include <functional>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
 
 namespace {
 
-double sum_of(const std::vector<float> &values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+using VisitBin = std::function<void(const Facet &, const glm::dvec2 &weights, double length_m, double share)>;
 
-// The shares of the objects of a scene, seen along lines.
-std::vector<double> shares_of(const Scene &scene, const Elements &elements, const Sightings &seen) {
-  std::vector<double> shares(scene.objects.size());
-  for (std::size_t i = 0; i < seen.face.size(); ++i)
-    shares[scene.object_of(elements.facets[seen.face[i] / 2].triangle)] += static_cast<double>(seen.share[i]);
-  return shares;
+// Calls visit for all that is seen of sides that reflect.
+void for_each_seen(const HemisphereScan &scan, const Elements &elements, const SurfacePlace &place,
+                   double turn, std::uint32_t lines, const VisitBin &visit) {
+  scan.at(scan.frame(place, turn, lines), lines, [&](const SeenLine &line) {
+    for (std::size_t i = 0; i < bins_of_line; ++i) {
+      const auto face = static_cast<std::size_t>(line.face[i]);
+      if (face < 2 * elements.facets.size() && elements.facets[face / 2].elements[face % 2] != no_element)
+        visit(elements.facets[face / 2], {line.u[i], line.v[i]}, static_cast<double>(line.length_m[i]),
+              static_cast<double>(line.share[i]));
+    }
+  });
+}
+
+double share_of_all(const HemisphereScan &scan, const Elements &elements, const SurfacePlace &place,
+                    double turn, std::uint32_t lines) {
+  double sum = 0.0;
+  for_each_seen(scan, elements, place, turn, lines,
+                [&](const Facet &, const glm::dvec2 &, double, double share) { sum += share; });
+  return sum;
 }
 
 // The same by rays.
@@ -55,12 +68,11 @@ TEST_CASE("shares of a closed box sum to one, at any place of it") {
   builder.add_mesh(box_corners({0.1, 0.0, 1.0}, {1.0, 0.7, 1.4}, 0.0), box_faces(true), {0.5});
   const Elements elements = make_elements(builder.scene(), 0.2);
   const HemisphereScan scan(builder.scene(), elements);
-  Sightings seen;
   double mean = 0.0;
   for (std::size_t i = 0; i < elements.elements.size(); ++i) {
-    scan.at(elements.elements[i].places[i % 4], turn_of(i), 12, seen);
-    CHECK(sum_of(seen.share) == Approx(1.0).epsilon(1e-3));
-    mean += sum_of(seen.share) / static_cast<double>(elements.elements.size());
+    const double share = share_of_all(scan, elements, elements.elements[i].places[i % 4], turn_of(i), 12);
+    CHECK(share == Approx(1.0).epsilon(1e-3));
+    mean += share / static_cast<double>(elements.elements.size());
   }
   CHECK(mean == Approx(1.0).epsilon(1e-4));
 }
@@ -75,12 +87,11 @@ TEST_CASE("the share of a rectangle is its form factor") {
   const HemisphereScan scan(builder.scene(), elements);
   const double x = a / c, y = b / c, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
   const double form = (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2.0 * std::numbers::pi);
-  Sightings seen;
   double mean = 0.0;
   for (std::size_t i = 0; i < 16; ++i) {
-    scan.at({-elements.origin_m, {0, 0, 1}}, turn_of(i), 64, seen);
-    CHECK(sum_of(seen.share) == Approx(form).epsilon(5e-3));
-    mean += sum_of(seen.share) / 16.0;
+    const double share = share_of_all(scan, elements, {-elements.origin_m, {0, 0, 1}}, turn_of(i), 192);
+    CHECK(share == Approx(form).epsilon(5e-3));
+    mean += share / 16.0;
   }
   CHECK(mean == Approx(form).epsilon(3e-4));
 }
@@ -91,13 +102,15 @@ TEST_CASE("lines see what rays see in random rooms with boxes, balls and meshes"
     const Elements elements = make_elements(scene, 0.3);
     const FacetTree tree(scene, elements);
     const HemisphereScan scan(scene, elements);
-    Sightings seen;
     for (std::size_t i = 0; i < 10; ++i) {
       // Fronts: inside of a box that stands on the floor, its bottom and the floor are equally near.
       const SurfacePlace place = places_of(elements.facets[i * elements.facets.size() / 10], 0)[3];
-      scan.at(place, turn_of(i), 192, seen);
-      const auto by_lines = shares_of(scene, elements, seen),
-                 by_rays = shares_by_rays(scene, elements, tree, place);
+      std::vector<double> by_lines(scene.objects.size());
+      for_each_seen(scan, elements, place, turn_of(i), 192,
+                    [&](const Facet &facet, const glm::dvec2 &, double, double share) {
+                      by_lines[scene.object_of(facet.triangle)] += share;
+                    });
+      const auto by_rays = shares_by_rays(scene, elements, tree, place);
       for (std::size_t object = 0; object < by_rays.size(); ++object) {
         CAPTURE(number, i, object, by_lines[object], by_rays[object]);
         CHECK(std::abs(by_lines[object] - by_rays[object]) < 3e-3);
@@ -112,16 +125,23 @@ TEST_CASE("sightings of a plane have its distances, in the facets that lie there
   Elements elements = make_elements(builder.scene(), 0.7);
   split_facets(builder.scene(), elements, {1, 7, 12});
   const HemisphereScan scan(builder.scene(), elements);
-  Sightings seen;
-  scan.at({-elements.origin_m, {0, 0, 1}}, 0.2, 24, seen);
-  REQUIRE(seen.face.size() > 500);
-  double off_m = 0.0;
-  for (std::size_t i = 0; i < seen.face.size(); ++i) {
-    const Facet &facet = elements.facets[seen.face[i] / 2];
-    const double u = static_cast<double>(seen.u[i]), v = static_cast<double>(seen.v[i]);
-    CHECK(std::min({u, v, 1.0 - u - v}) > -1e-3);
-    const glm::dvec3 place = mixed(facet.corners_m, {1.0 - u - v, u, v}) + elements.origin_m;
-    off_m = std::max(off_m, std::abs(glm::length(place) - static_cast<double>(seen.length_m[i])));
-  }
-  CHECK(off_m < 0.01); // the length is a mean over the part of the line
+  std::size_t seen = 0, outside = 0;
+  const Triangle &triangle = builder.scene().triangles[0];
+  const auto check = [&](const Facet &facet, const glm::dvec2 &weights, double length_m, double) {
+    const CornerWeights at(1.0 - weights.x - weights.y, weights.x, weights.y);
+    std::array<glm::dvec3, 3> corners_m;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners_m[k] = builder.scene().positions_m[triangle.vertices[k]];
+    CHECK(std::abs(glm::length(mixed(corners_m, at)) - length_m) < 1e-5);
+    // In the facet, or in a cell that it shares with its neighbour.
+    const glm::dmat3 triangle_from_facet(facet.in_triangle[0], facet.in_triangle[1], facet.in_triangle[2]);
+    const glm::dvec3 in_facet = glm::inverse(triangle_from_facet) * at;
+    const double inside = std::min({in_facet.x, in_facet.y, in_facet.z});
+    CHECK(inside > -0.6);
+    outside += inside < -1e-4 ? 1u : 0u;
+    ++seen;
+  };
+  for_each_seen(scan, elements, {-elements.origin_m, {0, 0, 1}}, 0.2, 24, check);
+  REQUIRE(seen > 2000);
+  CHECK(outside < seen / 4);
 }

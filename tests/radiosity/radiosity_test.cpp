@@ -33,9 +33,10 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
     double absorbed_w = 0.0;
     for (std::size_t i = 0; i < solved.elements.facets.size(); ++i) {
       const FaceLight &light = solved.exitance.of(2 * i, 0);
-      const Phasor mean = (1.0f / 3.0f) * (light.corners[0] + light.corners[1] + light.corners[2]);
-      absorbed_w += static_cast<double>(abs(mean)) / reflectivity * (1.0 - reflectivity) *
-                    solved.elements.facets[i].area_m2();
+      const Facet &facet = solved.elements.facets[i];
+      const CornerWeights centre = (facet.in_triangle[0] + facet.in_triangle[1] + facet.in_triangle[2]) / 3.0;
+      const Phasor mean = light_at(light.leaving, static_cast<float>(centre.y), static_cast<float>(centre.z));
+      absorbed_w += static_cast<double>(abs(mean)) / reflectivity * (1.0 - reflectivity) * facet.area_m2();
     }
     CHECK(absorbed_w == Approx(4.0 * std::numbers::pi).epsilon(1e-3)); // of 1 W/sr all around
   }
@@ -45,21 +46,23 @@ TEST_CASE("what one wall sends to another is what the other sends to it") {
   const Scene scene = random_room(3).scene;
   const Elements elements = make_elements(scene, 0.15);
   const HemisphereScan scan(scene, elements);
-  Exchange exchange(elements, scan, 16);
-  exchange.set_tone({.hz = 20e6, .harmonic = 1, .frequency = 0, .relative = 1.0});
+  const ElementLight layout(elements);
+  const std::vector<BounceTone> tone{{.hz = 20e6, .harmonic = 1, .frequency = 0, .relative = 1.0}};
   const auto object_of = [&](const Facet &facet) { return scene.object_of(facet.triangle); };
   // What arrives on each object, W, of light that leaves the fronts of one, 1 W/m^2 everywhere.
   const auto sent = [&](std::uint32_t from) {
-    std::vector<std::array<Phasor, 3>> faces(2 * elements.facets.size());
+    Exitance faces(elements.facets.size(), 1);
     for (std::size_t i = 0; i < elements.facets.size(); ++i)
       if (object_of(elements.facets[i]) == from)
-        faces[2 * i].fill({1.0f, 0.0f});
-    std::vector<Phasor> places(places_of_piece * elements.elements.size());
-    exchange.arrive(faces, places);
+        faces.of(2 * i, 0).leaving.at = {1.0f, 0.0f};
+    const Exchange exchange(elements, layout, scan, 16, tone, faces);
+    const std::vector<Phasor> &values = exchange.first(0);
     std::vector<Phasor> arrived(scene.objects.size());
     for (const Facet &facet : elements.facets) {
-      const std::size_t first = places_of_piece * facet.elements[0];
-      const Phasor mean = (1.0f / 3.0f) * (places[first] + places[first + 1] + places[first + 2]);
+      if (facet.whole) // of a mesh, which is not asked about
+        continue;
+      const std::size_t first = layout.first_value(facet.elements[0], 0);
+      const Phasor mean = (1.0f / 3.0f) * (values[first] + values[first + 1] + values[first + 2]);
       arrived[object_of(facet)] += static_cast<float>(facet.area_m2()) * mean;
     }
     return arrived;
