@@ -158,10 +158,11 @@ void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, b
 }
 
 void Gather::add_missed(const SeenLine &line, const Exitance::OfFaces &faces, ElementErrors &missed) const {
-  for (std::size_t i = 0; i < bins_of_line; ++i) {
+  const std::size_t bins = line.bins->count;
+  for (std::size_t i = 0; i < bins; ++i) {
     const auto face = static_cast<std::size_t>(line.face[i]);
     float share = line.share[i];
-    for (; i + 1 < bins_of_line && line.face[i + 1] == line.face[i]; ++i)
+    for (; i + 1 < bins && line.face[i + 1] == line.face[i]; ++i)
       share += line.share[i + 1];
     if (const std::uint32_t element = element_of_face_[face]; element != no_element)
       missed.add(element, share * faces[face].missed);

@@ -39,8 +39,8 @@ public:
 
   void add(const SeenLine &line, const LineWays &ways, const LineTilt &part,
            const std::vector<Scattering> &faces) {
-    const auto &cotangents = cotangents_of_line();
-    for (std::size_t i = 0; i < bins_of_line; ++i) {
+    const float *cotangents = line.bins->cotangent;
+    for (std::size_t i = 0; i < line.bins->count; ++i) {
       const auto &[element, reflectivity, is_tilted, tilt] = faces[static_cast<std::size_t>(line.face[i])];
       if (element == no_element)
         continue;

@@ -8,7 +8,7 @@ namespace pmdsim {
 
 // Of each bin, the share that its face has in what arrives, turned by the length of the way.
 struct LineWays {
-  alignas(64) float re[bins_of_line], im[bins_of_line];
+  alignas(64) float re[most_bins], im[most_bins];
 };
 
 // Sums over a line.

@@ -3,26 +3,11 @@
 #include "engine/model/elementary_lanes.h"
 #include "engine/radiosity/line_light.h"
 
-#include <cmath>
-
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
-constexpr auto all_bins = static_cast<int>(bins_of_line);
 // Sums go by so many all_bins side by side whatever the vectors, so that they round alike.
 constexpr int columns = 16, vectors = columns / lanes;
-
-struct Cotangents {
-  alignas(vector_bytes) float of[all_bins];
-  Cotangents() {
-    for (int i = 0; i < all_bins; ++i)
-      of[i] = static_cast<float>(1.0 / std::tan(3.14159265358979323846 * (i + 0.5) / all_bins));
-  }
-};
-const Cotangents &cotangents() {
-  static const Cotangents made;
-  return made;
-}
 
 class ColumnSum {
 public:
@@ -40,7 +25,7 @@ private:
 };
 
 void find_ways(const SeenLine &line, double turns_per_m, LineWays &ways) {
-  for (int i = 0; i < all_bins; i += lanes) {
+  for (std::uint32_t i = 0; i < line.bins->count; i += lanes) {
     const Complex phasor = unit_phasor(turn_fraction(wide(load<Floats>(line.length_m + i)) * turns_per_m));
     const Complex way = load<Floats>(line.share + i) * phasor;
     store(ways.re + i, way.re);
@@ -52,15 +37,15 @@ LineLight add_light(const SeenLine &line, const LineWays &ways, const FaceLight 
   const auto *values = reinterpret_cast<const float *>(faces);
   constexpr int of_face = sizeof(FaceLight) / sizeof(float);
   ColumnSum re, im, along_re, along_im;
-  for (int first = 0; first < all_bins; first += columns)
+  for (std::uint32_t first = 0; first < line.bins->count; first += columns)
     for (int column = 0; column < columns; column += lanes) {
-      const int i = first + column;
+      const std::uint32_t i = first + static_cast<std::uint32_t>(column);
       const Ints face = of_face * load<Ints>(line.face + i);
       const Floats u = load<Floats>(line.u + i), v = load<Floats>(line.v + i);
       const Floats4 at = gathered4(values, face), by = gathered4(values + 4, face);
       const Complex leaving{at.of[0] + u * at.of[2] + v * by.of[0], at.of[1] + u * at.of[3] + v * by.of[1]};
       const Complex arriving = Complex{load<Floats>(ways.re + i), load<Floats>(ways.im + i)} * leaving;
-      const Floats along = load<Floats>(cotangents().of + i);
+      const Floats along = load<Floats>(line.bins->cotangent + i);
       re.add(column, arriving.re);
       im.add(column, arriving.im);
       along_re.add(column, along * arriving.re);

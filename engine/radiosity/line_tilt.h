@@ -7,10 +7,6 @@
 #include "engine/radiosity/line_light.h"
 #include "engine/surfaces/surface_frame.h"
 
-#include <array>
-#include <cmath>
-#include <numbers>
-
 namespace pmdsim {
 
 // The change by each part of a line, over that part: `of_line`, and `of_bins` times the cotangent of the
@@ -25,17 +21,6 @@ struct LineTilt {
 inline LineTilt tilt_towards(const glm::dvec3 &direction, const SurfaceFrame &frame, const SeenLine &line) {
   return {static_cast<float>(glm::dot(frame.y, direction)) * line.cosine / line.sine,
           static_cast<float>(glm::dot(frame.x, direction)) / line.sine};
-}
-
-inline const std::array<float, bins_of_line> &cotangents_of_line() {
-  static const std::array<float, bins_of_line> made = [] {
-    std::array<float, bins_of_line> cotangents;
-    for (std::size_t i = 0; i < bins_of_line; ++i)
-      cotangents[i] = static_cast<float>(1.0 / std::tan(std::numbers::pi * (static_cast<double>(i) + 0.5) /
-                                                        static_cast<double>(bins_of_line)));
-    return cotangents;
-  }();
-  return made;
 }
 
 } // namespace pmdsim

@@ -54,7 +54,7 @@ public:
     light_facets();
     Exitance exitance = direct_exitance();
     const std::vector<Sums> direct = sums_of(exitance);
-    auto scan = std::make_unique<const HemisphereScan>(scene_, elements_);
+    auto scan = std::make_unique<const HemisphereScan>(scene_, elements_, fineness_.bins);
     std::size_t lines = 0;
     std::uint32_t products = 0;
     if (bounces.count > 1) {

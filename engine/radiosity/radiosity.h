@@ -19,6 +19,7 @@ namespace pmdsim {
 struct Fineness {
   double element_m;    // across an element
   std::uint32_t lines; // from each of its places
+  std::uint32_t bins;  // of a line, whoever looks along it
   double facet_part;   // a facet is cut where it may be off by this part of all light that leaves surfaces
 };
 

@@ -34,18 +34,18 @@ public:
     scan.loops_.see_vertices(scene, board_frame(frame, lines), vertices_);
     met_count_ = scan.loops_.find_triangles(scene, vertices_, met_);
     sort_into_lines(scene, lines);
-    SeenLine seen{};
+    weigh_lines(lines);
+    SeenLine seen;
+    seen.bins = &scene.bins;
     for (std::uint32_t line = 0; line < lines; ++line) {
       const double angle = std::numbers::pi * (line + 0.5) / lines;
-      // The strip about a line, over pi: those of all lines are 2 / pi, and half of pi is what each sums to.
-      const double strip = 2.0 * std::sin(0.5 * std::numbers::pi / lines) * std::sin(angle);
       const std::uint32_t from = line_starts_[line];
       const LineTask task{of_lines_.data() + from,
                           line_starts_[line + 1] - from,
                           static_cast<std::int32_t>(line),
                           static_cast<float>(std::cos(angle)),
                           static_cast<float>(std::sin(angle)),
-                          static_cast<float>(strip / std::numbers::pi)};
+                          static_cast<float>(strips_[line] / std::numbers::pi)};
       seen.cosine = task.cosine;
       seen.sine = task.sine;
       scan.loops_.see_line(scene, vertices_, task, stretches_, seen);
@@ -85,6 +85,32 @@ private:
       const auto next_integers = [&] { return std::exchange(integers, integers + triangles); };
       stretches_ = {next(), next(), next(),          next(),          next(),          next(),
                     next(), next(), next_integers(), next_integers(), next_integers(), next_integers()};
+    }
+  }
+
+  // What each line counts: the integral of the sine of the angle over the strip about it, all of which are 2,
+  // as half of pi is what each line sums to. What changes from line to line is taken to be a parabola through
+  // neighbours, as light changes much near the horizon, where it comes from near surfaces.
+  void weigh_lines(std::uint32_t lines) {
+    if (strips_.size() == lines)
+      return;
+    const double step = std::numbers::pi / lines, half = 0.5 * step;
+    strips_.assign(lines, 0.0);
+    for (std::uint32_t i = 0; i < lines; ++i) {
+      const double angle = step * (i + 0.5), sine = std::sin(angle), cosine = std::cos(angle);
+      strips_[i] += 2.0 * std::sin(half) * sine;
+      if (lines < 3)
+        continue;
+      // The first and the second moment of the sine about the strip's middle, over powers of the step.
+      const double first = 2.0 * cosine * (std::sin(half) - half * std::cos(half)) / step;
+      const double second =
+          2.0 * sine * (half * half * std::sin(half) + 2.0 * half * std::cos(half) - 2.0 * std::sin(half)) /
+          (step * step);
+      const std::uint32_t middle = std::clamp(i, 1u, lines - 2);
+      const double from_middle = static_cast<double>(i) - static_cast<double>(middle);
+      strips_[middle - 1] += (from_middle - 0.5) * first + 0.5 * second;
+      strips_[middle] += -2.0 * from_middle * first - second;
+      strips_[middle + 1] += (from_middle + 0.5) * first + 0.5 * second;
     }
   }
 
@@ -128,9 +154,10 @@ private:
   std::uint32_t met_count_ = 0;
   std::vector<std::int32_t> of_lines_; // triangles, line by line
   std::vector<std::uint32_t> line_starts_, next_;
+  std::vector<double> strips_; // of lines, as many as there were at the last place
 };
 
-HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements)
+HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements, std::uint32_t bins)
     : edges_(elements, scene), triangles_(triangles_of(elements)),
       cells_(elements, triangles_), cutouts_{scene, triangles_}, loops_(widest_scan_loops(vector_bits)) {
   std::vector<std::int32_t> numbers(scene.positions_m.size(), -1);
@@ -150,6 +177,7 @@ HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements)
     is_masked_.push_back(scene.is_masked(id) ? 1 : 0);
     any_masked = any_masked || scene.is_masked(id);
   }
+  make_bins(bins);
   board_.vertices = static_cast<std::uint32_t>(x_m_.size());
   board_.triangles = static_cast<std::uint32_t>(triangles_.size());
   for (auto *coordinate : {&x_m_, &y_m_, &z_m_})
@@ -173,6 +201,18 @@ HemisphereScan::HemisphereScan(const Scene &scene, const Elements &elements)
       return is_there_at(masks, ids[static_cast<std::size_t>(triangle)], weights);
     };
   }
+}
+
+void HemisphereScan::make_bins(std::uint32_t bins) {
+  const std::uint32_t count = std::clamp((bins + 15) / 16 * 16, 16u, std::uint32_t{most_bins});
+  const double width = std::numbers::pi / count;
+  for (std::size_t i = 0; i < count + room; ++i) {
+    const double angle = width * (static_cast<double>(i) + 0.5);
+    bin_x_.push_back(static_cast<float>(std::cos(angle)));
+    bin_y_.push_back(static_cast<float>(std::sin(angle)));
+    bin_cotangent_.push_back(static_cast<float>(1.0 / std::tan(angle)));
+  }
+  board_.bins = {count, bin_x_.data(), bin_y_.data(), bin_cotangent_.data()};
 }
 
 SurfaceFrame HemisphereScan::frame(const SurfacePlace &place, double turn, std::uint32_t lines) const {

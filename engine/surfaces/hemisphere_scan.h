@@ -20,8 +20,9 @@ namespace pmdsim {
 
 class HemisphereScan {
 public:
-  // The scene has to outlive this; the facets have to be cut by then.
-  HemisphereScan(const Scene &scene, const Elements &elements);
+  // Lines have so many bins, 16 to most_bins, rounded up to a multiple of 16. The scene has to outlive this;
+  // the facets have to be cut by then.
+  HemisphereScan(const Scene &scene, const Elements &elements, std::uint32_t bins);
   HemisphereScan(const HemisphereScan &) = delete;
   HemisphereScan &operator=(const HemisphereScan &) = delete;
 
@@ -37,12 +38,14 @@ public:
 
 private:
   friend class PlaceScan;
+  void make_bins(std::uint32_t bins);
 
   SharpEdges edges_;
   std::vector<float> x_m_, y_m_, z_m_; // vertices, from the elements' origin
   std::array<std::vector<std::int32_t>, 3> corners_;
   std::vector<std::uint32_t> triangles_; // of the scene, by number
   FacetCells cells_;
+  std::vector<float> bin_x_, bin_y_, bin_cotangent_;
   std::vector<std::uint8_t> is_masked_;
   struct Cutouts {
     const Scene &scene;

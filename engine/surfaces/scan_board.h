@@ -7,18 +7,26 @@
 
 namespace pmdsim {
 
-inline constexpr std::size_t bins_of_line = 192;
+inline constexpr std::size_t most_bins = 768; // a multiple of 16, as is each count
+
+// Equal parts of a line's half turn.
+struct LineBins {
+  std::uint32_t count;
+  const float *x, *y;     // directions in their middles, from the axis; with room for 16 more
+  const float *cotangent; // of the middle's angle
+};
 
 // What one line over a hemisphere sees, a direction in the middle of each of its bins, from the axis to the
 // axis's other end. Where it sees nothing its share is 0, and its face one that sends no light.
 struct SeenLine {
-  alignas(64) std::int32_t face[bins_of_line]; // face_of
+  const LineBins *bins;
+  alignas(64) std::int32_t face[most_bins]; // face_of
   // Of the point that is seen: weights of the second and the third corner of the scene's triangle.
-  alignas(64) float u[bins_of_line], v[bins_of_line];
-  alignas(64) float length_m[bins_of_line]; // of the way there
+  alignas(64) float u[most_bins], v[most_bins];
+  alignas(64) float length_m[most_bins]; // of the way there
   // Of what arrives at the place, for each unit that leaves the face; in a closed scene those of all lines
   // sum to 1.
-  alignas(64) float share[bins_of_line];
+  alignas(64) float share[most_bins];
   float cosine, sine; // of the angle between the surface and the half plane
 };
 
@@ -39,6 +47,7 @@ struct ScanScene {
   const std::int32_t *first_cell, *cells_along;
   const std::int32_t *cells;
   const FacetCut *cuts;
+  LineBins bins;
   std::int32_t dark_face;
   float lowest_m; // over a surface: what is nearer to its plane is not seen
   // Triangles with cutouts; all null where there are none.

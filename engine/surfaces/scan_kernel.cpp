@@ -3,33 +3,10 @@
 #include "engine/model/lanes.h"
 #include "engine/surfaces/scan_board.h"
 
-#include <cmath>
-
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
 constexpr float pi = 3.14159265358979f;
-constexpr auto bins = static_cast<int>(bins_of_line);
-constexpr float bin_rad = pi / static_cast<float>(bins);
-
-// The middles of bins, and what the integral of sin^2 over each is as a part of its width.
-struct Directions {
-  alignas(vector_bytes) float x[bins + lanes], y[bins + lanes], square[bins];
-  Directions() {
-    for (int i = 0; i < bins + lanes; ++i) {
-      const double width = 3.14159265358979323846 / bins, angle = width * (i + 0.5);
-      x[i] = static_cast<float>(std::cos(angle));
-      y[i] = static_cast<float>(std::sin(angle));
-      if (i < bins)
-        square[i] = static_cast<float>(0.5 * width - 0.5 * std::sin(width) * std::cos(2.0 * angle));
-    }
-  }
-};
-const Directions &directions() {
-  static const Directions made;
-  return made;
-}
-
 // The angle of the direction (x, y), y >= 0, from the axis of x, to 1e-6 rad.
 Floats angle_of(const Floats &x, const Floats &y) {
   const Floats wide = absolute(x), low = smaller(wide, y), high = larger(wide, y);
@@ -161,9 +138,12 @@ Ends ends_of(const ScanScene &scene, const ScanVertices &vertices, const LineTas
   ends.are_there = (of_a ^ of_b) | (of_a ^ of_c);
   const Floats bx = second.x - alone.x, by = second.y - alone.y, bz = second.z - alone.z,
                cx = third.x - alone.x, cy = third.y - alone.y, cz = third.z - alone.z;
-  const Floats facing =
-      (by * cz - bz * cy) * alone.x + (bz * cx - bx * cz) * alone.y + (bx * cy - by * cx) * alone.z;
-  ends.side = facing < 0.0f ? all(0) : all(1);
+  const Floats front_x = by * cz - bz * cy, front_y = bz * cx - bx * cz, front_z = bx * cy - by * cx;
+  const Floats behind = front_x * alone.x + front_y * alone.y + front_z * alone.z;
+  // A place on a triangle's plane, as at an edge, may seem to lie just behind it.
+  const Floats front2 = front_x * front_x + front_y * front_y + front_z * front_z;
+  const Ints is_behind = behind * behind > scene.lowest_m * scene.lowest_m * front2;
+  ends.side = (behind > 0.0f) & is_behind & 1;
   return ends;
 }
 
@@ -177,11 +157,11 @@ End clipped(const End &end, const End &other, float lowest_m) {
 }
 
 // The first bin whose middle is not before that angle.
-Ints bin_from(const Floats &angle) {
-  const Floats bin = angle * (1.0f / bin_rad) - 0.5f;
+Ints bin_from(const Floats &angle, std::uint32_t bins) {
+  const Floats bin = angle * (static_cast<float>(bins) / pi) - 0.5f;
   const Ints below = whole(bin);
   const Ints next = below + (__builtin_convertvector(below, Floats) < bin ? all(1) : all(0));
-  return smaller(larger(next, all(0)), all(bins));
+  return smaller(larger(next, all(0)), all(static_cast<std::int32_t>(bins)));
 }
 
 std::uint32_t find_stretches(const ScanScene &scene, const ScanVertices &vertices, const LineTask &task,
@@ -199,7 +179,7 @@ std::uint32_t find_stretches(const ScanScene &scene, const ScanVertices &vertice
     const Floats low_x = low(a.x, b.x), low_y = low(a.y, b.y), high_x = low(b.x, a.x), high_y = low(b.y, a.y);
     const Floats low_rad = low(a_rad, b_rad), high_rad = low(b_rad, a_rad);
     const Floats area = low_x * high_y - low_y * high_x, per_area = 1.0f / area;
-    const Ints first = bin_from(low_rad), end = bin_from(high_rad);
+    const Ints first = bin_from(low_rad, scene.bins.count), end = bin_from(high_rad, scene.bins.count);
     const Ints is_new =
         ends.are_there & is_above & (area > 0.0f) & (first < end) &
         (lane_numbers() + static_cast<std::int32_t>(i) < static_cast<std::int32_t>(task.count));
@@ -231,12 +211,12 @@ std::uint32_t find_stretches(const ScanScene &scene, const ScanVertices &vertice
 
 // The nearest stretch in the direction of each bin.
 struct Nearest {
-  alignas(vector_bytes) float nearness[bins + lanes];
-  alignas(vector_bytes) std::int32_t stretch[bins + lanes];
+  alignas(vector_bytes) float nearness[most_bins + lanes];
+  alignas(vector_bytes) std::int32_t stretch[most_bins + lanes];
 };
 
 void look_for_masked(const ScanScene &scene, const Stretches &stretches, std::int32_t own, Nearest &nearest) {
-  const Directions &of = directions();
+  const LineBins &of = scene.bins;
   for (std::int32_t i = stretches.first_bin[own]; i < stretches.end_bin[own]; ++i) {
     const float nearness = stretches.nearness_x[own] * of.x[i] + stretches.nearness_y[own] * of.y[i];
     if (!(nearness > nearest.nearness[i]))
@@ -252,8 +232,8 @@ void look_for_masked(const ScanScene &scene, const Stretches &stretches, std::in
 
 void find_nearest(const ScanScene &scene, const Stretches &stretches, std::uint32_t count, Nearest &nearest) {
   constexpr std::int32_t few = 3; // bins, which are faster one by one
-  const Directions &of = directions();
-  for (int i = 0; i < bins + lanes; i += lanes) {
+  const LineBins &of = scene.bins;
+  for (std::uint32_t i = 0; i < of.count + lanes; i += lanes) {
     store(nearest.nearness + i, all(0.0f));
     store(nearest.stretch + i, all(0));
   }
@@ -286,12 +266,12 @@ void find_nearest(const ScanScene &scene, const Stretches &stretches, std::uint3
 // Where what bin i - 1 sees gives way to what bin i sees, in bins from their border: at an end of these
 // between the bins' middles. Ends of small ones are no borders: others that no bin sees may lie beside them,
 // and bins are right on average.
-float border(const Stretches &stretches, const Nearest &nearest, std::int32_t i) {
-  constexpr float large = 3.0f * bin_rad;
+float border(const Stretches &stretches, const Nearest &nearest, float per_rad, std::int32_t i) {
+  constexpr float large = 3.0f; // bins
   const std::int32_t before = nearest.stretch[i - 1], after = nearest.stretch[i];
-  const auto in_bins = [&](float angle) { return angle * (1.0f / bin_rad) - static_cast<float>(i); };
+  const auto in_bins = [&](float angle) { return angle * per_rad - static_cast<float>(i); };
   const auto is_large = [&](std::int32_t own) {
-    return stretches.high_rad[own] - stretches.low_rad[own] > large;
+    return (stretches.high_rad[own] - stretches.low_rad[own]) * per_rad > large;
   };
   const bool sees_before = nearest.nearness[i - 1] > 0.0f, sees_after = nearest.nearness[i] > 0.0f;
   const float end = sees_before && is_large(before) ? in_bins(stretches.high_rad[before]) : 1.0f,
@@ -302,15 +282,38 @@ float border(const Stretches &stretches, const Nearest &nearest, std::int32_t i)
   return ends ? end : (begins ? begin : 0.0f);
 }
 
-// Moves the borders between what neighbouring bins see to where they are.
-void move_borders(const Stretches &stretches, const Nearest &nearest, float (&width)[bins_of_line]) {
+// How wide bins are in the end, and how far their middles move, both in bins.
+struct BinParts {
+  alignas(vector_bytes) float width[most_bins], shift[most_bins];
+};
+
+// Moves the borders between what neighbouring bins see to where they are. Beside a border, as at an end of an
+// integral that is summed at the middles of its parts, what the sum leaves out is told by the last two of
+// them (the formula of Euler and Maclaurin).
+void move_borders(const Stretches &stretches, const Nearest &nearest, std::uint32_t bins, BinParts &parts) {
+  constexpr float of_end = 1.0f / 24.0f;
+  const float per_rad = static_cast<float>(bins) / pi;
+  const auto last = static_cast<std::int32_t>(bins) - 1;
+  const auto is_alike = [&](std::int32_t a, std::int32_t b) {
+    return nearest.stretch[a] == nearest.stretch[b] && nearest.nearness[b] > 0.0f;
+  };
   const auto moved = [&](std::int32_t i) {
-    const float by = border(stretches, nearest, i);
-    width[i - 1] += by;
-    width[i] -= by;
+    const float by = border(stretches, nearest, per_rad, i);
+    parts.width[i - 1] += by;
+    parts.width[i] -= by;
+    parts.shift[i - 1] += 0.5f * by;
+    parts.shift[i] += 0.5f * by;
+    if (i > 1 && is_alike(i - 1, i - 2)) {
+      parts.width[i - 1] += of_end;
+      parts.width[i - 2] -= of_end;
+    }
+    if (i < last && is_alike(i, i + 1)) {
+      parts.width[i] += of_end;
+      parts.width[i + 1] -= of_end;
+    }
   };
   // The first bin of a vector is compared with the last of the one before.
-  for (std::int32_t first = 0; first < bins; first += lanes) {
+  for (std::int32_t first = 0; first < static_cast<std::int32_t>(bins); first += lanes) {
     const auto changed = [&](std::int32_t i) {
       return nearest.stretch[i] != nearest.stretch[i - 1] ||
              (nearest.nearness[i] > 0.0f) != (nearest.nearness[i - 1] > 0.0f);
@@ -338,16 +341,20 @@ std::int32_t facet_at(const ScanScene &scene, std::int32_t node, float u, float 
 
 void see_line(const ScanScene &scene, const ScanVertices &vertices, const LineTask &task,
               const Stretches &stretches, SeenLine &seen) {
-  const Directions &of = directions();
+  const LineBins &of = scene.bins;
   const std::uint32_t count = find_stretches(scene, vertices, task, stretches);
   Nearest nearest;
   find_nearest(scene, stretches, count, nearest);
   const Floats none = all(0.0f), one = all(1.0f);
-  alignas(vector_bytes) float width[bins_of_line];
-  for (int i = 0; i < bins; i += lanes)
-    store(width + i, one);
+  BinParts parts;
+  const auto bins = static_cast<int>(of.count);
+  for (int i = 0; i < bins; i += lanes) {
+    store(parts.width + i, one);
+    store(parts.shift + i, none);
+  }
   if (count > 0)
-    move_borders(stretches, nearest, width);
+    move_borders(stretches, nearest, of.count, parts);
+  const float bin_rad = pi / static_cast<float>(of.count);
   for (int i = 0; i < bins; i += lanes) {
     const Floats nearness = load<Floats>(nearest.nearness + i);
     const Ints is_seen = nearness > none;
@@ -358,8 +365,12 @@ void see_line(const ScanScene &scene, const ScanVertices &vertices, const LineTa
       continue;
     }
     const Ints own = load<Ints>(nearest.stretch + i);
-    const Floats length = is_seen ? 1.0f / (is_seen ? nearness : one) : none, x = load<Floats>(of.x + i),
-                 y = load<Floats>(of.y + i);
+    const Floats middle_x = load<Floats>(of.x + i), middle_y = load<Floats>(of.y + i),
+                 shift = bin_rad * load<Floats>(parts.shift + i);
+    const Floats unit = 1.0f - 0.5f * shift * shift;
+    const Floats x = unit * (middle_x - shift * middle_y), y = unit * (middle_y + shift * middle_x);
+    const Floats there = gathered(stretches.nearness_x, own) * x + gathered(stretches.nearness_y, own) * y;
+    const Floats length = is_seen ? 1.0f / (is_seen ? there : one) : none;
     const auto weight = [&](const float *of_x, const float *of_y) {
       return smaller(larger((gathered(of_x, own) * x + gathered(of_y, own) * y) * length, none), one);
     };
@@ -377,8 +388,7 @@ void see_line(const ScanScene &scene, const ScanVertices &vertices, const LineTa
     }
     store(seen.face + i, is_seen ? 2 * facet + gathered(stretches.side, own) : all(scene.dark_face));
     store(seen.length_m + i, length);
-    store(seen.share + i,
-          is_seen ? task.share * (load<Floats>(of.square + i) * load<Floats>(width + i)) : none);
+    store(seen.share + i, is_seen ? task.share * bin_rad * (y * y * load<Floats>(parts.width + i)) : none);
   }
 }
 

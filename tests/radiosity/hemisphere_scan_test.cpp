@@ -20,7 +20,7 @@ using VisitBin = std::function<void(const Facet &, const glm::dvec2 &weights, do
 void for_each_seen(const HemisphereScan &scan, const Elements &elements, const SurfacePlace &place,
                    double turn, std::uint32_t lines, const VisitBin &visit) {
   scan.at(scan.frame(place, turn, lines), lines, [&](const SeenLine &line) {
-    for (std::size_t i = 0; i < bins_of_line; ++i) {
+    for (std::size_t i = 0; i < line.bins->count; ++i) {
       const auto face = static_cast<std::size_t>(line.face[i]);
       if (face < 2 * elements.facets.size() && elements.facets[face / 2].elements[face % 2] != no_element)
         visit(elements.facets[face / 2], {line.u[i], line.v[i]}, static_cast<double>(line.length_m[i]),
@@ -67,7 +67,7 @@ TEST_CASE("shares of a closed box sum to one, at any place of it") {
   SceneBuilder builder;
   builder.add_mesh(box_corners({0.1, 0.0, 1.0}, {1.0, 0.7, 1.4}, 0.0), box_faces(true), {0.5});
   const Elements elements = make_elements(builder.scene(), 0.2);
-  const HemisphereScan scan(builder.scene(), elements);
+  const HemisphereScan scan(builder.scene(), elements, 192);
   double mean = 0.0;
   for (std::size_t i = 0; i < elements.elements.size(); ++i) {
     const double share = share_of_all(scan, elements, elements.elements[i].places[i % 4], turn_of(i), 12);
@@ -84,7 +84,7 @@ TEST_CASE("the share of a rectangle is its form factor") {
   builder.add_triangle({0, 0, c}, {0, b, c}, {a, 0, c}, {0.5}); // its front looks down
   builder.add_triangle({a, b, c}, {a, 0, c}, {0, b, c}, {0.5});
   const Elements elements = make_elements(builder.scene(), 0.3);
-  const HemisphereScan scan(builder.scene(), elements);
+  const HemisphereScan scan(builder.scene(), elements, 192);
   const double x = a / c, y = b / c, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
   const double form = (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2.0 * std::numbers::pi);
   double mean = 0.0;
@@ -101,7 +101,7 @@ TEST_CASE("lines see what rays see in random rooms with boxes, balls and meshes"
     const Scene scene = random_room(number).scene;
     const Elements elements = make_elements(scene, 0.3);
     const FacetTree tree(scene, elements);
-    const HemisphereScan scan(scene, elements);
+    const HemisphereScan scan(scene, elements, 192);
     for (std::size_t i = 0; i < 10; ++i) {
       // Fronts: inside of a box that stands on the floor, its bottom and the floor are equally near.
       const SurfacePlace place = places_of(elements.facets[i * elements.facets.size() / 10], 0)[3];
@@ -124,7 +124,7 @@ TEST_CASE("sightings of a plane have its distances, in the facets that lie there
   builder.add_triangle({-3, -3, 1}, {-3, 4, 1}, {5, -2, 1}, {0.5});
   Elements elements = make_elements(builder.scene(), 0.7);
   split_facets(builder.scene(), elements, {1, 7, 12});
-  const HemisphereScan scan(builder.scene(), elements);
+  const HemisphereScan scan(builder.scene(), elements, 192);
   std::size_t seen = 0, outside = 0;
   const Triangle &triangle = builder.scene().triangles[0];
   const auto check = [&](const Facet &facet, const glm::dvec2 &weights, double length_m, double) {

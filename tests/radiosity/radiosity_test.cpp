@@ -29,7 +29,7 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
   for (const double reflectivity : {0.3, 0.8}) {
     const Radiosity solved =
         solve_radiosity(closed_box(reflectivity), {lamp()}, Shadows::automatic, {all_bounces}, slow,
-                        {.element_m = 0.25, .lines = 16, .facet_part = 2e-5});
+                        {.element_m = 0.25, .lines = 16, .bins = 192, .facet_part = 2e-5});
     double absorbed_w = 0.0;
     for (std::size_t i = 0; i < solved.elements.facets.size(); ++i) {
       const FaceLight &light = solved.exitance.of(2 * i, 0);
@@ -45,7 +45,7 @@ TEST_CASE("in a closed box all that a lamp sends out is absorbed in the end") {
 TEST_CASE("what one wall sends to another is what the other sends to it") {
   const Scene scene = random_room(3).scene;
   const Elements elements = make_elements(scene, 0.15);
-  const HemisphereScan scan(scene, elements);
+  const HemisphereScan scan(scene, elements, 192);
   const ElementLight layout(elements);
   const std::vector<BounceTone> tone{{.hz = 20e6, .harmonic = 1, .frequency = 0, .relative = 1.0}};
   const auto object_of = [&](const Facet &facet) { return scene.object_of(facet.triangle); };
@@ -82,7 +82,7 @@ TEST_CASE("what one wall sends to another is what the other sends to it") {
 TEST_CASE("light that nothing absorbs and that cannot leave is refused") {
   const auto solve = [](double reflectivity, std::uint32_t bounces) {
     return solve_radiosity(closed_box(reflectivity), {lamp()}, Shadows::automatic, {bounces}, slow,
-                           {.element_m = 0.4, .lines = 8, .facet_part = 1e-3});
+                           {.element_m = 0.4, .lines = 8, .bins = 128, .facet_part = 1e-3});
   };
   CHECK_THROWS_AS(solve(1.0, all_bounces), Error);
   CHECK_NOTHROW(solve(1.0, 3));
