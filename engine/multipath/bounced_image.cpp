@@ -27,7 +27,10 @@ constexpr float noise_let_through = 2.5f;
 constexpr float hidden_by_noise = 0.25f;
 
 // What is gathered at a sample.
-using Node = std::vector<Gathered>;
+struct Node {
+  glm::vec3 normal{0.0f};
+  std::vector<Gathered> gathered; // of each tone
+};
 
 // Radiance at the lens for each unit of irradiance.
 double gain_of(const SeenPlace &seen) { return seen.lens_gain * seen.reflectivity / std::numbers::pi; }
@@ -110,11 +113,14 @@ private:
     nodes_.resize(first + wanted.size());
     std::vector<std::size_t> lines(wanted.size());
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-      if (const auto seen = seen_.at(wanted[i]))
+      Node &node = nodes_[first + i];
+      if (const auto seen = seen_.at(wanted[i])) {
+        node.normal = glm::vec3(seen->place.normal);
         lines[i] =
-            gather_.at(seen->place, turn_of(index(wanted[i])), aim_at(wanted[i], *seen), nodes_[first + i]);
-      else
-        nodes_[first + i].assign(tones_.size(), {});
+            gather_.at(seen->place, turn_of(index(wanted[i])), aim_at(wanted[i], *seen), node.gathered);
+      } else {
+        node.gathered.assign(tones_.size(), {});
+      }
     });
     image_.lines += std::accumulate(lines.begin(), lines.end(), std::size_t{0});
     image_.gathered += wanted.size();
@@ -169,24 +175,50 @@ private:
     Phasor irradiance;
     float of_lines = 0.0f, of_elements = 0.0f; // variances
 
-    // On a surface with that normal there.
-    void add(float weight, const Gathered &at, const glm::vec3 &normal) {
-      irradiance += weight * (at.irradiance + normal.x * at.by_tilt[0] + normal.y * at.by_tilt[1] +
-                              normal.z * at.by_tilt[2]);
+    void add(float weight, const Gathered &at) {
+      irradiance += weight * at.irradiance;
       of_lines += weight * weight * at.of_lines;
       of_elements = std::max(of_elements, at.of_elements);
     }
   };
 
+  // Sums between places: what arrives, as it is interpolated along a smooth surface, and what a facet's own
+  // tilt against that changes.
+  class Between {
+  public:
+    explicit Between(std::size_t tone) : tone_(tone) {}
+
+    void add(float weight, const Node &node) {
+      const Gathered &at = node.gathered[tone_];
+      sum_.add(weight, at);
+      normal_ += weight * node.normal;
+      for (std::size_t k = 0; k < by_tilt_.size(); ++k)
+        by_tilt_[k] += weight * at.by_tilt[k];
+    }
+
+    Interpolated on(const glm::vec3 &normal) const {
+      const glm::vec3 tilt = normal - normal_;
+      Interpolated made = sum_;
+      made.irradiance += tilt.x * by_tilt_[0] + tilt.y * by_tilt_[1] + tilt.z * by_tilt_[2];
+      return made;
+    }
+
+  private:
+    std::size_t tone_;
+    Interpolated sum_;
+    glm::vec3 normal_{0.0f};
+    std::array<Phasor, 3> by_tilt_;
+  };
+
   // By the corners of a cell alone.
   Interpolated between(const ImageCell &cell, const glm::uvec2 &sample, const glm::vec3 &normal,
                        std::size_t tone) const {
-    Interpolated sum;
+    Between sum(tone);
     const auto corners = cell.corners();
     const auto weights = cell.weights(sample);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      sum.add(weights[i], node(corners[i])[tone], normal);
-    return sum;
+      sum.add(weights[i], node(corners[i]));
+    return sum.on(normal);
   }
 
   // By the corners and the middle, where there is one.
@@ -194,23 +226,34 @@ private:
                     std::size_t tone) const {
     if (!cell.is_divisible())
       return between(cell, sample, normal, tone);
-    Interpolated sum;
+    Between sum(tone);
     const auto corners = cell.corners();
     const auto weights = cell.weights(sample), at_middle = cell.weights(cell.middle());
     const float bend = cell.bend(sample);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      sum.add(weights[i] - bend * at_middle[i], node(corners[i])[tone], normal);
-    sum.add(bend, node(cell.middle())[tone], normal);
-    return sum;
+      sum.add(weights[i] - bend * at_middle[i], node(corners[i]));
+    sum.add(bend, node(cell.middle()));
+    return sum.on(normal);
+  }
+
+  // Whether a surface bends so much over a cell that tilts of its facets cannot be told from that.
+  bool bends_too_much(const ImageCell &cell) const {
+    constexpr float most = 0.97f; // the cosine of some 14 degrees
+    const glm::vec3 normal = node(cell.middle()).normal;
+    return std::ranges::any_of(cell.corners(), [&](const glm::uvec2 &corner) {
+      return glm::dot(node(corner).normal, normal) < most;
+    });
   }
 
   // What corners miss at a cell's middle, |irradiance| of each tone; nothing where that is too much.
   std::optional<std::vector<float>> missed_at_middle(const ImageCell &cell) const {
     std::vector<float> missed(tones_.size());
     const auto seen = cell.is_divisible() ? seen_.at(cell.middle()) : std::nullopt;
+    if (seen && bends_too_much(cell))
+      return std::nullopt;
     const std::vector<Phasor> direct = seen ? direct_at(cell.middle(), *seen) : std::vector<Phasor>{};
     for (std::size_t t = 0; t < tones_.size() && seen; ++t) {
-      const Gathered &found = node(cell.middle())[t];
+      const Gathered &found = node(cell.middle()).gathered[t];
       const Interpolated expected = between(cell, cell.middle(), glm::vec3(seen->place.normal), t);
       const float most = of_interpolation * aim_.part[t] * pmdsim::abs(direct[t] + found.irradiance);
       const float variance = expected.of_lines + found.of_lines,

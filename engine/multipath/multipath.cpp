@@ -17,8 +17,10 @@
 namespace pmdsim {
 namespace {
 
-constexpr int most_tries = 4;  // each for less error than the one before
-constexpr double gained = 0.8; // of the error claimed before: a try that leaves more of it is the last
+constexpr int most_tries = 5; // each for less error than the one before
+// A try is the last if it leaves so much of the error claimed before, and that is so much more than was asked
+// for.
+constexpr double hardly_less = 0.8, far_too_much = 1.3;
 // Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
 // off by. Together they come to it; measured over boxes and rooms.
 constexpr double of_gather = 0.7, of_elements = 1.2, most_of_elements = 0.65;
@@ -187,7 +189,7 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
     }
     measurement.passes = with.passes;
     measurement.frame_ms = with.frame_ms;
-    if (claimed > gained * before)
+    if (claimed > hardly_less * before && claimed > far_too_much * state.bounces.max_error_m)
       break;
     error_m *= std::clamp(0.9 * state.bounces.max_error_m / claimed, 0.3, 0.9);
   }

@@ -95,7 +95,7 @@ bool SeenPlaces::are_continuous(const glm::uvec2 &a, const glm::uvec2 &b) const 
   const double cosine = glm::dot(p.normal, q.normal);
   if (cosine > same_direction && std::abs(p.offset_m - q.offset_m) <= same_place * std::abs(p.offset_m))
     return true;
-  constexpr double smooth = 0.9; // of some 25 degrees
+  constexpr double smooth = 0.98; // of some 11 degrees
   return cosine > smooth && scene_.object_of(of_a) == scene_.object_of(of_b) && is_unbroken(a, b);
 }
 
