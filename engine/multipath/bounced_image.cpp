@@ -29,6 +29,7 @@ constexpr float hidden_by_noise = 0.25f;
 // What is gathered at a sample.
 struct Node {
   glm::vec3 normal{0.0f};
+  std::uint32_t lines = 0;        // that it takes; at first a guess by its neighbours
   std::vector<Gathered> gathered; // of each tone
 };
 
@@ -96,34 +97,46 @@ private:
 
   void gather_nodes(const std::vector<ImageCell> &cells) {
     std::vector<glm::uvec2> wanted;
-    const auto want = [&](const glm::uvec2 &sample) {
+    const std::size_t first = nodes_.size();
+    const auto want = [&](const glm::uvec2 &sample, std::uint32_t guess) {
       std::uint32_t &node = node_of_sample_[index(sample)];
       if (node != not_gathered)
         return;
-      node = static_cast<std::uint32_t>(nodes_.size() + wanted.size());
+      node = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.push_back({glm::vec3(0.0f), guess, {}});
       wanted.push_back(sample);
     };
     for (const ImageCell &cell : cells) {
+      const std::uint32_t guess = most_lines_around(cell);
       for (const glm::uvec2 &corner : cell.corners())
-        want(corner);
+        want(corner, guess);
       if (cell.is_divisible())
-        want(cell.middle());
+        want(cell.middle(), guess);
     }
-    const std::size_t first = nodes_.size();
-    nodes_.resize(first + wanted.size());
     std::vector<std::size_t> lines(wanted.size());
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
       Node &node = nodes_[first + i];
       if (const auto seen = seen_.at(wanted[i])) {
         node.normal = glm::vec3(seen->place.normal);
-        lines[i] =
-            gather_.at(seen->place, turn_of(index(wanted[i])), aim_at(wanted[i], *seen), node.gathered);
+        const Gather::Lines of_node = gather_.at(seen->place, turn_of(index(wanted[i])), node.lines,
+                                                 aim_at(wanted[i], *seen), node.gathered);
+        node.lines = of_node.needed;
+        lines[i] = of_node.looked;
       } else {
         node.gathered.assign(tones_.size(), {});
       }
     });
     image_.lines += std::accumulate(lines.begin(), lines.end(), std::size_t{0});
     image_.gathered += wanted.size();
+  }
+
+  // That corners of a cell take, of those that were gathered before.
+  std::uint32_t most_lines_around(const ImageCell &cell) const {
+    std::uint32_t lines = 0;
+    for (const glm::uvec2 &corner : cell.corners())
+      if (const std::uint32_t node = node_of_sample_[index(corner)]; node != not_gathered)
+        lines = std::max(lines, nodes_[node].lines);
+    return lines;
   }
 
   // Keeps cells over which light can be interpolated, or that have no more to be interpolated. Returns the

@@ -89,22 +89,29 @@ Gather::Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones)
   element_of_face_.push_back(no_element);
 }
 
-std::size_t Gather::at(const SurfacePlace &place, double turn, const GatherAim &aim,
-                       std::vector<Gathered> &gathered) const {
-  look(place, turn, first_lines, true, gathered);
-  const float excess = excess_of(gathered, aim);
-  if (!(excess > 1.0f))
-    return first_lines;
-  const auto lines = static_cast<std::uint32_t>(std::min(
-      std::ceil(static_cast<float>(first_lines) * std::cbrt(excess)), static_cast<float>(most_lines)));
-  look(place, turn, lines, false, gathered);
-  return first_lines + lines;
+Gather::Lines Gather::at(const SurfacePlace &place, double turn, std::uint32_t guess, const GatherAim &aim,
+                         std::vector<Gathered> &gathered) const {
+  constexpr float let_through = 1.2f; // of a variance
+  Lines lines{std::clamp(guess, first_lines, most_lines), 0};
+  const auto look_along = [&](std::uint32_t count) {
+    look(place, turn, count, gathered);
+    const float excess = excess_of(gathered, aim), wanted = static_cast<float>(count) * std::cbrt(excess);
+    lines.needed = static_cast<std::uint32_t>(
+        std::clamp(std::ceil(wanted), static_cast<float>(first_lines), static_cast<float>(most_lines)));
+    return excess <= let_through;
+  };
+  const auto first = static_cast<std::uint32_t>(lines.looked);
+  if (!look_along(first) && lines.needed > first) {
+    lines.looked += lines.needed;
+    look_along(lines.needed);
+  }
+  return lines;
 }
 
 float Gather::times_off(const SurfacePlace &place, double turn, const std::vector<Phasor> &direct,
                         const std::vector<float> &part) const {
   std::vector<Gathered> sums;
-  look(place, turn, first_lines, true, sums);
+  look(place, turn, first_lines, sums);
   float most = 0.0f;
   for (std::size_t t = 0; t < sums.size(); ++t) {
     const float all = part[t] * pmdsim::abs(direct[t] + sums[t].irradiance);
@@ -114,7 +121,7 @@ float Gather::times_off(const SurfacePlace &place, double turn, const std::vecto
   return most;
 }
 
-void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, bool finds_elements_off,
+void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines,
                   std::vector<Gathered> &sums) const {
   thread_local std::vector<Differences> differences;
   thread_local std::vector<ElementErrors> missed;
@@ -131,6 +138,8 @@ void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, b
   const LineLightLoops &loops = line_light_loops();
   const SurfaceFrame frame = radiosity_.scan->frame(place, turn, lines);
   const std::array<glm::dvec3, 3> world{glm::dvec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::uint32_t step = std::max(lines / first_lines, 1u); // of lines that tell what elements are off by
+  std::uint32_t number = 0;
   radiosity_.scan->at(frame, lines, [&](const SeenLine &line) {
     std::array<LineTilt, 3> by_tilt;
     for (std::size_t k = 0; k < 3; ++k)
@@ -144,20 +153,20 @@ void Gather::look(const SurfacePlace &place, double turn, std::uint32_t lines, b
       sums[t].irradiance += light.arrives;
       for (std::size_t k = 0; k < 3; ++k)
         sums[t].by_tilt[k] += by_tilt[k].of(light);
-      if (finds_elements_off)
-        add_missed(line, faces, missed[t]);
+      if (number % step == step / 2)
+        add_missed(line, static_cast<float>(step), faces, missed[t]);
     }
+    ++number;
   });
   for (std::size_t t = 0; t < tones; ++t) {
     sums[t].of_lines = differences[t].variance();
-    if (!finds_elements_off)
-      continue;
     const float of_all = by_more_than_chance * radiosity_.off[t];
     sums[t].of_elements = missed[t].variance() + of_all * of_all * norm(sums[t].irradiance);
   }
 }
 
-void Gather::add_missed(const SeenLine &line, const Exitance::OfFaces &faces, ElementErrors &missed) const {
+void Gather::add_missed(const SeenLine &line, float lines, const Exitance::OfFaces &faces,
+                        ElementErrors &missed) const {
   const std::size_t bins = line.bins->count;
   for (std::size_t i = 0; i < bins; ++i) {
     const auto face = static_cast<std::size_t>(line.face[i]);
@@ -165,7 +174,7 @@ void Gather::add_missed(const SeenLine &line, const Exitance::OfFaces &faces, El
     for (; i + 1 < bins && line.face[i + 1] == line.face[i]; ++i)
       share += line.share[i + 1];
     if (const std::uint32_t element = element_of_face_[face]; element != no_element)
-      missed.add(element, share * faces[face].missed);
+      missed.add(element, lines * share * faces[face].missed);
   }
 }
 

@@ -34,10 +34,15 @@ public:
   // Both have to outlive this.
   Gather(const Radiosity &radiosity, const std::vector<BounceTone> &tones);
 
-  // `turn` as HemisphereScan's. Sets one value a tone; returns the number of lines. Any number of threads may
-  // call this at once.
-  std::size_t at(const SurfacePlace &place, double turn, const GatherAim &aim,
-                 std::vector<Gathered> &gathered) const;
+  struct Lines {
+    std::size_t looked = 0;   // along which was looked
+    std::uint32_t needed = 0; // that would have been enough
+  };
+
+  // `turn` as HemisphereScan's; `guess` is how many lines may be needed, 0 where nobody knows. Sets one value
+  // a tone. Any number of threads may call this at once.
+  Lines at(const SurfacePlace &place, double turn, std::uint32_t guess, const GatherAim &aim,
+           std::vector<Gathered> &gathered) const;
 
   // How many times its part of all that arrives, diodes' light and bounced, elements may be off by there: two
   // standard deviations of the half of it that turns the phase, of the tone where that is most.
@@ -45,10 +50,10 @@ public:
                   const std::vector<float> &part) const;
 
 private:
-  // What elements are off by stays what it is where that is not asked for.
-  void look(const SurfacePlace &place, double turn, std::uint32_t lines, bool finds_elements_off,
-            std::vector<Gathered> &sums) const;
-  void add_missed(const SeenLine &line, const Exitance::OfFaces &faces, ElementErrors &missed) const;
+  void look(const SurfacePlace &place, double turn, std::uint32_t lines, std::vector<Gathered> &sums) const;
+  // By a line that stands for so many.
+  void add_missed(const SeenLine &line, float lines, const Exitance::OfFaces &faces,
+                  ElementErrors &missed) const;
 
   const Radiosity &radiosity_;
   std::vector<std::uint32_t> element_of_face_; // and no_element where nothing is seen
