@@ -1,5 +1,7 @@
 #include "engine/radiosity/element_light.h"
 
+#include <algorithm>
+
 namespace pmdsim {
 namespace {
 
@@ -48,6 +50,13 @@ ElementLight::ElementLight(const Elements &elements)
       if (element != no_element)
         shapes_[element] = shape;
   }
+}
+
+std::vector<Phasor> ElementLight::without_last_places(std::vector<Phasor> values) const {
+  for (std::size_t i = 0; i < shapes_.size(); ++i)
+    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(first_value(i, gauss_points)),
+                values_of_place(i), Phasor{});
+  return values;
 }
 
 std::vector<TriangleLight> ElementLight::spread(const std::vector<Phasor> &values) const {

@@ -35,6 +35,9 @@ public:
     return elements_.elements[element].is_group ? values_of_group_place : 1;
   }
 
+  // With 0 there.
+  std::vector<Phasor> without_last_places(std::vector<Phasor> values) const;
+
   // One function for each element.
   std::vector<TriangleLight> spread(const std::vector<Phasor> &values) const;
   // By how much the last place of an element differs from what is found there by the others.

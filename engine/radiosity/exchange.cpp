@@ -39,21 +39,23 @@ public:
 
   void add(const SeenLine &line, const LineWays &ways, const LineTilt &part,
            const std::vector<Scattering> &faces) {
+    const std::size_t bins = line.bins->count;
     const float *cotangents = line.bins->cotangent;
-    for (std::size_t i = 0; i < line.bins->count; ++i) {
-      const auto &[element, reflectivity, is_tilted, tilt] = faces[static_cast<std::size_t>(line.face[i])];
-      if (element == no_element)
-        continue;
-      if (is_open_[element] == 0) {
-        is_open_[element] = 1;
-        open_.push_back(element);
+    for (std::size_t i = 0; i < bins;) {
+      const std::uint32_t element = faces[static_cast<std::size_t>(line.face[i])].element;
+      TriangleLight sum; // of bins side by side
+      for (; i < bins; ++i) {
+        const Scattering &face = faces[static_cast<std::size_t>(line.face[i])];
+        if (face.element != element)
+          break;
+        const float share = face.reflectivity * (part.of_line + part.of_bins * cotangents[i]);
+        const Phasor way{share * ways.re[i], share * ways.im[i]};
+        sum.at += way;
+        sum.by_u += (face.is_tilted ? face.tilt.x : line.u[i]) * way;
+        sum.by_v += (face.is_tilted ? face.tilt.y : line.v[i]) * way;
       }
-      const Phasor way =
-          reflectivity * (part.of_line + part.of_bins * cotangents[i]) * Phasor{ways.re[i], ways.im[i]};
-      TriangleLight &sum = weights_[element];
-      sum.at += way;
-      sum.by_u += (is_tilted ? tilt.x : line.u[i]) * way;
-      sum.by_v += (is_tilted ? tilt.y : line.v[i]) * way;
+      if (element != no_element)
+        add(element, sum);
     }
   }
 
@@ -69,6 +71,14 @@ public:
   }
 
 private:
+  void add(std::uint32_t element, const TriangleLight &weights) {
+    if (is_open_[element] == 0) {
+      is_open_[element] = 1;
+      open_.push_back(element);
+    }
+    weights_[element] += weights;
+  }
+
   std::vector<TriangleLight> weights_;
   std::vector<std::uint8_t> is_open_;
   std::vector<std::uint32_t> open_;
@@ -89,7 +99,7 @@ ValueParts parts_of(const Element &element, const SurfaceFrame &frame, const See
 
 Exchange::Exchange(const Elements &elements, const ElementLight &layout, const HemisphereScan &scan,
                    std::uint32_t lines, const std::vector<BounceTone> &tones, const Exitance &direct)
-    : tones_(tones.size()) {
+    : layout_(layout), tones_(tones.size()) {
   const std::vector<Scattering> faces = scattering_of(elements, layout);
   for (OfTone &of_tone : tones_) {
     of_tone.first.resize(layout.values());
@@ -129,13 +139,21 @@ Exchange::Exchange(const Elements &elements, const ElementLight &layout, const H
   });
 }
 
-std::vector<Phasor> Exchange::bounced(std::size_t tone, std::span<const TriangleLight> elements) const {
+std::vector<Phasor> Exchange::bounced(std::size_t tone, std::span<const TriangleLight> elements,
+                                      bool with_last_places) const {
   const OfTone &of = tones_[tone];
+  const std::size_t places = with_last_places ? places_of_piece : places_of_piece - 1;
   std::vector<Phasor> values(of.values.size());
-  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-    for (const auto &[element, weights] : of.values[i]) {
-      const TriangleLight &light = elements[element];
-      values[i] += weights.at * light.at + weights.by_u * light.by_u + weights.by_v * light.by_v;
+  tbb::parallel_for(std::size_t{0}, elements.size(), [&](std::size_t element) {
+    const std::size_t first = layout_.first_value(element, 0),
+                      end = first + places * layout_.values_of_place(element);
+    for (std::size_t i = first; i < end; ++i) {
+      Phasor sum;
+      for (const auto &[seen, weights] : of.values[i]) {
+        const TriangleLight &light = elements[seen];
+        sum += weights.at * light.at + weights.by_u * light.by_u + weights.by_v * light.by_v;
+      }
+      values[i] = sum;
     }
   });
   return values;

@@ -17,6 +17,7 @@ class Exchange {
 public:
   // Looks along so many lines from each place. What arrives there directly from faces, of `direct`'s tones in
   // that order, is found on the way.
+  // The layout has to outlive this.
   Exchange(const Elements &elements, const ElementLight &layout, const HemisphereScan &scan,
            std::uint32_t lines, const std::vector<BounceTone> &tones, const Exitance &direct);
 
@@ -25,7 +26,9 @@ public:
 
   // The values of a tone's light that arrives on elements and bounces once, each face scattering the part
   // that it reflects.
-  std::vector<Phasor> bounced(std::size_t tone, std::span<const TriangleLight> elements) const;
+  // Those at the elements' last places, from which nothing follows, are 0 unless they are asked for.
+  std::vector<Phasor> bounced(std::size_t tone, std::span<const TriangleLight> elements,
+                              bool with_last_places) const;
 
 private:
   // How much each coefficient of an element's light counts in a value.
@@ -38,6 +41,7 @@ private:
     std::vector<std::vector<Entry>> values;
   };
 
+  const ElementLight &layout_;
   std::vector<OfTone> tones_;
 };
 

@@ -17,10 +17,13 @@ Phasor to_phasor(const Number &value) {
 }
 
 Number product_of(const Vector &a, const Vector &b) { // conjugate(a) . b
-  Number sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += std::conj(to_double(a[i])) * to_double(b[i]);
-  return sum;
+  double re = 0.0, im = 0.0;                          // without the care of std::complex for infinities
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Number x = to_double(a[i]), y = to_double(b[i]);
+    re += x.real() * y.real() + x.imag() * y.imag();
+    im += x.real() * y.imag() - x.imag() * y.real();
+  }
+  return {re, im};
 }
 
 double size_of(const Vector &a) { return std::sqrt(product_of(a, a).real()); }

@@ -16,7 +16,8 @@
 namespace pmdsim {
 namespace {
 
-constexpr double solved_residual = 1e-5; // of what bounces; no element is known better
+constexpr double solved_residual =
+    1e-4; // of what bounces; one more product brings it down by as much as light loses
 constexpr std::uint32_t most_products = 40;
 constexpr int most_facet_cuts = 3;           // of a facet, each to half its size
 constexpr std::size_t most_facets = 200'000; // that are cut
@@ -214,22 +215,26 @@ private:
   std::uint32_t add_bounces(const ElementLight &layout, const Exchange &exchange, const Bounces &bounces,
                             std::size_t tone, Exitance &exitance) const {
     const std::vector<Phasor> &first = exchange.first(tone);
-    const auto bounce = [&](const std::vector<Phasor> &values) {
-      return exchange.bounced(tone, layout.spread(values));
+    std::vector<Phasor> values = first;
+    std::uint32_t products = 1;
+    const auto add_to_first = [&](const std::vector<Phasor> &more) {
+      for (std::size_t i = 0; i < first.size(); ++i)
+        values[i] = first[i] + more[i];
     };
-    KrylovSolution sum{first, 1, 0.0};
     if (bounces.count == all_bounces) {
-      sum = solve_series(first, bounce, solved_residual, most_products);
+      const auto bounce = [&](const std::vector<Phasor> &last) {
+        return exchange.bounced(tone, layout.spread(last), false);
+      };
+      const KrylovSolution sum =
+          solve_series(layout.without_last_places(first), bounce, solved_residual, most_products);
+      add_to_first(exchange.bounced(tone, layout.spread(sum.x), true));
+      products += sum.products;
     } else {
-      std::vector<Phasor> last = first;
-      for (std::uint32_t n = 2; n < bounces.count; ++n, ++sum.products) {
-        last = bounce(last);
-        for (std::size_t i = 0; i < last.size(); ++i)
-          sum.x[i] += last[i];
-      }
+      for (std::uint32_t n = 2; n < bounces.count; ++n, ++products)
+        add_to_first(exchange.bounced(tone, layout.spread(values), true));
     }
-    add_scattered(layout, sum.x, tone, exitance);
-    return sum.products;
+    add_scattered(layout, values, tone, exitance);
+    return products;
   }
 
   // What faces send of light that arrives on elements.
@@ -261,7 +266,7 @@ private:
     std::vector<TriangleLight> light(elements_.elements.size(), TriangleLight{{1.0f, 0.0f}, {}, {}});
     double ratio = 0.0, before = 1.0;
     for (int i = 0; i < 60; ++i) {
-      const std::vector<Phasor> values = exchange.bounced(0, light);
+      const std::vector<Phasor> values = exchange.bounced(0, light, true);
       light = layout.spread(values);
       float most = 0.0f;
       for (const Phasor &value : values)
