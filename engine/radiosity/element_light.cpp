@@ -35,7 +35,8 @@ TriangleLight times(const glm::mat3 &rows, const Phasor *values) {
 }
 
 ElementLight::ElementLight(const Elements &elements)
-    : elements_(elements), first_values_{0}, shapes_(elements.elements.size()) {
+    : elements_(elements), first_values_{0}, shapes_(elements.elements.size()),
+      middles_(elements.elements.size(), glm::vec2(0.0f)) {
   for (std::size_t i = 0; i < elements.elements.size(); ++i)
     first_values_.push_back(first_values_.back() + places_of_piece * values_of_place(i));
   for (const Facet &facet : elements.facets) {
@@ -46,9 +47,13 @@ ElementLight::ElementLight(const Elements &elements)
     for (glm::length_t i = 0; i < 3; ++i)
       for (glm::length_t k = 0; k < 3; ++k)
         shape[i] += static_cast<float>(rows[i][k]) * facet.in_element[static_cast<std::size_t>(k)];
+    const CornerWeights middle = mixed(facet.in_triangle, piece_weights[gauss_points]);
     for (const std::uint32_t element : facet.elements)
-      if (element != no_element)
+      if (element != no_element) {
+        const double part = facet.area_m2() / elements.elements[element].area_m2;
         shapes_[element] = shape;
+        middles_[element] += glm::vec2(part * glm::dvec2(middle.y, middle.z));
+      }
   }
 }
 
@@ -70,6 +75,13 @@ std::vector<TriangleLight> ElementLight::spread(const std::vector<Phasor> &value
       light[i] += (1.0f / gauss_points) * at_place(values, first_value(i, place));
   }
   return light;
+}
+
+std::vector<Phasor> ElementLight::middles(std::span<const TriangleLight> light) const {
+  std::vector<Phasor> middles(light.size());
+  for (std::size_t i = 0; i < light.size(); ++i)
+    middles[i] = light_at(light[i], middles_[i].x, middles_[i].y);
+  return middles;
 }
 
 Phasor ElementLight::missed(const std::vector<Phasor> &values, std::size_t element) const {

@@ -7,6 +7,7 @@
 #include "engine/surfaces/elements.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pmdsim {
@@ -40,6 +41,8 @@ public:
 
   // One function for each element.
   std::vector<TriangleLight> spread(const std::vector<Phasor> &values) const;
+  // Of these functions, in the middle of each element.
+  std::vector<Phasor> middles(std::span<const TriangleLight> light) const;
   // By how much the last place of an element differs from what is found there by the others.
   Phasor missed(const std::vector<Phasor> &values, std::size_t element) const;
 
@@ -50,6 +53,7 @@ private:
   const Elements &elements_;
   std::vector<std::size_t> first_values_; // of each element, and their number
   std::vector<glm::mat3> shapes_;         // of pieces, by rows: from their Gauss points
+  std::vector<glm::vec2> middles_;        // what their functions take there
 };
 
 } // namespace pmdsim

@@ -2,10 +2,10 @@
 
 #include "engine/radiosity/line_tilt.h"
 
+#include <algorithm>
 #include <tbb/parallel_for.h>
 
 namespace pmdsim {
-namespace {
 
 // What scatters light: the element of a face, and how much of it.
 struct Scattering {
@@ -28,21 +28,25 @@ std::vector<Scattering> scattering_of(const Elements &elements, const ElementLig
   return faces;
 }
 
-// The entries of a value, while they are summed up.
+// What lines saw of one element.
+struct SeenElement {
+  TriangleLight weights;
+  std::uint32_t bins = 0;
+};
+
+// The elements that a value's lines see, while they are summed up.
 class OpenRow {
 public:
-  void reserve(std::size_t elements) {
-    weights_.resize(elements);
-    is_open_.resize(elements);
-  }
-  std::size_t size() const { return open_.size(); }
+  void reserve(std::size_t elements) { of_elements_.resize(elements); }
+  const std::vector<std::uint32_t> &seen() const { return seen_; }
+  const SeenElement &of(std::uint32_t element) const { return of_elements_[element]; }
 
   void add(const SeenLine &line, const LineWays &ways, const LineTilt &part,
            const std::vector<Scattering> &faces) {
-    const std::size_t bins = line.bins->count;
+    const std::uint32_t bins = line.bins->count;
     const float *cotangents = line.bins->cotangent;
-    for (std::size_t i = 0; i < bins;) {
-      const std::uint32_t element = faces[static_cast<std::size_t>(line.face[i])].element;
+    for (std::uint32_t i = 0; i < bins;) {
+      const std::uint32_t element = faces[static_cast<std::size_t>(line.face[i])].element, first = i;
       TriangleLight sum; // of bins side by side
       for (; i < bins; ++i) {
         const Scattering &face = faces[static_cast<std::size_t>(line.face[i])];
@@ -55,34 +59,30 @@ public:
         sum.by_v += (face.is_tilted ? face.tilt.y : line.v[i]) * way;
       }
       if (element != no_element)
-        add(element, sum);
+        add(element, sum, i - first);
     }
   }
 
-  // And starts again.
-  template <class Visit>
-  void close(const Visit &visit) {
-    for (const std::uint32_t element : open_) {
-      visit(element, weights_[element]);
-      weights_[element] = {};
-      is_open_[element] = 0;
-    }
-    open_.clear();
+  void clear() {
+    for (const std::uint32_t element : seen_)
+      of_elements_[element] = {};
+    seen_.clear();
   }
 
 private:
-  void add(std::uint32_t element, const TriangleLight &weights) {
-    if (is_open_[element] == 0) {
-      is_open_[element] = 1;
-      open_.push_back(element);
-    }
-    weights_[element] += weights;
+  void add(std::uint32_t element, const TriangleLight &weights, std::uint32_t bins) {
+    SeenElement &of = of_elements_[element];
+    if (of.bins == 0)
+      seen_.push_back(element);
+    of.weights += weights;
+    of.bins += bins;
   }
 
-  std::vector<TriangleLight> weights_;
-  std::vector<std::uint8_t> is_open_;
-  std::vector<std::uint32_t> open_;
+  std::vector<SeenElement> of_elements_;
+  std::vector<std::uint32_t> seen_;
 };
+
+namespace {
 
 // How each of a place's values, as ElementLight has them, follows from the parts of a line.
 using ValueParts = std::array<LineTilt, ElementLight::values_of_group_place>;
@@ -96,6 +96,22 @@ ValueParts parts_of(const Element &element, const SurfaceFrame &frame, const See
 }
 
 } // namespace
+
+// Few bins meet an element at places of it that are left to chance: its middle stands for it as well.
+void Exchange::close(OpenRow &open, const Elements &elements, Row &row) {
+  constexpr std::uint32_t few = 3;
+  const auto is_near = [&](std::uint32_t element) {
+    return open.of(element).bins > few || elements.elements[element].is_group;
+  };
+  row.near.reserve(static_cast<std::size_t>(std::ranges::count_if(open.seen(), is_near)));
+  row.far.reserve(open.seen().size() - row.near.capacity());
+  for (const std::uint32_t element : open.seen())
+    if (is_near(element))
+      row.near.push_back({element, open.of(element).weights});
+    else
+      row.far.push_back({element, open.of(element).weights.at});
+  open.clear();
+}
 
 Exchange::Exchange(const Elements &elements, const ElementLight &layout, const HemisphereScan &scan,
                    std::uint32_t lines, const std::vector<BounceTone> &tones, const Exitance &direct)
@@ -129,13 +145,8 @@ Exchange::Exchange(const Elements &elements, const ElementLight &layout, const H
       }
     });
     for (std::size_t t = 0; t < tones.size(); ++t)
-      for (std::size_t k = 0; k < count; ++k) {
-        std::vector<Entry> &entries = tones_[t].values[first + k];
-        entries.reserve(rows[t * count + k].size());
-        rows[t * count + k].close([&](std::uint32_t seen, const TriangleLight &weights) {
-          entries.push_back({seen, weights});
-        });
-      }
+      for (std::size_t k = 0; k < count; ++k)
+        close(rows[t * count + k], elements, tones_[t].values[first + k]);
   });
 }
 
@@ -143,16 +154,19 @@ std::vector<Phasor> Exchange::bounced(std::size_t tone, std::span<const Triangle
                                       bool with_last_places) const {
   const OfTone &of = tones_[tone];
   const std::size_t places = with_last_places ? places_of_piece : places_of_piece - 1;
+  const std::vector<Phasor> middles = layout_.middles(elements);
   std::vector<Phasor> values(of.values.size());
   tbb::parallel_for(std::size_t{0}, elements.size(), [&](std::size_t element) {
     const std::size_t first = layout_.first_value(element, 0),
                       end = first + places * layout_.values_of_place(element);
     for (std::size_t i = first; i < end; ++i) {
       Phasor sum;
-      for (const auto &[seen, weights] : of.values[i]) {
+      for (const auto &[seen, weights] : of.values[i].near) {
         const TriangleLight &light = elements[seen];
         sum += weights.at * light.at + weights.by_u * light.by_u + weights.by_v * light.by_v;
       }
+      for (const auto &[seen, weight] : of.values[i].far)
+        sum += weight * middles[seen];
       values[i] = sum;
     }
   });

@@ -13,6 +13,8 @@
 
 namespace pmdsim {
 
+class OpenRow;
+
 class Exchange {
 public:
   // Looks along so many lines from each place. What arrives there directly from faces, of `direct`'s tones in
@@ -31,15 +33,26 @@ public:
                               bool with_last_places) const;
 
 private:
-  // How much each coefficient of an element's light counts in a value.
-  struct Entry {
+  // How much each coefficient of an element's light counts in a value; of elements of which lines saw little,
+  // how much its light in the middle counts.
+  struct Near {
     std::uint32_t element;
     TriangleLight weights;
   };
+  struct Far {
+    std::uint32_t element;
+    Phasor weight;
+  };
+  struct Row {
+    std::vector<Near> near;
+    std::vector<Far> far;
+  };
   struct OfTone {
     std::vector<Phasor> first;
-    std::vector<std::vector<Entry>> values;
+    std::vector<Row> values;
   };
+
+  static void close(OpenRow &open, const Elements &elements, Row &row);
 
   const ElementLight &layout_;
   std::vector<OfTone> tones_;
