@@ -62,8 +62,11 @@ public:
       const ElementLight layout(elements_);
       const Exchange exchange(elements_, layout, *scan, fineness_.lines, tones_, exitance);
       lines = elements_.elements.size() * places_of_piece * fineness_.lines;
-      for (std::size_t t = 0; t < tones_.size(); ++t)
-        products += add_bounces(layout, exchange, bounces, t, exitance);
+      std::vector<std::uint32_t> of_tones(tones_.size());
+      tbb::parallel_for(std::size_t{0}, tones_.size(), [&](std::size_t t) {
+        of_tones[t] = add_bounces(layout, exchange, bounces, t, exitance);
+      });
+      products = std::accumulate(of_tones.begin(), of_tones.end(), 0u);
       if (bounces.count == all_bounces)
         refuse_divergence(layout, *scan);
     }
