@@ -24,7 +24,7 @@ constexpr double hardly_less = 0.8, far_too_much = 1.3;
 // Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
 // off by. Together they come to it; measured over boxes and rooms.
 constexpr double of_gather = 0.7, of_elements = 1.2, most_of_elements = 0.65;
-constexpr double most_elements = 6'000.0; // about: more take gigabytes
+constexpr double most_elements = 12'000.0; // about: more take gigabytes
 constexpr double promised = 0.95;         // share of the pixels that keep what is claimed
 
 class Stopwatch {
