@@ -110,6 +110,10 @@ bool Simulator::State::is_kept(const Measurement &measured) {
   return false;
 }
 
+BouncesForecast forecast_bounces(const Scene &scene, const Sensor &sensor, const Bounces &bounces) {
+  return Multipath::forecast(scene, sensor, bounces);
+}
+
 Simulator::Simulator(const SimulatorOptions &options) : state_(std::make_unique<State>(options)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator &&) noexcept = default;

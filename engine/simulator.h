@@ -21,6 +21,9 @@ namespace pmdsim {
 // Called with the fraction of the frame that is done, 0 to 1; may throw to stop the frame.
 using Progress = std::function<void(double fraction)>;
 
+// What the bounces of a frame will take; needs no device. Throws Error: out_of_memory.
+BouncesForecast forecast_bounces(const Scene &scene, const Sensor &sensor, const Bounces &bounces);
+
 class Simulator {
 public:
   // Throws Error: no_device where no usable device matches.

@@ -1,6 +1,7 @@
 #pragma once
 // Light that comes to the lens by more than one surface (multipath), as a setup asks for it.
 
+#include <cstddef>
 #include <cstdint>
 
 namespace pmdsim {
@@ -15,6 +16,12 @@ struct Bounces {
 
   bool any() const { return count > 0; }
   bool operator==(const Bounces &) const = default;
+};
+
+// What light that bounces will take, told before anything is computed.
+struct BouncesForecast {
+  std::size_t elements = 0; // of surfaces, at first; more where these turn out to be too coarse
+  double frame_s = 0.0;     // about, of a first frame, on this processor
 };
 
 } // namespace pmdsim

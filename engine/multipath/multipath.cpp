@@ -3,6 +3,7 @@
 #include "engine/model/error.h"
 #include "engine/multipath/bounced_channels.h"
 #include "engine/multipath/bounced_image.h"
+#include "engine/multipath/fineness.h"
 #include "engine/radiosity/radiosity.h"
 
 #include <algorithm>
@@ -21,11 +22,10 @@ constexpr int most_tries = 5; // each for less error than the one before
 // A try is the last if it leaves so much of the error claimed before, and that is so much more than was asked
 // for.
 constexpr double hardly_less = 0.8, far_too_much = 1.3;
-// Parts of the error asked for: what lines and interpolation aim at, what elements aim at first and may be
-// off by. Together they come to it; measured over boxes and rooms.
-constexpr double of_gather = 0.7, of_elements = 1.2, most_of_elements = 0.65;
-constexpr double most_elements = 12'000.0; // about: more take gigabytes
-constexpr double promised = 0.95;         // share of the pixels that keep what is claimed
+// Parts of the error asked for: what lines and interpolation aim at, and what elements may be off by.
+// Together they come to it; measured over boxes and rooms.
+constexpr double of_gather = 0.7, most_of_elements = 0.65;
+constexpr double promised = 0.95; // share of the pixels that keep what is claimed
 
 class Stopwatch {
 public:
@@ -45,25 +45,6 @@ public:
 private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-// What bins leave out falls at least with their width's square.
-std::uint32_t bins_for(double millimetres) {
-  return static_cast<std::uint32_t>(std::clamp(128.0 * std::pow(millimetres, -0.7), 96.0, 768.0));
-}
-
-// Measured over boxes and rooms: 1,500 elements are off by less than 1 mm at 20 MHz and above, and the error
-// falls a little faster than their number grows. At lower frequencies the same part of the light is more
-// millimetres.
-Fineness fineness_of(const Scene &scene, const std::vector<BounceTone> &tones, double error_m) {
-  constexpr double measured_hz = 20e6;
-  const double lowest_hz = std::ranges::min(tones, {}, &BounceTone::hz).hz;
-  const double millimetres = error_m / 1e-3 * std::min(lowest_hz / measured_hz, 1.0);
-  const double elements = std::clamp(1500.0 * std::pow(millimetres, -0.7), 300.0, most_elements);
-  return {.element_m = std::sqrt(2.0 * reflecting_area_m2(scene) / elements),
-          .lines = 10,
-          .bins = bins_for(millimetres),
-          .facet_part = 2e-5 * millimetres};
-}
 
 // The part of a pixel's light that the error of each tone may be.
 std::vector<float> parts_of(const std::vector<BounceTone> &tones, const Sensor &sensor, double error_m) {
@@ -127,7 +108,7 @@ struct Multipath::State {
   // A solution whose elements are off by no more than they may be where the frame looks. Throws Error:
   // accuracy, where they alone are off by more than was asked for, however fine.
   Solved &exact_solution(double error_m, const Measurement &measurement, const ImageAim &aim) {
-    Solved *found = &solution(of_elements * error_m);
+    Solved *found = &solution(first_of_elements * error_m);
     while (true) {
       const SeenPlaces seen(scene, sensor, measurement, found->radiosity.elements.origin_m);
       const double times = quantile(times_off(found->radiosity, tones.tones, seen, aim), promised);

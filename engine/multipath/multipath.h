@@ -33,6 +33,9 @@ public:
   // out_of_memory, accuracy (the error asked for is not reached).
   void add_to(Measurement &measurement, const std::function<void(double)> &progress);
 
+  // Looks along some lines to learn how long they take. Throws Error: out_of_memory.
+  static BouncesForecast forecast(const Scene &scene, const Sensor &sensor, const Bounces &bounces);
+
 private:
   struct State;
   std::unique_ptr<State> state_;

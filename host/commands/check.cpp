@@ -1,4 +1,5 @@
 #include "engine/model/tap_sequence.h"
+#include "engine/simulator.h"
 #include "host/capture/capture.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <optional>
 
 namespace pmdsim {
 namespace {
@@ -54,9 +56,26 @@ ordered_json illuminator_json(const std::pair<std::string, LightFindings> &illum
   return json;
 }
 
-// What is asked for. What it takes, elements and time, belongs beside it, once the engine tells beforehand.
-ordered_json asked_bounces_json(const Setup &setup) {
-  return {{"bounces", setup.as_used.at("bounces")}, {"bounce_error_m", setup.bounces.max_error_m}};
+// Of all sensors' first frames; nothing without bounces.
+std::optional<BouncesForecast> forecast_of(const Setup &setup) {
+  if (!setup.bounces.any())
+    return std::nullopt;
+  BouncesForecast all;
+  for (const Sensor &sensor : setup.start.sensors) {
+    const BouncesForecast of_sensor = forecast_bounces(setup.start.scene, sensor, setup.bounces);
+    all.elements = std::max(all.elements, of_sensor.elements);
+    all.frame_s += of_sensor.frame_s;
+  }
+  return all;
+}
+
+ordered_json bounces_json(const Setup &setup, const std::optional<BouncesForecast> &forecast) {
+  ordered_json json{{"bounces", setup.as_used.at("bounces")}, {"bounce_error_m", setup.bounces.max_error_m}};
+  if (forecast) {
+    json["bounce_elements"] = forecast->elements;
+    json["bounce_time_s"] = forecast->frame_s;
+  }
+  return json;
 }
 
 // The keys of the first sensor (and its first frequency) stand at the top too.
@@ -69,7 +88,7 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   report.update(light_json(findings.light));
   report["shadows"] = setup.shadows == Shadows::automatic ? "auto" : "off";
   report["shadow_casters"] = findings.shadow_casters;
-  report.update(asked_bounces_json(setup));
+  report.update(bounces_json(setup, forecast_of(setup)));
   report["frames"] = frames_json(setup.frames);
   report["moves"] = setup.motion != nullptr;
   report["ambiguity_m"] = sensors[0]["ambiguity_m"][0];
@@ -158,12 +177,15 @@ std::string shadows_text(Shadows shadows, std::size_t casters) {
                       : fmt::format("on, {} shapes that may cast them", casters);
 }
 
-std::string asked_bounces_text(const Setup &setup) {
+std::string bounces_text(const Setup &setup) {
   if (!setup.bounces.any())
     return "0, light comes by one surface alone";
   const std::string count =
       setup.bounces.count == all_bounces ? "all" : fmt::format("{}", setup.bounces.count);
-  return fmt::format("{}, multipath within {:.6g} mm is asked for", count, 1e3 * setup.bounces.max_error_m);
+  const std::optional<BouncesForecast> forecast = forecast_of(setup);
+  return fmt::format(
+      "{}, multipath within {:.6g} mm is asked for: {} elements at first, a frame in about {:.1g} s", count,
+      1e3 * setup.bounces.max_error_m, forecast->elements, forecast->frame_s);
 }
 
 std::string report_text(const Setup &setup, const Findings &findings) {
@@ -174,7 +196,7 @@ std::string report_text(const Setup &setup, const Findings &findings) {
     text += line("points", fmt::format("{}", scene.discs.size()));
   text += illuminators_text(findings) +
           line("shadows", shadows_text(setup.shadows, findings.shadow_casters)) +
-          line("bounces", asked_bounces_text(setup)) + line("frames", frames_text(setup.frames)) +
+          line("bounces", bounces_text(setup)) + line("frames", frames_text(setup.frames)) +
           line("motion", setup.motion ? "the scene moves; what is visible is told of the first frame"
                                       : "nothing moves");
   for (const SensorFindings &sensor : findings.sensors)

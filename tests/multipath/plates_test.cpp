@@ -18,7 +18,8 @@ struct PlateErrors {
   double kept = 0.0;                     // share of pixels that keep what is claimed
 };
 
-PlateErrors plate_errors(const std::vector<Plate> &plates, const Bounces &bounces, const char *name, int nodes_a_side = 80) {
+PlateErrors plate_errors(const std::vector<Plate> &plates, const Bounces &bounces, const char *name,
+                         int nodes_a_side = 80) {
   const Sensor sensor = wide_sensor({24, 24}, 1.2);
   const Scene scene = scene_of(plates);
   const Illuminator light{"diodes", sensor.world_from_camera, lamps};
@@ -30,8 +31,8 @@ PlateErrors plate_errors(const std::vector<Plate> &plates, const Bounces &bounce
     if (whole.object_id[pixel] == no_id || !(whole.returns[0].amplitude[pixel] > 0.0))
       continue;
     const auto z = whole.returns[0].z[pixel];
-    const double expected_m =
-        multipath_of_m(z + one_bounce_of(plates, sensor, whole, pixel, lamps, nodes_a_side), z, sensor.ambiguity_m());
+    const double expected_m = multipath_of_m(
+        z + one_bounce_of(plates, sensor, whole, pixel, lamps, nodes_a_side), z, sensor.ambiguity_m());
     errors_m.push_back(std::abs(static_cast<double>(frame.returns[0].multipath_m[pixel]) - expected_m));
     kept += errors_m.back() <= static_cast<double>(frame.returns[0].multipath_error_m[pixel]) ? 1u : 0u;
   }

@@ -73,6 +73,27 @@ TEST_CASE("light bounces in twenty random rooms as many paths do", "[long]") {
   check_rooms(20, {all_bounces, 1e-3}, 60, 1 << 18);
 }
 
+// A third of the error takes twice the elements.
+TEST_CASE("with twice the elements frames move by less than was claimed", "[long]") {
+  for (const std::uint32_t number : {0u, 1u, 4u, 9u, 12u, 18u}) {
+    const Room room = random_room(number);
+    const auto frame = [&](double error_m) {
+      return bounced_frame(room.scene, room.sensor, {room.light}, {all_bounces, error_m});
+    };
+    const Measurement asked = frame(1e-3), finer = frame(0.37e-3);
+    std::size_t pixels = 0, kept = 0;
+    for (std::size_t i = 0; i < asked.returns[0].multipath_m.size(); ++i) {
+      const float moved = std::abs(asked.returns[0].multipath_m[i] - finer.returns[0].multipath_m[i]);
+      pixels += std::isnan(moved) ? 0u : 1u;
+      kept += moved <= asked.returns[0].multipath_error_m[i] ? 1u : 0u;
+    }
+    fmt::print("room {:>2}: {} elements, then {}: {} of {} pixels moved by no more than was claimed\n",
+               number, asked.bounces->elements, finer.bounces->elements, kept, pixels);
+    CHECK(finer.bounces->elements > asked.bounces->elements);
+    CHECK(static_cast<double>(kept) >= 0.95 * static_cast<double>(pixels));
+  }
+}
+
 TEST_CASE("light bounces a few times in random rooms as paths do", "[long]") {
   check_rooms(4, {1, 1e-3}, 60, 1 << 17);
   check_rooms(4, {3, 1e-3}, 60, 1 << 17);

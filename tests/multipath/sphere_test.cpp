@@ -16,15 +16,16 @@ struct SphereErrors {
   double distance_m, amplitude; // the largest of all pixels; of the amplitude, over the direct one's
 };
 
-SphereErrors sphere_errors(const SphereMesh &mesh, std::uint32_t bounces, double modulation_hz) {
+SphereErrors sphere_errors(const SphereMesh &mesh, std::uint32_t bounces, double modulation_hz,
+                           const Sphere &sphere = {}) {
   Sensor sensor = wide_sensor({6, 6}, 2);
   sensor.modulation_hz = {modulation_hz};
   const Measurement frame =
       bounced_frame(mesh.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                     {.count = bounces, .max_error_m = 1e-3 * 20e6 / modulation_hz});
-  const auto expected = return_over_direct(bounces, modulation_hz);
+  const auto expected = return_over_direct(bounces, modulation_hz, sphere);
   const double expected_m =
-      sphere_radius_m + sensor.ambiguity_m() * std::arg(expected) / (2.0 * std::numbers::pi);
+      sphere.radius_m + sensor.ambiguity_m() * std::arg(expected) / (2.0 * std::numbers::pi);
   const Return &found = frame.returns[0];
   SphereErrors errors{0.0, 0.0};
   for (std::size_t i = 0; i < found.amplitude.size(); ++i) {
@@ -58,6 +59,21 @@ TEST_CASE("the simulator's slow light within a sphere adds up to 1 / (1 - rho) o
   const SphereMesh mesh = sphere_mesh(5);
   const SphereErrors errors = sphere_errors(mesh, all_bounces, 1e3);
   CHECK(errors.amplitude < 1e-3 + 4.0 * mesh.error_m / sphere_radius_m);
+}
+
+TEST_CASE("within spheres of 20480 triangles distances are right to 1 mm and amplitudes to 0.1 %", "[long]") {
+  const auto check = [](const Sphere &sphere, std::uint32_t bounces, double modulation_hz) {
+    const SphereMesh mesh = sphere_mesh(5, sphere, icosahedron());
+    CHECK(mesh.scene.triangles.size() == 20'480);
+    return sphere_errors(mesh, bounces, modulation_hz, sphere);
+  };
+  for (const auto &[sphere, modulation_hz] : {std::pair(Sphere{}, 20e6), {Sphere{0.7, 0.5}, 60e6}})
+    for (const std::uint32_t bounces : {0u, 1u, 2u, all_bounces}) {
+      const SphereErrors errors = check(sphere, bounces, modulation_hz);
+      CHECK(errors.distance_m < 1e-3);
+      CHECK(errors.amplitude < 1e-3);
+    }
+  CHECK(check({}, all_bounces, 1e3).amplitude < 1e-3);
 }
 
 TEST_CASE("within a fine sphere distances are right to 1 mm and amplitudes to 0.1 %", "[long]") {
