@@ -49,6 +49,24 @@ TEST_CASE("a frame with bounces tells what they took and how exact they are") {
     CHECK(std::filesystem::exists(work / ("out/pmd_0000." + channel + ".npy")));
 }
 
+TEST_CASE("a check tells how many elements bounces take and about how long") {
+  const Workspace work;
+  json setup = shipped("corner");
+  const auto check = [&] {
+    const Run done = run_pmdsim({"check", work.write("setup.json", setup.dump()), "--json"});
+    REQUIRE(done.exit_code == 0);
+    return json::parse(done.output);
+  };
+  const json asked = check();
+  CHECK(asked["bounce_elements"] > 100);
+  CHECK(asked["bounce_time_s"] > 0.0);
+  setup["bounce_error"] = "1mm";
+  CHECK(check()["bounce_elements"] > asked["bounce_elements"]);
+  setup.erase("bounces");
+  setup.erase("bounce_error");
+  CHECK_FALSE(check().contains("bounce_elements"));
+}
+
 TEST_CASE("a frame without bounces has none of their channels") {
   const Workspace work;
   json setup = shipped("corner");
