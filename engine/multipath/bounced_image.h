@@ -1,6 +1,7 @@
 #pragma once
 // The light that has bounced, as a frame's pixels see it. What arrives at surfaces is gathered at some places
-// and interpolated between them where that is exact enough: within one plane, never over an edge.
+// and interpolated between them where that is exact enough: on one plane or smooth surface, never over an
+// edge.
 
 #include "engine/multipath/gather.h"
 #include "engine/multipath/seen_places.h"

@@ -10,7 +10,7 @@ constexpr double most_elements = 12'000.0; // about: more take gigabytes
 
 // What bins leave out falls at least with their width's square.
 std::uint32_t bins_for(double millimetres) {
-  return static_cast<std::uint32_t>(std::clamp(128.0 * std::pow(millimetres, -0.7), 96.0, 768.0));
+  return static_cast<std::uint32_t>(std::clamp(192.0 * std::pow(millimetres, -0.6), 128.0, 768.0));
 }
 
 } // namespace

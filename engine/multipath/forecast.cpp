@@ -25,7 +25,7 @@ double seconds_of_line(const HemisphereScan &scan, const Elements &elements) {
 } // namespace
 
 // The number of places at which light is gathered, the lines of each, and what else takes time are those of
-// the scenes in BENCHMARKS.md, "Light that bounces": the time is right within a factor of 3 there.
+// the scenes with bounces in BENCHMARKS.md; there the time is right within a factor of 3.
 BouncesForecast Multipath::forecast(const Scene &scene, const Sensor &sensor, const Bounces &bounces) {
   const std::vector<BounceTone> tones = bounce_tones(sensor).tones;
   const double error_m = first_of_elements * bounces.max_error_m;

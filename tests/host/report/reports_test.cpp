@@ -96,11 +96,11 @@ TEST_CASE("check tells of bounces and of the error that is asked for") {
   CHECK(json_of()["bounce_error_m"] == 1e-3);
   setup["backscatter"] = "lambert";
   setup["bounces"] = 3;
-  CHECK(text_of().find("\nbounces                  3, multipath within 1 mm is asked for\n") !=
+  CHECK(text_of().find("\nbounces                  3, multipath within 1 mm is asked for: ") !=
         std::string::npos);
   setup["bounces"] = "all";
   setup["bounce_error"] = "0.5mm";
-  CHECK(text_of().find("\nbounces                  all, multipath within 0.5 mm is asked for\n") !=
+  CHECK(text_of().find("\nbounces                  all, multipath within 0.5 mm is asked for: ") !=
         std::string::npos);
   CHECK(json_of()["bounces"] == "all");
   CHECK(json_of()["bounce_error_m"] == 5e-4);

@@ -60,7 +60,7 @@ TEST_CASE("a check tells how many elements bounces take and about how long") {
   const json asked = check();
   CHECK(asked["bounce_elements"] > 100);
   CHECK(asked["bounce_time_s"] > 0.0);
-  setup["bounce_error"] = "1mm";
+  setup["bounce_error"] = "0.5mm";
   CHECK(check()["bounce_elements"] > asked["bounce_elements"]);
   setup.erase("bounces");
   setup.erase("bounce_error");
