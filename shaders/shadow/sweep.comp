@@ -15,7 +15,8 @@ layout(constant_id = constant_lens_apart) const uint lens_apart = 0; // from the
 layout(constant_id = constant_all_facing) const uint all_facing = 0;
 layout(constant_id = constant_exact_only) const uint exact_only = 0; // every sample is left to sweep_exact.comp
 
-const uint most_items = 512; // of a segment
+// Of a segment: pairs take 16 KiB of the workgroup's memory, of which GPUs have 32 KiB or 48.
+const uint most_items = lanes > 8u ? 4096u / lanes : 512u;
 const uint most_hidden = 1000;
 const uint most_close = 32;  // close decisions of an invocation in a segment
 shared uint kept[most_items + 1], pairs[(most_items + 1) * lanes], close[most_close * lanes];
