@@ -82,7 +82,7 @@ void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripB
   const ChannelLayout layout(modulation_);
   double distance_m = report.found_m.value_or(0.0), amplitude = report.found_amplitude.value_or(0.0);
   for (const std::uint32_t pixel : of_strip_[strip])
-    for (std::uint32_t f = 0; f < modulation_.frequencies(); ++f) {
+    for (std::uint32_t f = 0; f < modulation_.modulations(); ++f) {
       const std::size_t at =
           std::size_t{of.row + pixel / of.columns} * of.resolution_x + of.column + pixel % of.columns;
       const auto exact = [&](std::vector<float> Return::*channel) {

@@ -92,6 +92,7 @@ vulkan::Specialization sum_constants(const PassSetup &on, const SourceGroups &gr
       {shader::constant_cosine_order, order.whole},
       {shader::constant_cosine_fraction, std::bit_cast<std::uint32_t>(order.rest)},
       {shader::constant_phased, groups.phased},
+      {shader::constant_keeps_mean, on.modulation.keeps_mean},
       {shader::constant_beam_edges, has_beam_edges(on.model, scope.bound)},
       {shader::constant_beams, on.modulation.keeps_beams},
       {shader::constant_shadowed, scope.shadowed},
@@ -122,6 +123,7 @@ std::vector<shader::LightRun> light_runs(const SourceGroups &groups, const Error
     record.reference_hi = reference.hi;
     record.reference_lo = reference.lo;
     record.phase_turns = float_pair(run.phase_turns);
+    record.mean_over_modulated = static_cast<float>(1.0 / run.modulation_depth);
     record.radius_m = static_cast<float>(run.reach.radius_m);
     record.intensity = static_cast<float>(intensity);
     record.brightest = static_cast<float>(brightest);

@@ -9,7 +9,7 @@ std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illumin
   for (const Illuminator &illuminator : illuminators) {
     const Pose camera_from_illuminator =
         compose(inverse(sensor.world_from_camera), illuminator.world_from_illuminator);
-    seen.push_back({illuminator.diodes, illuminator.modulation_phase_rad});
+    seen.push_back({illuminator.diodes, illuminator.modulation_phase_rad, illuminator.modulation_depth});
     for (Diode &diode : seen.back().diodes) {
       diode.position_m = camera_from_illuminator.point(diode.position_m);
       diode.axis = camera_from_illuminator.direction(diode.axis);

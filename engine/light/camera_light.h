@@ -13,6 +13,7 @@ namespace pmdsim {
 struct CameraIlluminator {
   std::vector<Diode> diodes; // places and directions in the camera frame
   double modulation_phase_rad = 0.0;
+  double modulation_depth = 1.0;
 };
 
 std::vector<CameraIlluminator> to_camera(const std::vector<Illuminator> &illuminators, const Sensor &sensor);

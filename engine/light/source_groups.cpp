@@ -38,15 +38,20 @@ VisibleBox box_of(std::span<const NumberedDiode> diodes) {
 
 struct Group {
   std::span<NumberedDiode> diodes;
-  double phase_turns; // the illuminator's
+  double phase_turns, modulation_depth; // the illuminator's
   glm::dvec3 reference_m;
   PathDifference reach; // of its diodes
 };
 
-Group group_of(std::span<NumberedDiode> diodes, double phase_turns, const std::vector<VisibleBox> &visible) {
+Group group_of(std::span<NumberedDiode> diodes, double phase_turns, double modulation_depth,
+               const std::vector<VisibleBox> &visible) {
   const VisibleBox box = box_of(diodes);
   // The box's middle; for a single diode exactly its place, so that its path needs no correction at all.
-  Group group{diodes, phase_turns, diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m), {}};
+  Group group{diodes,
+              phase_turns,
+              modulation_depth,
+              diodes.size() == 1 ? box.low_m : 0.5 * (box.low_m + box.high_m),
+              {}};
   std::vector<glm::dvec3> places_m;
   for (const Diode &diode : diodes)
     places_m.push_back(diode.position_m);
@@ -141,16 +146,16 @@ public:
       : visible_(visible), wavenumber_rad_m_(wavenumber_rad_m) {}
 
   // Halves `diodes` (which it reorders) along its longest side until every part is small enough.
-  void split(std::span<NumberedDiode> diodes, double phase_turns) {
-    const Group group = group_of(diodes, phase_turns, visible_);
+  void split(std::span<NumberedDiode> diodes, double phase_turns, double modulation_depth) {
+    const Group group = group_of(diodes, phase_turns, modulation_depth, visible_);
     if (is_small_enough(group)) {
       order_by_angles(diodes);
       groups_.push_back(group);
       return;
     }
     part_in_two(diodes, diodes.size() / 2);
-    split(diodes.first(diodes.size() / 2), phase_turns);
-    split(diodes.subspan(diodes.size() / 2), phase_turns);
+    split(diodes.first(diodes.size() / 2), phase_turns, modulation_depth);
+    split(diodes.subspan(diodes.size() / 2), phase_turns, modulation_depth);
   }
 
   const std::vector<Group> &groups() const { return groups_; }
@@ -196,7 +201,7 @@ void add_runs(const Group &group, Precision precision, SourceGroups &result, Dia
   const bool precise = precision == Precision::fp64;
   for (std::size_t first = 0; first < group.diodes.size(); first += run_diodes) {
     result.runs.push_back({group.reference_m, static_cast<std::uint32_t>(result.diodes.size()),
-                           group.phase_turns, group.reach});
+                           group.phase_turns, group.modulation_depth, group.reach});
     for (std::size_t i = first; i < first + run_diodes; ++i) {
       const bool dark = i >= group.diodes.size();
       const NumberedDiode &diode = group.diodes[dark ? group.diodes.size() - 1 : i];
@@ -237,12 +242,12 @@ SourceGroups grouped(const std::vector<CameraIlluminator> &illuminators,
   SourceGroups result;
   result.tolerance = tolerance;
   result.diode_count = static_cast<std::uint32_t>(ordered.size());
-  for (const auto &[diodes, phase_rad] : illuminators) {
+  for (const auto &[diodes, phase_rad, modulation_depth] : illuminators) {
     const double phase_turns = std::remainder(phase_rad / (2.0 * std::numbers::pi), 1.0);
     result.phased = result.phased || phase_turns != 0.0;
     for (const Diode &diode : diodes)
       result.largest_intensity_w_sr = std::max(result.largest_intensity_w_sr, diode.intensity_w_sr);
-    grouping.split(left.first(diodes.size()), phase_turns);
+    grouping.split(left.first(diodes.size()), phase_turns, modulation_depth);
     left = left.subspan(diodes.size());
   }
   check_intensities(ordered, result.largest_intensity_w_sr);

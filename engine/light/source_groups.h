@@ -28,10 +28,11 @@ inline double largest_term(double phase_rad, double remainder) {
 
 // One dispatch of the accumulate pass: a run of whole blocks of diodes that share a reference point.
 struct SourceRun {
-  glm::dvec3 reference_m; // camera frame
-  std::uint32_t first;    // index into SourceGroups::diodes
-  double phase_turns;     // the illuminator's modulation phase, -1/2 to 1/2
-  PathDifference reach;   // of its group; the radius is at most half of the range to what it lights
+  glm::dvec3 reference_m;  // camera frame
+  std::uint32_t first;     // index into SourceGroups::diodes
+  double phase_turns;      // the illuminator's modulation phase, -1/2 to 1/2
+  double modulation_depth; // the illuminator's
+  PathDifference reach;    // of its group; the radius is at most half of the range to what it lights
 };
 
 // A diode among all of all illuminators.

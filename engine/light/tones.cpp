@@ -24,12 +24,14 @@ std::vector<shader::Tone> Modulation::all_tones() const {
     for (std::uint32_t h = 1; h <= tones; ++h)
       result.push_back({float_pair(h * frequency_hz / speed_of_light_m_s),
                         static_cast<float>(wavenumber_rad_m(h * frequency_hz)), static_cast<float>(h)});
+  result.resize(std::size_t{tones} * frequencies(), shader::Tone{});
   return result;
 }
 
 Modulation modulation_of(const Sensor &sensor, const SimulatorOptions &options) {
   Modulation modulation{shader::waveform_sine, sensor.taps,          1,     1, 1,
                         options.keep_taps,     sensor.modulation_hz, {1.0f}};
+  modulation.keeps_mean = sensor.electronics.has_value();
   switch (sensor.waveform.kind) {
   case Waveform::Kind::sine:
     break;

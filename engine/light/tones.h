@@ -24,14 +24,18 @@ struct Modulation {
   bool reports_kept = false;         // and the largest bound of the pixels that keep theirs
   bool keeps_bounds = false;         // each pixel's bound is a channel, too
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
+  bool keeps_mean = false;           // the mean radiance is a channel, too: the last frequency, 0 Hz
 
-  std::uint32_t frequencies() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
+  // Those that are summed, the last one 0 Hz where the mean is kept.
+  std::uint32_t frequencies() const { return modulations() + (keeps_mean ? 1 : 0); }
+  std::uint32_t modulations() const { return static_cast<std::uint32_t>(modulation_hz.size()); }
   // One dispatch sums all tones of all frequencies by moments; else one each.
   bool by_moments() const { return waveform != shader::waveform_square; }
   std::uint32_t sum_planes() const { return planes * frequencies(); }
   // 2 pi f / c of the highest tone, rad/m.
   double largest_wavenumber_rad_m() const;
-  // Frequency by frequency, the harmonics of each in order.
+  // Frequency by frequency, the harmonics of each in order. Those of 0 Hz have no phase: their sum is that of
+  // the weights.
   std::vector<shader::Tone> all_tones() const;
 };
 

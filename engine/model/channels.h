@@ -20,7 +20,8 @@ namespace pmdsim {
 // Where a channel lies: in the frame, in what each frequency returns, or there once for each tap.
 using ChannelMember =
     std::variant<std::vector<float> Measurement::*, std::vector<std::uint32_t> Measurement::*,
-                 std::vector<float> Return::*, std::vector<std::vector<float>> Return::*>;
+                 std::vector<float> Return::*, std::vector<std::uint32_t> Return::*,
+                 std::vector<std::vector<float>> Return::*>;
 
 // Where a channel lies on the device, which keeps them in areas one behind the other: `index` counts from the
 // beginning of the area. Channels 2 n and 2 n + 1 are stored as a pair, so what a shader stores together
@@ -31,7 +32,9 @@ struct DeviceSlot {
     frequency, // one area for each; taps come last. A channel of the frame is read from the first
     shadow,    // only where something may stand in the light
     bound,     // behind each frequency's taps; only where it is asked for
+    mean,      // only where the sensor has electronics
     none,      // not there: the host makes them of what it reads back, where light bounces
+    electrons, // likewise, where the sensor has electronics
   };
   Area area;
   std::uint32_t index; // of a tap: that of tap 0
@@ -84,6 +87,45 @@ inline constexpr std::array channel_rows = [] {
        {Area::frequency, 2},
        Preview{"distance", Scale::sequential}},
       {"tap", radiance_unit, "the correlation samples", &Return::taps, {Area::frequency, 4}},
+      {"tap_a_e",
+       "e",
+       "electrons of tap A of each image before the ADC; only with electronics, as those below",
+       &Return::tap_a_e,
+       {Area::electrons, 0}},
+      {"tap_b_e", "e", "of tap B, of two taps", &Return::tap_b_e, {Area::electrons, 1}},
+      {"tap_a_dn", "DN", "digital numbers of tap A", &Return::tap_a_dn, {Area::electrons, 2}},
+      {"tap_b_dn", "DN", "of tap B, of two taps", &Return::tap_b_dn, {Area::electrons, 3}},
+      {"saturated",
+       "",
+       "bit k: tap A of image k was full or beyond the ADC's range, bit 16 + k: tap B",
+       &Return::saturated,
+       {Area::electrons, 4}},
+      {"distance_noise_m",
+       "m",
+       "predicted standard deviation of distance_m; NaN where nothing returns or a tap is full",
+       &Return::distance_noise_m,
+       {Area::electrons, 5},
+       Preview{"distance noise", Scale::sequential}},
+      {"confidence",
+       "",
+       "amplitude over the predicted standard deviation of z's real or imaginary part",
+       &Return::confidence,
+       {Area::electrons, 6}},
+      {"amplitude_noiseless",
+       radiance_unit,
+       "amplitude without noise; only with \"noiseless_channels\"",
+       &Return::amplitude_noiseless,
+       {Area::electrons, 7}},
+      {"phase_rad_noiseless",
+       "rad",
+       "phase_rad without noise, likewise",
+       &Return::phase_rad_noiseless,
+       {Area::electrons, 8}},
+      {"distance_m_noiseless",
+       "m",
+       "distance_m without noise, likewise",
+       &Return::distance_m_noiseless,
+       {Area::electrons, 9}},
       {"error_bound_m",
        "m",
        "how far distance_m is off at most; only where an error was asked for that some pixels may exceed",
@@ -141,6 +183,11 @@ inline constexpr std::array channel_rows = [] {
        &Measurement::lit,
        {Area::shadow, 0},
        Preview{"lit", Scale::share}},
+      {"mean_radiance",
+       radiance_unit,
+       "mean radiance of all diodes' light, noiseless; only with electronics",
+       &Measurement::mean_radiance,
+       {Area::mean, 0}},
       {"triangle_id",
        "",
        "of the sample nearest the pixel's centre; 4294967295 where it hits nothing",
@@ -158,7 +205,8 @@ constexpr bool is_of_taps(const ChannelRow &row) {
   return std::holds_alternative<std::vector<std::vector<float>> Return::*>(row.at);
 }
 constexpr bool is_of_frequency(const ChannelRow &row) {
-  return std::holds_alternative<std::vector<float> Return::*>(row.at) || is_of_taps(row);
+  return std::holds_alternative<std::vector<float> Return::*>(row.at) ||
+         std::holds_alternative<std::vector<std::uint32_t> Return::*>(row.at) || is_of_taps(row);
 }
 
 constexpr const ChannelRow &row_of(const ChannelMember &at) {
@@ -192,11 +240,11 @@ void for_each_channel(Frame &frame, Visit visit) {
       for_each_row_of(frame.returns[f], [&](const ChannelRow &row, auto &member) {
         if (is_of_taps(row) != taps)
           return;
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member)>, std::vector<float>>)
-          visit(ChannelIndex{row, f}, member);
-        else
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member)>, std::vector<std::vector<float>>>)
           for (std::size_t k = 0; k < member.size(); ++k)
             visit(ChannelIndex{row, f, k}, member[k]);
+        else
+          visit(ChannelIndex{row, f}, member);
       });
   for_each_row_of(frame, [&](const ChannelRow &row, auto &member) { visit(ChannelIndex{row}, member); });
 }

@@ -56,6 +56,7 @@ struct Illuminator {
   Pose world_from_illuminator = node_from_camera(); // illuminator frame: x right, y down, z forward
   std::vector<Diode> diodes;                        // at least one
   double modulation_phase_rad = 0.0;                // added to the phase of every path
+  double modulation_depth = 1.0; // the modulated part of the light over its mean, above 0, at most 1
 
   bool operator==(const Illuminator &) const = default;
 };

@@ -31,6 +31,18 @@ struct Return {
   // How far multipath_m is off, estimated: at most so far in 95 % of the pixels; NaN where nothing returns.
   std::vector<float> multipath_error_m{};
   std::vector<float> indirect_share{}; // |indirect| / |z|; NaN where nothing returns
+  // With electronics (engine/model/electronics.h), else empty. Amplitude, phase, distance and taps above are
+  // what the camera makes of its digital numbers then. Of each image k, means of Electronics::frames_averaged
+  // exposures; the taps' electrons and numbers only where the taps are asked for, tap B's only of two taps.
+  std::vector<std::vector<float>> tap_a_e{}, tap_b_e{};   // electrons before the ADC
+  std::vector<std::vector<float>> tap_a_dn{}, tap_b_dn{}; // digital numbers
+  // Bit k: tap A of image k was full, or beyond the ADC's range, in some exposure; bit 16 + k: tap B.
+  std::vector<std::uint32_t> saturated{};
+  // The predicted standard deviation of distance_m; NaN where nothing returns or a tap's mean is full.
+  std::vector<float> distance_noise_m{};
+  std::vector<float> confidence{}; // amplitude over the predicted standard deviation of either part of z
+  // With Electronics::noiseless_channels: the channels above without noise.
+  std::vector<float> amplitude_noiseless{}, phase_rad_noiseless{}, distance_m_noiseless{};
 };
 
 // Which exposure of a setup: what differs from one to the next, as noise does, follows from these numbers and
@@ -62,6 +74,8 @@ struct Measurement {
   // The fraction of the diodes that reach the pixel, mean over its samples that hit something, 0 where none
   // does; empty with Shadows::off.
   std::vector<float> lit;
+  // The mean radiance of all diodes' light, W/(m^2 sr), noiseless; empty unless Sensor::electronics.
+  std::vector<float> mean_radiance;
   // The ids at the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;

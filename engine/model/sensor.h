@@ -1,11 +1,13 @@
 #pragma once
 // The camera: chip, lens, pose and modulation, plain data in SI units.
 
+#include "engine/model/electronics.h"
 #include "engine/model/pose.h"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -77,6 +79,9 @@ struct Sensor {
   std::uint32_t samples = 1; // S: S x S samples a pixel, 1 to 16
   // A pixel that sees one smooth surface, unshadowed, may take fewer, as far as Accuracy::max_error_m bears.
   bool adaptive_samples = false;
+  // Without it the camera is noiseless. With it the simulator and the reference fill
+  // Measurement::mean_radiance, of which engine/electronics makes electrons.
+  std::optional<Electronics> electronics;
 
   // S2 of the thin lens, 1/S1 + 1/S2 = 1/f (paper, section 2.1).
   double image_distance_m() const {

@@ -107,8 +107,14 @@ std::vector<std::vector<Phasor>> direct_light(const Measurement &measurement,
                                               const std::vector<BounceTone> &tones) {
   std::vector<std::vector<Phasor>> light;
   for (const BounceTone &tone : tones) {
+    std::vector<Phasor> of_tone(measurement.coverage.size());
+    if (tone.is_mean()) {
+      std::ranges::transform(measurement.mean_radiance, of_tone.begin(),
+                             [](float mean) { return mean * unit_phasor(0.0); });
+      light.push_back(std::move(of_tone));
+      continue;
+    }
     const Return &direct = measurement.returns[tone.frequency];
-    std::vector<Phasor> of_tone(direct.amplitude.size());
     for (std::size_t i = 0; i < of_tone.size(); ++i)
       if (direct.amplitude[i] > 0.0f)
         of_tone[i] =
@@ -120,6 +126,10 @@ std::vector<std::vector<Phasor>> direct_light(const Measurement &measurement,
 
 void add_bounced(const BouncedImage &image, const BounceTones &tones, const Sensor &sensor,
                  Measurement &measurement) {
+  for (std::size_t t = 0; t < tones.tones.size(); ++t)
+    if (tones.tones[t].is_mean())
+      for (std::size_t pixel = 0; pixel < measurement.mean_radiance.size(); ++pixel)
+        measurement.mean_radiance[pixel] += std::max(image.tones[t].z[pixel].real(), 0.0f);
   for (std::size_t i = 0; i < measurement.returns.size(); ++i) {
     FrequencyChannels channels(image, tones, sensor, i, measurement.returns[i]);
     tbb::parallel_for(std::size_t{0}, sensor.pixel_count(),

@@ -20,8 +20,11 @@ std::uint32_t bins_for(double millimetres) {
 // millimetres.
 Fineness fineness_of(const Scene &scene, const std::vector<BounceTone> &tones, double error_m) {
   constexpr double measured_hz = 20e6;
-  const double lowest_hz = std::ranges::min(tones, {}, &BounceTone::hz).hz;
-  const double millimetres = error_m / 1e-3 * std::min(lowest_hz / measured_hz, 1.0);
+  double lowest_hz = measured_hz;
+  for (const BounceTone &tone : tones)
+    if (!tone.is_mean())
+      lowest_hz = std::min(lowest_hz, tone.hz);
+  const double millimetres = error_m / 1e-3 * (lowest_hz / measured_hz);
   const double elements = std::clamp(1500.0 * std::pow(millimetres, -0.7), 300.0, most_elements);
   return {.element_m = std::sqrt(2.0 * reflecting_area_m2(scene) / elements),
           .lines = 10,

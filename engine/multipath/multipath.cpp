@@ -50,8 +50,13 @@ private:
 std::vector<float> parts_of(const std::vector<BounceTone> &tones, const Sensor &sensor, double error_m) {
   constexpr double least_harmonic = 1e-3; // weaker ones need not be more exact
   constexpr double most = 0.5;
+  constexpr float mean_part = 0.01f; // shot noise follows its root
   std::vector<float> parts;
   for (const BounceTone &tone : tones) {
+    if (tone.is_mean()) {
+      parts.push_back(mean_part);
+      continue;
+    }
     const double rad = 2.0 * std::numbers::pi * error_m / sensor.ambiguity_m(tone.frequency);
     parts.push_back(
         static_cast<float>(std::min(rad, most) / std::max(std::abs(tone.relative), least_harmonic)));

@@ -47,6 +47,8 @@ BounceTones bounce_tones(const Sensor &sensor) {
     for (const Harmonic &harmonic : harmonics)
       made.tones.push_back(
           {harmonic.number * sensor.modulation_hz[i], harmonic.number, i, harmonic.relative});
+  if (sensor.electronics)
+    made.tones.push_back({0.0, 0, sensor.modulation_hz.size(), 1.0});
   if (sensor.waveform.kind == Waveform::Kind::square) {
     double left_out = 2.0 / 3.0; // the sum of a_h^2 over all odd h
     for (const Harmonic &harmonic : harmonics)

@@ -1,6 +1,6 @@
 #pragma once
 // The tones for which light that bounces is solved: each frequency of a sensor, and the harmonics of its
-// waveform.
+// waveform; and 0 Hz, the mean light, where the sensor has electronics.
 
 #include "engine/model/sensor.h"
 
@@ -10,10 +10,11 @@ namespace pmdsim {
 
 struct BounceTone {
   double hz;              // h times the modulation frequency
-  std::uint32_t harmonic; // h
-  std::size_t frequency;  // the index of that
+  std::uint32_t harmonic; // h; 0 of the mean light
+  std::size_t frequency;  // the index of that; of the mean light one more than the last
   double relative;        // a_h of the correlation function
   double turns_per_m() const { return hz / speed_of_light_m_s; }
+  bool is_mean() const { return harmonic == 0; }
 
   bool operator==(const BounceTone &) const = default;
 };

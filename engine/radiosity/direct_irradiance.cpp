@@ -14,7 +14,7 @@ namespace {
 struct Way {
   double weight_w_m2;
   double length_m;
-  double phase_turns;
+  double phase_turns, modulation_depth;
 };
 
 } // namespace
@@ -34,7 +34,8 @@ DirectIrradiance::DirectIrradiance(const std::vector<Illuminator> &illuminators,
       placed.axis = pose.direction(diode.axis);
       placed.across = pose.direction(diode.across);
       positions_m_.emplace_back(placed.position_m);
-      sources_.push_back({placed, illuminator.modulation_phase_rad / (2.0 * std::numbers::pi)});
+      sources_.push_back({placed, illuminator.modulation_phase_rad / (2.0 * std::numbers::pi),
+                          illuminator.modulation_depth});
     }
 }
 
@@ -46,7 +47,7 @@ void DirectIrradiance::at(const SurfacePlace &place, std::span<const BounceTone>
   ways.clear();
   ends_m.clear();
   for (std::size_t m = 0; m < sources_.size(); ++m) {
-    const auto &[diode, phase_turns] = sources_[m];
+    const auto &[diode, phase_turns, modulation_depth] = sources_[m];
     const glm::dvec3 way = place.position_m - diode.position_m; // from the diode
     const double facing = -glm::dot(way, place.normal);
     if (facing <= 0.0)
@@ -56,7 +57,7 @@ void DirectIrradiance::at(const SurfacePlace &place, std::span<const BounceTone>
         diode.intensity_w_sr * law_of(diode.pattern).value(diode, way) * facing / (range2 * range_m);
     if (weight <= 0.0)
       continue;
-    ways.push_back({weight, range_m, phase_turns});
+    ways.push_back({weight, range_m, phase_turns, modulation_depth});
     ends_m.push_back(positions_m_[m]);
   }
   is_free.assign(ways.size(), 1);
@@ -69,7 +70,7 @@ void DirectIrradiance::at(const SurfacePlace &place, std::span<const BounceTone>
         continue;
       const Phasor phasor =
           unit_phasor(tones[t].turns_per_m() * ways[i].length_m + tones[t].harmonic * ways[i].phase_turns);
-      sum += ways[i].weight_w_m2 *
+      sum += ways[i].weight_w_m2 / (tones[t].is_mean() ? ways[i].modulation_depth : 1.0) *
              std::complex<double>(static_cast<double>(phasor.re), static_cast<double>(phasor.im));
     }
     irradiance[t] = {static_cast<float>(sum.real()), static_cast<float>(sum.imag())};

@@ -24,7 +24,7 @@ public:
 private:
   struct Source {
     Diode diode; // metres from the origin of places
-    double phase_turns;
+    double phase_turns, modulation_depth;
   };
 
   std::vector<Source> sources_;

@@ -33,7 +33,8 @@ std::vector<Light> lights_in_camera(const std::vector<Illuminator> &illuminators
   lights.reserve(illuminators.size());
   for (const Illuminator &illuminator : illuminators)
     lights.push_back({diodes_in_camera(illuminator, sensor),
-                      std::remainder(illuminator.modulation_phase_rad / (2.0 * std::numbers::pi), 1.0)});
+                      std::remainder(illuminator.modulation_phase_rad / (2.0 * std::numbers::pi), 1.0),
+                      illuminator.modulation_depth});
   return lights;
 }
 

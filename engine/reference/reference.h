@@ -38,6 +38,7 @@ struct Frame {
   glm::uvec2 resolution{0, 0};
   std::vector<FrameReturn> returns; // beside Sensor::modulation_hz
   std::vector<double> range_m, z_m, coverage;
+  std::vector<double> mean_radiance;                 // as in Measurement
   std::vector<double> lit;                           // as in Measurement
   std::vector<std::uint32_t> triangle_id, object_id; // a disc's id is as Scene::surface_of takes it
   std::vector<std::uint32_t> sample_triangle_id;     // (S*rows) x (S*columns)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pmdsim {
@@ -50,11 +51,20 @@ shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
   return record;
 }
 
+// Nothing is asked of it: it has no distance, and of its amplitude the electrons' noise leaves few digits.
+shader::Frequency mean_record(const ChannelLayout &layout, double largest_intensity_w_sr) {
+  shader::Frequency record{};
+  record.amplitude_scale = static_cast<float>(largest_intensity_w_sr);
+  record.first_channel = layout.mean_channel();
+  record.limit_m = record.amplitude_limit = std::numeric_limits<float>::max();
+  return record;
+}
+
 } // namespace
 
 ChannelLayout::ChannelLayout(const Modulation &modulation)
-    : frequencies(modulation.frequencies()), taps(modulation.keep_taps ? modulation.taps : 0),
-      lit(modulation.lit), bounds(modulation.keeps_bounds) {}
+    : frequencies(modulation.modulations()), taps(modulation.keep_taps ? modulation.taps : 0),
+      lit(modulation.lit), bounds(modulation.keeps_bounds), mean(modulation.keeps_mean) {}
 
 std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
   const std::uint32_t of_frequency =
@@ -64,8 +74,12 @@ std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
 
 std::uint32_t ChannelLayout::lit_channel() const { return first_channel(frequencies); }
 
-std::uint32_t ChannelLayout::channels() const {
+std::uint32_t ChannelLayout::mean_channel() const {
   return lit_channel() + (lit ? channels_in(Area::shadow) : 0);
+}
+
+std::uint32_t ChannelLayout::channels() const {
+  return mean_channel() + (mean ? channels_in(Area::mean) : 0);
 }
 
 bool ChannelLayout::holds(const ChannelRow &row) const {
@@ -78,6 +92,9 @@ bool ChannelLayout::holds(const ChannelRow &row) const {
     return lit;
   case Area::bound:
     return bounds;
+  case Area::mean:
+    return mean;
+  case Area::electrons:
   case Area::none:
     break;
   }
@@ -91,6 +108,7 @@ std::uint32_t ChannelLayout::number(const ChannelIndex &of) const {
                               : area == Area::bound
                                   ? of_frequency + whole_pairs(channels_in(Area::frequency) + taps)
                               : area == Area::shadow ? lit_channel()
+                              : area == Area::mean   ? mean_channel()
                                                      : 0;
   return first + index + static_cast<std::uint32_t>(of.tap);
 }
@@ -100,7 +118,7 @@ std::vector<shader::Frequency> frequency_records(const Modulation &modulation, d
                                                  std::uint32_t diodes) {
   const ChannelLayout layout(modulation);
   std::vector<shader::Frequency> records;
-  for (std::uint32_t f = 0; f < modulation.frequencies(); ++f) {
+  for (std::uint32_t f = 0; f < modulation.modulations(); ++f) {
     records.push_back(
         record_of(modulation.modulation_hz[f], largest_intensity_w_sr, layout.first_channel(f)));
     records.back().diodes = diodes;
@@ -125,6 +143,11 @@ std::vector<shader::Frequency> frequency_records(const Modulation &modulation, d
     record.amplitude_limit = static_cast<float>(bound->amplitude_limit);
     record.amplitude_fixed = static_cast<float>(bound->amplitude_fixed);
     record.amplitude_per_condition = static_cast<float>(bound->amplitude_per_condition);
+  }
+  if (modulation.keeps_mean) {
+    shader::Frequency &record = records.emplace_back(mean_record(layout, largest_intensity_w_sr));
+    record.diodes = diodes;
+    record.lit_channel = layout.lit_channel();
   }
   return records;
 }

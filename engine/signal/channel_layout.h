@@ -14,15 +14,17 @@ namespace pmdsim {
 struct ChannelLayout {
   explicit ChannelLayout(const Modulation &modulation);
 
-  std::uint32_t frequencies;
-  std::uint32_t taps; // that are kept, of each frequency
-  bool lit;           // the area of shadows is there
-  bool bounds;        // the areas of bounds are there
+  std::uint32_t frequencies; // that have phases
+  std::uint32_t taps;        // that are kept, of each frequency
+  bool lit;                  // the area of shadows is there
+  bool bounds;               // the areas of bounds are there
+  bool mean;                 // the area of the mean is there
 
   // The number of all channels, and those at which areas begin; even numbers.
   std::uint32_t channels() const;
   std::uint32_t first_channel(std::uint32_t frequency) const;
   std::uint32_t lit_channel() const;
+  std::uint32_t mean_channel() const;
 
   bool holds(const ChannelRow &row) const;
   // The number of a channel that it holds.

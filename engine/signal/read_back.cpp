@@ -169,7 +169,8 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
   for_each_channel(measurement, [&](const ChannelIndex &of, auto &values) {
     if (layout.holds(of.row)) // the host fills or clears all others
       values.resize(pixels);
-    else if (of.row.slot.area == DeviceSlot::Area::none)
+    else if (of.row.slot.area == DeviceSlot::Area::none || of.row.slot.area == DeviceSlot::Area::mean ||
+             (of.row.slot.area == DeviceSlot::Area::electrons && !layout.mean))
       values.clear();
   });
   const bool keeps_ids = options.keep_sample_ids || options.keep_visibility;

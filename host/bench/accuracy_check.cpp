@@ -182,7 +182,7 @@ std::vector<AccuracyCheck> check_accuracy(const Setup &setup, const std::vector<
   for (const auto &[sensor, frame] : truth) {
     camera.prepare(setup, sensor, accuracy);
     bar.begin("measuring what is checked", 1.0);
-    const Measurement found = camera.measure(interruptible_progress(bar));
+    const Measurement found = camera.measure_light(interruptible_progress(bar));
     for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
       checks.push_back(compare(found, frame, sensor, i, diode_count(setup.start.illuminators)));
   }

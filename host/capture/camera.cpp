@@ -1,5 +1,6 @@
 #include "host/capture/camera.h"
 
+#include "engine/electronics/electrons.h"
 #include "engine/reference/reference.h"
 #include "host/capture/progress.h"
 
@@ -40,10 +41,12 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
                      Backscatter backscatter, Shadows shadows, const Accuracy &accuracy,
                      const Bounces &bounces) {
   throw_if_interrupted();
+  sensor_ = sensor;
   if (simulator_)
     return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy, bounces);
   const reference::Options options{.shadows = shadows, .bounces = bounces, .paths = extras_.paths};
-  reference_frame_ = [=, &scene, keep_taps = extras_.taps](const Progress &progress) {
+  const bool keep_taps = extras_.taps || sensor.electronics;
+  reference_frame_ = [=, &scene](const Progress &progress) {
     Measurement measurement = reference::to_measurement(
         reference::simulate(scene, sensor, illuminators, backscatter, options, progress));
     measurement.accuracy.precision = Precision::fp64;
@@ -65,6 +68,13 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
 }
 
 Measurement Camera::measure(const Progress &progress, const ExposureNumber &number) {
+  Measurement measurement = measure_light(progress, number);
+  if (sensor_.electronics)
+    count_electrons(sensor_, {.keep_taps = extras_.taps}, measurement);
+  return measurement;
+}
+
+Measurement Camera::measure_light(const Progress &progress, const ExposureNumber &number) {
   throw_if_interrupted();
   if (simulator_)
     return simulator_->measure(progress, number);

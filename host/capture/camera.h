@@ -16,7 +16,7 @@ namespace pmdsim {
 struct Extras {
   bool sample_triangles = false; // Measurement::sample_triangle_id, not from the reference
   bool reached = false;          // Measurement::sample_visibility, not from the reference
-  bool taps = false;             // Return::taps
+  bool taps = false;             // Return::taps, and those in electrons
   bool diodes_in_a_loop = false; // nothing is summed beforehand, and the sum is a pass of its own
   // Where light bounces, the paths that the reference follows for each pixel; 0: as many as it chooses.
   std::uint32_t paths = 0;
@@ -44,8 +44,10 @@ public:
   void prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy = {});
   // As Simulator::path(); nothing of the reference.
   std::vector<std::pair<std::string, std::string>> path() const;
-  // One frame. Throws Error, interrupted among others.
+  // One frame, with the noise of the sensor's electronics. Throws Error, interrupted among others.
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});
+  // The same before the electronics.
+  Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().
   void reuse(Measurement &&frame);
 
@@ -53,6 +55,7 @@ private:
   std::optional<Simulator> simulator_;                           // empty: the reference
   std::function<Measurement(const Progress &)> reference_frame_; // of what is prepared
   Extras extras_;
+  Sensor sensor_; // that is prepared
   std::string device_, driver_;
 };
 

@@ -50,8 +50,20 @@ Setup requested_setup_without_bounces(const CaptureRequest &request) {
   return setup;
 }
 
-Capture::Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
-    : setup_(requested_setup(request)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
+void leave_out_noise(Setup &setup) {
+  bool any = false;
+  for (Sensor &sensor : setup.start.sensors) {
+    any = any || sensor.electronics;
+    sensor.electronics.reset();
+  }
+  for (auto &sensor : setup.as_used["sensors"])
+    sensor.erase("electronics");
+  if (any)
+    fmt::print(stderr, "pmdsim: warning: electronics are left out, as noiseless frames are compared\n");
+}
+
+Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps)
+    : setup_(std::move(setup)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       max_error_m_(request.accuracy.max_error_m),
       exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths),
       sequence_(setup_, frames_, request.output_directory,

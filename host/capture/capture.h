@@ -32,13 +32,18 @@ struct CaptureRequest {
 Setup requested_setup(const CaptureRequest &request);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
+// Leaves the sensors' electronics out, for commands that compare noiseless frames, and a warning says so.
+void leave_out_noise(Setup &setup);
 
 // The frames of a setup that one command leaves in a directory, with a bar of its progress.
 class Capture {
 public:
   // `command` is what the manifest calls it. Without `keep_taps` as Exposures. Throws Error: nothing is
   // measured in vain where a file cannot be written.
-  Capture(const CaptureRequest &request, const std::string &command, bool keep_taps);
+  Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
+      : Capture(request, requested_setup(request), command, keep_taps) {}
+  // Of `setup`, which is the requested one, changed.
+  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t first_frame() const { return frames_.first; }

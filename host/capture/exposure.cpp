@@ -1,5 +1,6 @@
 #include "host/capture/exposure.h"
 
+#include "engine/electronics/electrons.h"
 #include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
 #include "host/capture/multipath_of_taps.h"
@@ -66,25 +67,45 @@ double samples_of_frame(const Setup &setup) {
   return std::accumulate(setup.start.sensors.begin(), setup.start.sensors.end(), 0.0, add);
 }
 
+namespace {
+
+// As far as the setup tells.
+bool is_there(const ChannelRow &row, const Sensor &sensor, const Bounces &bounces) {
+  switch (row.slot.area) {
+  case DeviceSlot::Area::none:
+    return bounces.any();
+  case DeviceSlot::Area::mean:
+  case DeviceSlot::Area::electrons:
+    return sensor.electronics.has_value();
+  default:
+    return true;
+  }
+}
+
+} // namespace
+
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces) {
   const std::size_t frequencies = sensor.modulation_hz.size(), taps = keep_taps ? sensor.taps : 0;
   std::size_t channels = 0;
   for (const ChannelRow &row : channel_rows)
-    if (row.slot.area != DeviceSlot::Area::none || bounces.any())
+    if (is_there(row, sensor, bounces))
       channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
   return channels * sizeof(float) * sensor.pixel_count();
 }
 
-Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose) {
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
   BouncesOfTaps bounces(sensor);
+  ElectronsRequest electrons{.keep_taps = keep_taps};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
     std::vector<std::vector<float>> taps;
     for (std::size_t k = 0; k < sensor.taps; ++k) {
       Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
       bounces.add(exposure, i, k);
       taps.push_back(std::move(exposure.returns.front().taps[k]));
+      if (sensor.electronics)
+        electrons.mean_radiance_of_taps.push_back(exposure.mean_radiance);
       if (frame) {
         frame->frame_ms += exposure.frame_ms;
         add_passes(frame->passes, exposure.passes);
@@ -99,6 +120,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
   frame->returns = std::move(returns);
   // Those of the exposures; what they come to together has no bound.
   frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
+  if (sensor.electronics)
+    count_electrons(sensor, electrons, *frame);
   return std::move(*frame);
 }
 
@@ -175,9 +198,9 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
     const auto of_exposure = [&](double fraction) {
       progress((before + fraction) / static_cast<double>(exposures));
     };
-    return camera_.measure(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
+    return camera_.measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
   };
-  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose);
+  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose, keep_taps_);
   return frame;
 }
 

@@ -64,13 +64,15 @@ std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &
 // Times of the same pass add up; a pass that is new comes last.
 void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes);
 
-// Measures one frequency alone at a time, its taps kept.
+// Measures one frequency alone at a time, its taps kept, without its electronics.
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
 
 // The frame that begins at `frame_s`: tap k of frequency i is that of the exposure at tap_time_s(), and
 // phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up. Of
-// light that bounces see multipath_of_taps.h.
-Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose);
+// light that bounces see multipath_of_taps.h. Electronics count the electrons of each exposure's own light;
+// `keep_taps` as ElectronsRequest.
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose,
+                               bool keep_taps = true);
 
 // One sensor's frame.
 struct TakenFrame {

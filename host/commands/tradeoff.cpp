@@ -192,7 +192,8 @@ std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff)
 } // namespace
 
 void run_tradeoff(const Options &options) {
-  const Setup setup = requested_setup_without_bounces(options.capture);
+  Setup setup = requested_setup_without_bounces(options.capture);
+  leave_out_noise(setup);
   OutputSet files(options.capture.output_directory); // first, so that nothing is measured in vain
   Sensor sensor = setup.start.sensors.front();
   sensor.modulation_hz.resize(1);

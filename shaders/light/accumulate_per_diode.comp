@@ -68,5 +68,5 @@ void main() {
 
   float backscatter = load_backscatter(i);
   add_terms(i, backscatter, terms_of(total[distinct_taps], point.rho, point.height, run));
-  add_taps(i, total, phases, backscatter);
+  add_taps(i, total, phases, light_of_tone(run, tone) * backscatter);
 }

@@ -60,6 +60,7 @@ void main() {
 
   float backscatter = load_backscatter(i);
   add_terms(i, backscatter, terms_of(high(total[distinct_taps]), high(point.rho), high(point.height), run));
+  backscatter *= light_of_tone(run, tone);
   [[unroll]] for (uint p = 0; p < tap_planes; ++p) {
     uint second = min(2 * p + 1, distinct_taps - 1); // of an odd number the last is there twice
     add_to_plane(p, i, backscatter, RealComplex(tap_of(total, phases, 2 * p), tap_of(total, phases, second)));

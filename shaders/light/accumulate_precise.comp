@@ -34,7 +34,7 @@ RealComplex return_of(Real total[moments], Tone tone) {
 void add_tone(uint t, uint i, Real total[moments], Real detour, LightRun run, float backscatter) {
   Tone tone = Tones(constants.tones).at[t];
   RealComplex turned = real_unit_phasor(real_turn_fraction(phase_turns(detour, run, tone)));
-  add_to_plane(t, i, backscatter, complex_multiply(return_of(total, tone), turned));
+  add_to_plane(t, i, light_of_tone(run, tone) * backscatter, complex_multiply(return_of(total, tone), turned));
 }
 
 void main() {

@@ -228,7 +228,8 @@ vec2 return_of(float moment[moments], float kappa) {
 // longer than that by rho - range.
 vec2 tone_return(float moment[moments], ReferencePath path, LightRun run, Tone tone) {
   Real detour = add(path.rho, negate(path.range));
-  return complex_multiply(return_of(moment, tone.wavenumber), unit_phasor(turn_fraction(phase_turns(detour, run, tone))));
+  vec2 z = complex_multiply(return_of(moment, tone.wavenumber), unit_phasor(turn_fraction(phase_turns(detour, run, tone))));
+  return keeps_mean != 0 ? light_of_tone(run, tone) * z : z;
 }
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/elementary.glsl"
+#include "shaders/shared/mean.glsl"
 #include "shaders/shared/real.glsl"
 #include "shaders/shared/constants.h"
 
@@ -142,6 +143,11 @@ vec3 terms_of(float weights, float rho, float height, LightRun run) {
   if (beams != 0)
     of_beams = beam_terms(weights, all, run);
   return weights > 0.0 ? vec3(weights, terms, of_beams) : vec3(0.0); // where there is no light nothing can be off
+}
+
+// The light at a tone over its modulated part: at 0 Hz it is the mean.
+float light_of_tone(LightRun run, Tone tone) {
+  return is_mean(tone) ? run.mean_over_modulated : 1.0;
 }
 
 // The phase of a path at a tone, the illuminator's with it, in turns.

@@ -191,6 +191,8 @@ struct LightRun {
   float beams, beams_per_log; // the square of what rounding does to a beam's weights, over -ln W and over that
                               // for each -ln W
   float brightest; // I of these W: as intensity, each diode's times its largest J, if that is above 1
+  float mean_over_modulated; // of the illuminator's light
+  float padding_1, padding_2, padding_3;
   vec4 detours; // sum of the diodes' GroupSource::position, where they are alike (constant_equal_weights)
   // Moment k over rho^k is the sum of moments_of_powers[3 k + i / 4][i % 4] * S_i / rho^(2 i)
   // (moment_polynomials.h).

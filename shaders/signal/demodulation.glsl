@@ -5,6 +5,7 @@
 #include "shaders/shared/buffers.glsl"
 #include "shaders/shared/compensated.glsl"
 #include "shaders/shared/elementary.glsl"
+#include "shaders/shared/mean.glsl"
 #include "shaders/shared/real.glsl"
 #include "shaders/shared/real_elementary.glsl"
 #include "shaders/shared/constants.h"
@@ -214,9 +215,18 @@ struct Return {
   float size, distance_m;
 };
 
+// Of square light, tap 0 at no phase is the sum of the weights as well.
+Return store_mean(Channels to, Frequency frequency, float scale, uint pixel, PixelSum sum) {
+  float size = precise_sum != 0 ? high(precise_value(sum.z[0]).re) : compensated_value(sum.z[0]).x;
+  store(to, frequency.first_channel, pixel, scale * max(size, 0.0));
+  return Return(size, 0.0);
+}
+
 // `samples`: S x S of the pixel.
 Return store_return(Channels to, Frequency frequency, uint samples, uint pixel, PixelSum sum) {
   float scale = frequency.amplitude_scale / float(samples);
+  if (is_mean(frequency))
+    return store_mean(to, frequency, scale, pixel, sum);
   float tap[taps];
   if ((waveform == waveform_square && precise_sum == 0) || keep_taps != 0)
     find_taps(sum, frequency, tap);
@@ -319,7 +329,7 @@ vec2 held(Frequency frequency, Errors errors) {
 
 // Stores the bound of a return; not known where there is none.
 void store_bound(Channels to, Frequency frequency, uint pixel, Return of_pixel, Errors errors) {
-  if (keeps_bounds != 0)
+  if (keeps_bounds != 0 && !is_mean(frequency))
     store(to, frequency.first_channel + bound_channel, pixel, of_pixel.size > 0.0 ? errors.distance_m : nan());
 }
 

@@ -47,6 +47,7 @@ IndirectReturn mean_of(const std::vector<MeanReturn> &replicates) {
   for (const MeanReturn &replicate : replicates) {
     result.mean.z += replicate.z / count;
     result.mean.weight += replicate.weight / count;
+    result.mean.mean_radiance += replicate.mean_radiance / count;
     for (std::size_t k = 0; k < replicate.taps.size(); ++k)
       result.mean.taps[k] += replicate.taps[k] / count;
   }

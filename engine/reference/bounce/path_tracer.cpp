@@ -41,7 +41,8 @@ PathTracer::PathTracer(const Scene &scene, const std::vector<CameraTriangle> &tr
     for (const Diode &diode : light.diodes)
       if (diode.intensity_w_sr > 0) {
         sum_w_sr += diode.intensity_w_sr;
-        diodes_.push_back({&diode, light.phase_turns, diode.intensity_w_sr, sum_w_sr});
+        diodes_.push_back(
+            {&diode, light.phase_turns, light.modulation_depth, diode.intensity_w_sr, sum_w_sr});
       }
   for (ShiningDiode &diode : diodes_) {
     diode.share /= sum_w_sr;
@@ -88,7 +89,8 @@ void PathTracer::add_light(const Way &way, PathNumbers &numbers, std::vector<Lig
     return;
   if (shadows_ && !caster_.is_free({way.at.position_m, way.at.normal}, chosen.diode->position_m))
     return;
-  paths.push_back({way.length_m + returned.diode_range_m, weight_w_m2_sr, chosen.phase_turns});
+  paths.push_back(
+      {way.length_m + returned.diode_range_m, weight_w_m2_sr, chosen.phase_turns, chosen.modulation_depth});
 }
 
 const PathTracer::ShiningDiode &PathTracer::choose_diode(double number) const {

@@ -35,7 +35,7 @@ private:
   // A diode that shines, and its share of all diodes' intensity, up to itself too.
   struct ShiningDiode {
     const Diode *diode;
-    double phase_turns, share, share_up_to;
+    double phase_turns, modulation_depth, share, share_up_to;
   };
 
   // To the next surface; false where there is none that reflects.

@@ -41,7 +41,8 @@ std::vector<LightPath> light_paths(const SurfacePoint &point, const std::vector<
         continue;
       const auto [diode_range_m, weight_w_m2_sr] = light_return(point, diode, backscatter);
       if (weight_w_m2_sr != 0)
-        paths.push_back({diode_range_m + lens_range_m, weight_w_m2_sr, light.phase_turns});
+        paths.push_back(
+            {diode_range_m + lens_range_m, weight_w_m2_sr, light.phase_turns, light.modulation_depth});
     }
   return paths;
 }

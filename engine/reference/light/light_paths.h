@@ -45,9 +45,10 @@ struct SurfacePoint {
 };
 
 struct LightPath {
-  double length_m;          // r_nm + r_n, and what lies between where light bounces
-  double weight_w_m2_sr;    // as of LightReturn
-  double phase_turns = 0.0; // added to what the length makes of it, -1/2 to 1/2
+  double length_m;               // r_nm + r_n, and what lies between where light bounces
+  double weight_w_m2_sr;         // as of LightReturn
+  double phase_turns = 0.0;      // added to what the length makes of it, -1/2 to 1/2
+  double modulation_depth = 1.0; // of the light: its mean is the weight over that
 };
 
 // What one diode returns through a point, if nothing is between.
@@ -58,10 +59,11 @@ struct LightReturn {
 
 LightReturn light_return(const SurfacePoint &point, const Diode &diode, Backscatter backscatter);
 
-// Diodes of one phase, camera frame.
+// Diodes of one illuminator, camera frame.
 struct Light {
   std::vector<Diode> diodes;
   double phase_turns; // -1/2 to 1/2
+  double modulation_depth = 1.0;
 };
 
 // The paths from every diode of `reached` whose light returns through `point`.

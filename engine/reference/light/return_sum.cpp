@@ -51,8 +51,10 @@ ReturnSum::ReturnSum(const Sensor &sensor, double modulation_hz)
 }
 
 void ReturnSum::add(const std::vector<LightPath> &paths) {
-  for (const LightPath &path : paths)
+  for (const LightPath &path : paths) {
     weight_.add(path.weight_w_m2_sr);
+    mean_radiance_.add(path.weight_w_m2_sr / path.modulation_depth);
+  }
   if (is_sine())
     for (const LightPath &path : paths)
       phasors_.add(std::polar(path.weight_w_m2_sr, full_turn_rad * phase_turns(path)));
@@ -68,7 +70,8 @@ double ReturnSum::phase_turns(const LightPath &path) const {
 }
 
 MeanReturn ReturnSum::mean(std::uint32_t samples) const {
-  MeanReturn mean{z() / static_cast<double>(samples), {}, weight_.value() / samples};
+  MeanReturn mean{
+      z() / static_cast<double>(samples), {}, weight_.value() / samples, mean_radiance_.value() / samples};
   mean.taps.reserve(sensor_->taps);
   for (std::uint32_t k = 0; k < sensor_->taps; ++k)
     mean.taps.push_back(tap(k) / samples);

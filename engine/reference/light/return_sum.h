@@ -45,9 +45,10 @@ double correlation(const Waveform &waveform, double turns);
 
 // What a pixel returns at one modulation frequency.
 struct MeanReturn {
-  std::complex<double> z;   // (2/N) sum over k of tap k exp(+j 2 pi k / N)
-  std::vector<double> taps; // c_k, k = 0 ... N-1
-  double weight;            // of all paths, whatever their phase
+  std::complex<double> z;     // (2/N) sum over k of tap k exp(+j 2 pi k / N)
+  std::vector<double> taps;   // c_k, k = 0 ... N-1
+  double weight;              // of all paths, whatever their phase
+  double mean_radiance = 0.0; // of their light, W/(m^2 sr)
 };
 
 // Sums over light paths, before they are divided by the number of samples. A sine's paths are summed as
@@ -70,7 +71,7 @@ private:
 
   const Sensor *sensor_;
   double turns_per_m_;
-  CompensatedSum weight_;
+  CompensatedSum weight_, mean_radiance_;
   ComplexSum phasors_;               // a sine's
   std::vector<CompensatedSum> taps_; // any other waveform's
 };

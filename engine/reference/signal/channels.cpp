@@ -90,6 +90,7 @@ void set_return(FrameReturn &channels, std::size_t pixel, const MeanReturn &all)
 MeanReturn together(MeanReturn direct, const MeanReturn &indirect) {
   direct.z += indirect.z;
   direct.weight += indirect.weight;
+  direct.mean_radiance += indirect.mean_radiance;
   for (std::size_t k = 0; k < direct.taps.size(); ++k)
     direct.taps[k] += indirect.taps[k];
   return direct;
@@ -120,6 +121,8 @@ Frame dark_frame(const Sensor &sensor, const Bounces &bounces) {
       channels.multipath_m = channels.multipath_error_m = channels.indirect_share = unknown;
     }
   frame.coverage = dark;
+  if (sensor.electronics)
+    frame.mean_radiance = dark;
   frame.range_m = frame.z_m = unknown;
   frame.triangle_id.assign(pixels, no_id);
   frame.object_id.assign(pixels, no_id);
@@ -136,11 +139,12 @@ void set_channels(Frame &frame, std::size_t pixel, const PixelSums &sums, std::u
   }
   for (std::size_t i = 0; i < sums.returns.size(); ++i) {
     const MeanReturn direct = sums.returns[i].mean(samples);
-    if (indirect.empty()) {
-      set_return(frame.returns[i], pixel, direct);
+    const MeanReturn all = indirect.empty() ? direct : together(direct, indirect[i].mean);
+    set_return(frame.returns[i], pixel, all);
+    if (!frame.mean_radiance.empty())
+      frame.mean_radiance[pixel] = all.mean_radiance; // the same of each frequency
+    if (indirect.empty())
       continue;
-    }
-    set_return(frame.returns[i], pixel, together(direct, indirect[i].mean));
     set_multipath(frame.returns[i], pixel, direct.z, indirect[i]);
   }
 }
@@ -154,6 +158,7 @@ Measurement to_measurement(const Frame &frame) {
   measurement.z_m = rounded(frame.z_m);
   measurement.coverage = rounded(frame.coverage);
   measurement.lit = rounded(frame.lit);
+  measurement.mean_radiance = rounded(frame.mean_radiance);
   measurement.triangle_id = frame.triangle_id;
   measurement.object_id = frame.object_id;
   measurement.frame_ms = frame.frame_ms;

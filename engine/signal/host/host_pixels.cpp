@@ -47,7 +47,8 @@ private:
   std::vector<std::vector<float>> coefficients_;
   std::vector<RunForm> forms_;
   std::vector<shader::Tone> tones_;
-  std::vector<shader::Frequency> frequencies_;
+  std::vector<shader::Frequency> frequencies_; // the last one of the mean light where it is kept
+  std::uint32_t frequency_count_;              // that have phases
   std::vector<shader::LightRun> field_runs_; // these and what follows: where the field is interpolated
   std::vector<RunForm> field_forms_;
   std::vector<shader::Frequency> field_frequencies_;
@@ -90,7 +91,7 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
       tones_(on.modulation.all_tones()),
       frequencies_(
           frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
-      backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
+      frequency_count_(on.modulation.modulations()), backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
       lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
       reports_kept_(on.modulation.reports_kept), later_(scope.later),
       first_tap_(row_of(&Return::taps).slot.index),
@@ -98,7 +99,7 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
       loops_(widest_pixel_loops(on.options.host_vector_bits)) {
-  if (frequencies_.size() > most_pixel_frequencies || on.scene.paint.painted ||
+  if (frequency_count_ > most_pixel_frequencies || on.scene.paint.painted ||
       !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
   const RunForm form = form_of(on, groups, scope);
@@ -168,7 +169,8 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
                        .forms = forms_.data(),
                        .tones = tones_.data(),
                        .frequencies = frequencies_.data(),
-                       .frequency_count = static_cast<std::uint32_t>(frequencies_.size()),
+                       .frequency_count = frequency_count_,
+                       .mean = frequency_count_ < frequencies_.size() ? &frequencies_.back() : nullptr,
                        .backscatter = backscatter_ ? &*backscatter_ : nullptr,
                        .vignetting = vignetting_,
                        .lit = lit_ ? buffers_.lit.mapped_as<std::uint32_t>() : nullptr,

@@ -235,6 +235,8 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
     if (of.holds)
       hold(of, f, samples, Terms(), none, none, Terms(), Ints{}, held);
   }
+  if (of.mean)
+    store_channels(of, of.mean->first_channel, samples, none, none);
   if (of.lit)
     store_lit(of, samples);
 }
@@ -243,6 +245,7 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
 constexpr std::uint32_t most_kept_runs = 4;
 struct Returns {
   Complex z[most_pixel_frequencies]; // relative to twice the sample's own range
+  Floats mean; // of the light at 0 Hz
   Terms terms;
   Ints by_field; // some run's sums are interpolated
   Wide range;
@@ -262,6 +265,7 @@ bool keeps_runs(const PixelWork &of) {
 Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *field) {
   Returns returns;
   std::fill_n(returns.z, of.frequency_count, Complex{});
+  returns.mean = Floats{};
   returns.terms = Terms();
   returns.by_field = Ints{};
   VectorSources sources(of, samples, field);
@@ -278,6 +282,8 @@ Returns returns_of(const PixelWork &of, VectorSamples &samples, IncidentField *f
       if (keeps_runs(of))
         returns.of_run[run][f] = z;
     }
+    if (of.mean)
+      returns.mean += form.run->mean_over_modulated * light.moment[0];
     if (of.holds) {
       Terms terms = terms_of(form, view, light.weights, light.growth);
       if (bits_of(light.by_field) != 0)
@@ -348,6 +354,9 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
       hold(of, f, samples, terms, size, distance_m, scaled(backscatter, turned_terms(of, returns, f)),
            returns.by_field, held);
   }
+  if (of.mean)
+    store_channels(of, of.mean->first_channel, samples,
+                   shines ? larger(of.mean->amplitude_scale * backscatter * returns.mean, none) : none, none);
   if (of.lit)
     store_lit(of, samples);
 }

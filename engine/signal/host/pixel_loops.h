@@ -17,7 +17,8 @@ struct PixelWork {
   const RunForm *forms; // of each run
   const shader::Tone *tones;
   const shader::Frequency *frequencies; // beside the tones
-  std::uint32_t frequency_count;        // most_pixel_frequencies at most
+  std::uint32_t frequency_count;        // that have phases, most_pixel_frequencies at most
+  const shader::Frequency *mean;        // of the mean light; nullptr where it is no channel
   const float *backscatter;             // of all that is seen; nullptr: looked up
   bool vignetting;
   const std::uint32_t *lit; // sources that reach a sample; nullptr where they are no channel

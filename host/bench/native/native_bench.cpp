@@ -80,7 +80,7 @@ ChosenWork work_of(const Setup &setup, const std::string &device) {
   sensor = coarser(sensor, std::sqrt(interactions / most_interactions));
   Camera camera(device);
   camera.prepare(setup, sensor);
-  return native_work(setup, sensor, camera.measure());
+  return native_work(setup, sensor, camera.measure_light());
 }
 
 void find_series(NativeBench &bench, const NativeSums &sums) {

@@ -111,7 +111,8 @@ std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const
     result.push_back({illuminator.at("name"),
                       world_from_frame(illuminator.at("pose"), place / i / "pose", scene, sensors),
                       diodes_of(illuminator, place / i, diagrams),
-                      glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>()))});
+                      glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>())),
+                      illuminator.at("modulation_depth").get<double>()});
     diodes += result.back().diodes.size();
     if (diodes > max_diodes)
       throw input_error(place / i / "diodes",

@@ -44,7 +44,8 @@ ordered_json read_setup(const Place &root) {
   static const json schema = json::parse(setup_schema_text);
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
   const std::string text = read_regular_file(root.file, max_setup_bytes, root);
-  const json document = parse_json(text, root.file, Comments::allowed);
+  json document = parse_json(text, root.file, Comments::allowed);
+  fill_presets(document);
   check_schema(document, schema, root.file);
   refuse_second_pattern(document, root);
   return with_all_defaults(document, ordered_schema);

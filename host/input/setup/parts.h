@@ -27,6 +27,13 @@ Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, co
 // chip that is not in front of the lens.
 Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const GltfScene &scene);
 
+// A sensor's /electronics; `sensor` has its resolution and frequencies already. Throws Error (input).
+Electronics electronics_of(const nlohmann::ordered_json &electronics, const Place &place,
+                           const Sensor &sensor);
+
+// Fills in what presets say, in a document that may be anything.
+void fill_presets(nlohmann::json &setup);
+
 // Why a sensor's lens and chip can make no image, for people.
 struct LensProblem {
   std::string key;         // of the sensor in a setup: "chip", "distortion" or "resolution"

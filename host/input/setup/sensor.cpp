@@ -125,6 +125,8 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   sensor.at("taps").get_to(result.taps);
   sensor.at("tap_interval_s").get_to(result.tap_interval_s);
   set_samples(result, sample_choice_of(sensor.at("samples")));
+  if (sensor.contains("electronics"))
+    result.electronics = electronics_of(sensor.at("electronics"), place / "electronics", result);
   check_highest_harmonic(result, place);
   if (const auto problem = lens_problem(result))
     throw input_error(place / problem->key, problem->expectation);

@@ -1,0 +1,363 @@
+// A pixel's electrons, from the mean light to what the camera makes of its digital numbers (docs/theory.md,
+// "Electrons"), in vectors of pixels.
+
+#include "engine/electronics/chance.h"
+#include "engine/electronics/electron_work.h"
+
+#include <limits>
+
+namespace pmdsim::PMDSIM_INSTRUCTION_SET {
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float two_pi_float = 6.2831853f, turns_per_rad = 0.15915494f;
+// At this read noise and above the steps of single electrons are gone: 3e-9 of them is left.
+constexpr float least_merged_noise_e = 1.0f;
+constexpr float least_rounded = 0x1p22f; // above it every float of a mean is whole enough
+
+// A vector's pixels, of which the first `count` are there.
+struct Pixels {
+  std::uint32_t first;
+  int count;
+
+  Ints numbers() const { return static_cast<std::int32_t>(first) + lane_numbers(); }
+  Floats load_from(const float *from) const {
+    Floats values{};
+    __builtin_memcpy(&values, from + first, sizeof(float) * static_cast<std::size_t>(count));
+    return values;
+  }
+  template <class V, class T>
+  void store_to(T *to, const V &values) const {
+    __builtin_memcpy(to + first, &values, sizeof(T) * static_cast<std::size_t>(count));
+  }
+};
+
+Words4 words_of(const ElectronWork &of, const Pixels &pixels, ChanceStream stream, std::uint32_t call,
+                std::uint32_t exposure) {
+  const std::uint32_t shared[3] = {of.frame,
+                                   of.frequency << 16 | static_cast<std::uint32_t>(stream) << 8 | call,
+                                   of.sensor << 16 | exposure};
+  return philox(pixels.numbers(), shared, of.key);
+}
+
+NormalPair normals_of(const Words4 &words, std::uint32_t pair) {
+  return normal_pair(words.of[2 * pair], words.of[2 * pair + 1]);
+}
+
+// Offsets and relative responses of taps A and B, the same in every frame.
+struct FixedPattern {
+  Floats response[2], offset_e[2];
+};
+
+FixedPattern fixed_pattern(const ElectronWork &of, const Pixels &pixels) {
+  FixedPattern pattern{{all(1.0f), all(1.0f)}, {all(0.0f), all(0.0f)}};
+  if (of.dsnu_e == 0.0f && of.prnu == 0.0f)
+    return pattern;
+  const std::uint32_t shared[3] = {0, static_cast<std::uint32_t>(ChanceStream::pattern) << 8,
+                                   of.sensor << 16};
+  const Words4 words = philox(pixels.numbers(), shared, of.key);
+  const NormalPair responses = normals_of(words, 0), offsets = normals_of(words, 1);
+  pattern.response[0] = larger(1.0f + of.prnu * responses.first, all(0.0f));
+  pattern.response[1] = larger(1.0f + of.prnu * responses.second, all(0.0f));
+  pattern.offset_e[0] = of.dsnu_e * offsets.first;
+  pattern.offset_e[1] = of.dsnu_e * offsets.second;
+  return pattern;
+}
+
+// The mean electrons of an image's taps but for the fixed pattern.
+struct TapMeans {
+  Floats light[2]; // with the background
+  float dark_e;    // of each tap
+
+  Floats of(int tap) const { return light[tap] + dark_e; }
+};
+
+TapMeans tap_means(const ElectronWork &of, const Pixels &pixels, std::uint32_t image,
+                   const Floats &correlation) {
+  const Floats background = of.background_e ? pixels.load_from(of.background_e) : all(of.all_background_e);
+  const Floats common =
+      0.5f * (of.electrons_per_radiance * pixels.load_from(of.mean_radiance[image]) + background);
+  const Floats part = (0.5f * of.contrast * of.electrons_per_radiance) * correlation, none = all(0.0f);
+  return {{larger(common + part, none), larger(common - part, none)}, 0.5f * of.dark_e};
+}
+
+// A number with the first four cumulants of Poisson's of that mean, plus a normal one of `noise_e`, from a
+// standard normal z: E. A. Cornish and R. A. Fisher, "Moments and cumulants in the specification of
+// distributions", Rev. Inst. Int. Stat. 5 (1938).
+Floats merged_charge(const Floats &mean, float noise_e, const Floats &z) {
+  const Floats variance = mean + noise_e * noise_e, deviation = exact_root(variance);
+  const Floats shot_share = mean / variance, z2 = z * z;
+  const Floats second = (z2 - 1.0f) * (1.0f / 6.0f);
+  const Floats third =
+      z * ((z2 - 3.0f) * (1.0f / 24.0f) - shot_share * ((2.0f * z2 - 5.0f) * (1.0f / 36.0f)));
+  return mean + deviation * z + shot_share * (second + third / deviation);
+}
+
+Floats whole_count(const Floats &charge) {
+  return charge < least_rounded ? larger(rounded(charge), all(0.0f)) : charge;
+}
+
+// The random numbers of one exposure, call by call as its images ask for them.
+class Chance {
+public:
+  Chance(const ElectronWork &of, const Pixels &pixels, std::uint32_t exposure)
+      : of_(of), pixels_(pixels), exposure_(exposure), separate_(of.read_noise_e < least_merged_noise_e) {}
+
+  // The electrons of an image's tap, of that mean, with its read noise.
+  Floats charge(std::uint32_t image, int tap, const Floats &mean) {
+    const std::uint32_t draw = of_.two_tap ? 2 * image + static_cast<std::uint32_t>(tap) : image;
+    const Floats z = normal(ChanceStream::normals, draw, normals_);
+    const Ints is_small = mean < largest_counted_mean;
+    Floats charge = merged(draw, mean, z);
+    if (bits_of(is_small) != 0) {
+      const Floats counted = poisson(smaller(mean, all(largest_counted_mean)), word_of_count(draw));
+      charge = is_small ? counted + of_.read_noise_e * z : charge;
+    }
+    return charge;
+  }
+
+private:
+  struct Normals {
+    std::uint32_t call = ~0u, pair = ~0u;
+    Words4 words;
+    NormalPair numbers;
+  };
+
+  Floats normal(ChanceStream stream, std::uint32_t draw, Normals &known) {
+    if (known.call != draw / 4) {
+      known.call = draw / 4;
+      known.words = words_of(of_, pixels_, stream, known.call, exposure_);
+    }
+    if (known.pair != draw / 2) {
+      known.pair = draw / 2;
+      known.numbers = normals_of(known.words, known.pair % 2);
+    }
+    return draw % 2 == 0 ? known.numbers.first : known.numbers.second;
+  }
+
+  Floats merged(std::uint32_t draw, const Floats &mean, const Floats &z) {
+    if (!separate_)
+      return merged_charge(mean, of_.read_noise_e, z);
+    const Floats count = whole_count(merged_charge(larger(mean, all(1.0f)), 0.0f, z));
+    if (of_.read_noise_e == 0.0f)
+      return count;
+    return count + of_.read_noise_e * normal(ChanceStream::reads, draw, reads_);
+  }
+
+  Ints word_of_count(std::uint32_t draw) {
+    if (count_call_ != draw / 4) {
+      count_call_ = draw / 4;
+      counts_ = words_of(of_, pixels_, ChanceStream::counts, count_call_, exposure_);
+    }
+    return counts_.of[draw % 4];
+  }
+
+  const ElectronWork &of_;
+  const Pixels &pixels_;
+  std::uint32_t exposure_;
+  bool separate_; // counts and read noise are drawn one by one
+  Normals normals_, reads_;
+  std::uint32_t count_call_ = ~0u;
+  Words4 counts_;
+};
+
+// What the camera reads of an image: taps' electrons before the ADC, and digital numbers.
+struct Reading {
+  Floats charge_e[2], number_dn[2];
+};
+
+// Takes from both taps alike what would not fit into the fuller one's well.
+void suppress_background(const ElectronWork &of, Reading &reading) {
+  const Floats none = all(0.0f);
+  const Floats over = larger(larger(reading.charge_e[0], reading.charge_e[1]) - of.full_well_e, none);
+  const Floats common = larger(smaller(reading.charge_e[0], reading.charge_e[1]), none);
+  const Floats taken = smaller(smaller(over, all(of.sbi_e)), common);
+  reading.charge_e[0] -= taken;
+  reading.charge_e[1] -= taken;
+}
+
+// The lanes where the tap is full, or beyond the ADC's range.
+Ints read_tap(const ElectronWork &of, Reading &reading, int tap) {
+  Floats &charge = reading.charge_e[tap];
+  const Ints is_full = charge > of.full_well_e;
+  charge = is_full ? all(of.full_well_e) : charge;
+  const Floats voltage_dn = of.gain_dn_per_e * charge + of.offset_dn;
+  const Floats within_dn = smaller(larger(voltage_dn, all(0.0f)), all(of.largest_dn));
+  reading.number_dn[tap] = rounded(within_dn);
+  return is_full | (voltage_dn > of.largest_dn + 0.5f);
+}
+
+struct Correlations {
+  Floats of[most_images];
+};
+
+// A vector of pixels.
+class PixelElectrons {
+public:
+  PixelElectrons(const ElectronWork &of, const Pixels &pixels)
+      : of_(of), pixels_(pixels), taps_(of.two_tap ? 2 : 1), pattern_(fixed_pattern(of, pixels)) {}
+
+  void count() {
+    find_light();
+    for (std::uint32_t k = 0; k < of_.images; ++k)
+      predict(k, tap_means(of_, pixels_, k, light_.of[k]));
+    for (std::uint32_t k = 0; k < of_.images; ++k)
+      images_[k] = {};
+    for (std::uint32_t exposure = 0; exposure < of_.exposures; ++exposure)
+      expose(exposure);
+    demodulate();
+    store_noise();
+  }
+
+private:
+  // The noiseless z and correlation samples.
+  void find_light() {
+    if (of_.amplitude) {
+      const Floats amplitude = pixels_.load_from(of_.amplitude), phase_rad = pixels_.load_from(of_.phase_rad);
+      const Ints is_lit = amplitude > 0.0f;
+      Floats turns = turns_per_rad * (is_lit ? phase_rad : all(0.0f));
+      turns -= turns > 0.5f ? all(1.0f) : all(0.0f);
+      z_ = amplitude * unit_phasor(turns);
+    }
+    const float scale = 2.0f / static_cast<float>(of_.images);
+    for (std::uint32_t k = 0; k < of_.images; ++k) {
+      const auto &[re, im] = of_.reference[k];
+      light_.of[k] = of_.amplitude ? re * z_.re + im * z_.im : pixels_.load_from(of_.taps[k]);
+      if (!of_.amplitude)
+        z_ = {z_.re + (scale * re) * light_.of[k], z_.im + (scale * im) * light_.of[k]};
+    }
+  }
+
+  // The variance of the image's reading, and whether its taps are to be full.
+  void predict(std::uint32_t image, const TapMeans &means) {
+    Floats variance = all(0.0f);
+    const float step_e = 1.0f / of_.gain_dn_per_e;
+    const float of_reading = of_.read_noise_e * of_.read_noise_e + step_e * step_e * (1.0f / 12.0f);
+    Floats fullest = means.of(0);
+    for (int tap = 0; tap < taps_; ++tap) {
+      variance += means.of(tap) + of_reading;
+      fullest = larger(fullest, means.of(tap));
+    }
+    if (taps_ == 2)
+      fullest -= smaller(all(of_.sbi_e), smaller(means.of(0), means.of(1)));
+    is_full_ |= (fullest > of_.full_well_e) | (of_.gain_dn_per_e * fullest + of_.offset_dn > of_.largest_dn);
+    const auto &[re, im] = of_.twice_reference[image];
+    variance_ += variance;
+    second_ = {second_.re + re * variance, second_.im + im * variance};
+  }
+
+  void expose(std::uint32_t exposure) {
+    Chance chance(of_, pixels_, exposure);
+    for (std::uint32_t k = 0; k < of_.images; ++k) {
+      const TapMeans means = tap_means(of_, pixels_, k, light_.of[k]);
+      Reading reading{};
+      for (int tap = 0; tap < taps_; ++tap)
+        reading.charge_e[tap] =
+            chance.charge(k, tap, pattern_.response[tap] * means.light[tap] + means.dark_e) +
+            pattern_.offset_e[tap];
+      if (of_.sbi_e > 0.0f && taps_ == 2)
+        suppress_background(of_, reading);
+      for (int tap = 0; tap < taps_; ++tap) {
+        const Ints is_full = read_tap(of_, reading, tap);
+        saturated_ |= is_full & static_cast<std::int32_t>(1u << (static_cast<std::uint32_t>(16 * tap) + k));
+        images_[k].charge_e[tap] += reading.charge_e[tap];
+        images_[k].number_dn[tap] += reading.number_dn[tap];
+      }
+    }
+  }
+
+  // What the camera takes for the image's correlation sample, in electrons; of one tap with all that is
+  // common.
+  Floats difference_e(std::uint32_t image) {
+    const float e_per_dn = 1.0f / of_.gain_dn_per_e;
+    return e_per_dn *
+           (images_[image].number_dn[0] - (taps_ == 2 ? images_[image].number_dn[1] : all(of_.offset_dn)));
+  }
+
+  void demodulate() {
+    const float per_exposure = 1.0f / static_cast<float>(of_.exposures);
+    const float scale = 2.0f / static_cast<float>(of_.images);
+    Floats difference[most_images], mean = all(0.0f);
+    Complex z{};
+    for (std::uint32_t k = 0; k < of_.images; ++k) {
+      for (int tap = 0; tap < taps_; ++tap) {
+        images_[k].charge_e[tap] *= per_exposure;
+        images_[k].number_dn[tap] *= per_exposure;
+        if (of_.tap_e[tap])
+          pixels_.store_to(of_.tap_e[tap][k], images_[k].charge_e[tap]);
+        if (of_.tap_dn[tap])
+          pixels_.store_to(of_.tap_dn[tap][k], images_[k].number_dn[tap]);
+      }
+      difference[k] = difference_e(k);
+      mean += difference[k] * (1.0f / static_cast<float>(of_.images));
+      const auto &[re, im] = of_.reference[k];
+      z = {z.re + (scale * re) * difference[k], z.im + (scale * im) * difference[k]};
+    }
+    store_return(z);
+    if (!of_.taps_out)
+      return;
+    for (std::uint32_t k = 0; k < of_.images; ++k)
+      pixels_.store_to(of_.taps_out[k],
+                       radiance_per_e() * (taps_ == 2 ? difference[k] : difference[k] - mean));
+  }
+
+  // One tap has half of the signal that the difference of two has.
+  float radiance_per_e() const {
+    return (taps_ == 2 ? 1.0f : 2.0f) / (of_.contrast * of_.electrons_per_radiance);
+  }
+
+  void store_return(const Complex &z) {
+    const Floats size = exact_root(z.re * z.re + z.im * z.im);
+    const Ints is_known = size > 0.0f;
+    Floats turns = angle_turns({is_known ? z.re : all(1.0f), z.im});
+    turns += turns < 0.0f ? all(1.0f) : all(0.0f);
+    turns = turns < 1.0f ? turns : all(0.0f);
+    const Floats nan = all(not_a_number);
+    pixels_.store_to(of_.amplitude_out, radiance_per_e() * size);
+    pixels_.store_to(of_.phase_rad_out, is_known ? smaller(two_pi_float * turns, all(of_.below_turn)) : nan);
+    pixels_.store_to(of_.distance_m_out, is_known ? smaller(of_.ambiguity_m * turns, all(of_.below_m)) : nan);
+    const float share = 2.0f / static_cast<float>(of_.images);
+    const Floats of_part = share * exact_root(0.5f * variance_ * (1.0f / static_cast<float>(of_.exposures)));
+    pixels_.store_to(of_.confidence, size / of_part);
+    pixels_.store_to(of_.saturated, saturated_);
+  }
+
+  // sigma_phi^2 = (2 / (N a))^2 sum_k variance_k sin^2(phi - theta_k), a the amplitude in electrons.
+  void store_noise() {
+    const Floats size2 = z_.re * z_.re + z_.im * z_.im;
+    const Floats cos2 = (z_.re * z_.re - z_.im * z_.im) / size2, sin2 = 2.0f * z_.re * z_.im / size2;
+    const Floats across = 0.5f * larger(variance_ - (second_.re * cos2 + second_.im * sin2), all(0.0f));
+    const float share = 2.0f / static_cast<float>(of_.images);
+    const Floats phase_rad =
+        share * radiance_per_e() * exact_root(across / (static_cast<float>(of_.exposures) * size2));
+    const Ints is_known = (size2 > 0.0f) & ~is_full_;
+    pixels_.store_to(of_.distance_noise_m,
+                     is_known ? (of_.ambiguity_m * turns_per_rad) * phase_rad : all(not_a_number));
+  }
+
+  const ElectronWork &of_;
+  const Pixels &pixels_;
+  int taps_;
+  FixedPattern pattern_;
+  Complex z_{};
+  Correlations light_;
+  Floats variance_{}; // sum over the images
+  Complex second_{};  // the same times exp(2 j theta_k)
+  Ints is_full_{}, saturated_{};
+  Reading images_[most_images]; // sums over the exposures
+};
+
+void count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t pixel = first; pixel < last; pixel += lanes) {
+    const std::uint32_t left = last - pixel;
+    const Pixels pixels{pixel, left < lanes ? static_cast<int>(left) : lanes};
+    PixelElectrons(of, pixels).count();
+  }
+}
+
+} // namespace
+
+extern const ElectronLoops electron_loops;
+const ElectronLoops electron_loops{count_electrons};
+
+} // namespace pmdsim::PMDSIM_INSTRUCTION_SET

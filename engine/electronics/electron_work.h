@@ -1,0 +1,50 @@
+#pragma once
+// The data of the loops that count electrons, as plain arrays: they are compiled once for each instruction
+// set, so they share no code with the rest of the program.
+
+#include <cstdint>
+
+namespace pmdsim {
+
+constexpr std::uint32_t most_images = 16;
+
+// The streams of random numbers of a pixel, which the counter's words tell apart.
+enum class ChanceStream : std::uint32_t { normals, counts, reads, pattern };
+
+// One frequency of a frame of one sensor. Pixels of all arrays are row by row.
+struct ElectronWork {
+  std::uint32_t images;              // N, most_images at most
+  const float (*reference)[2];       // exp(j 2 pi k / N) of each
+  const float (*twice_reference)[2]; // exp(j 4 pi k / N)
+  // The noiseless correlation samples: of a sine by amplitude and phase, else (nullptr) by the taps.
+  const float *amplitude, *phase_rad;
+  const float *const *taps;
+  const float *const *mean_radiance; // of each image
+  const float *background_e;         // of each pixel and image; nullptr: of all alike
+  float all_background_e;
+  float electrons_per_radiance; // of one image, both taps
+  float contrast, dark_e;       // of both taps
+  float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
+  float gain_dn_per_e, offset_dn, largest_dn;
+  bool two_tap;
+  std::uint32_t exposures; // that are averaged
+  // Of Philox's counter: key, frame, the word of sensor and exposure without the latter, and that of the
+  // frequency.
+  std::uint32_t key[2], frame, sensor, frequency;
+  float ambiguity_m;
+  float below_turn, below_m; // the largest floats below 2 pi and below the ambiguity
+  // Out: what the camera makes of it, and of its noise. Arrays of taps' pointers are nullptr where not kept.
+  float *amplitude_out, *phase_rad_out, *distance_m_out, *distance_noise_m, *confidence;
+  std::uint32_t *saturated;
+  float *const *taps_out;
+  float *const *tap_e[2];  // of A and B
+  float *const *tap_dn[2]; // likewise
+};
+
+// One for each instruction set.
+struct ElectronLoops {
+  // The pixels from `first` to `last` - 1.
+  void (*count)(const ElectronWork &of, std::uint32_t first, std::uint32_t last);
+};
+
+} // namespace pmdsim

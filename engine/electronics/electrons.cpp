@@ -1,0 +1,188 @@
+#include "engine/electronics/electrons.h"
+
+#include "engine/electronics/electron_work.h"
+#include "engine/electronics/photon_chain.h"
+#include "engine/model/instruction_sets.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <tbb/parallel_for.h>
+
+PMDSIM_LOOPS_OF_EACH_SET(pmdsim::ElectronLoops, electron_loops)
+
+namespace pmdsim {
+namespace {
+
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+constexpr std::uint32_t pixels_at_once = 4096; // a multiple of the lanes of all instruction sets
+
+using Pointers = std::array<float *, most_images>;
+using Phasors = std::array<std::array<float, 2>, most_images>;
+
+Phasors phasors(std::uint32_t images, double multiple) {
+  Phasors of{};
+  for (std::uint32_t k = 0; k < images; ++k) {
+    const double angle_rad = multiple * turn_rad * k / images;
+    of[k] = {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))};
+  }
+  return of;
+}
+
+float largest_float_below(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, 0.0f);
+}
+
+// An array of each tap, or none.
+void set_taps(bool keep, std::uint32_t images, std::size_t pixels, std::vector<std::vector<float>> &channel,
+              Pointers &pointers) {
+  channel.resize(keep ? images : 0);
+  for (std::size_t k = 0; k < channel.size(); ++k) {
+    channel[k].resize(pixels);
+    pointers[k] = channel[k].data();
+  }
+}
+
+// One frequency of a frame.
+class FrequencyElectrons {
+public:
+  FrequencyElectrons(const Sensor &sensor, const ElectronsRequest &request, std::size_t frequency,
+                     Measurement &frame)
+      : sensor_(sensor), electronics_(*sensor.electronics), to_(frame.returns[frequency]) {
+    set_light(request, frequency, frame);
+    set_electronics(frequency);
+    set_counter(frequency, frame.number);
+    set_output(request.keep_taps, frequency);
+  }
+
+  void count(const ElectronLoops &loops) const {
+    const auto pixels = static_cast<std::uint32_t>(sensor_.pixel_count());
+    const std::uint32_t parts = (pixels + pixels_at_once - 1) / pixels_at_once;
+    tbb::parallel_for(0u, parts, [&](std::uint32_t part) {
+      const std::uint32_t first = part * pixels_at_once;
+      loops.count(work_, first, std::min(first + pixels_at_once, pixels));
+    });
+  }
+
+private:
+  void set_light(const ElectronsRequest &request, std::size_t frequency, const Measurement &frame) {
+    work_.images = sensor_.taps;
+    reference_ = phasors(sensor_.taps, 1.0);
+    twice_reference_ = phasors(sensor_.taps, 2.0);
+    work_.reference = reinterpret_cast<const float(*)[2]>(reference_.data());
+    work_.twice_reference = reinterpret_cast<const float(*)[2]>(twice_reference_.data());
+    const bool one_by_one = !request.mean_radiance_of_taps.empty();
+    for (std::uint32_t k = 0; k < sensor_.taps; ++k)
+      mean_[k] = one_by_one ? request.mean_radiance_of_taps[frequency * sensor_.taps + k].data()
+                            : frame.mean_radiance.data();
+    work_.mean_radiance = mean_.data();
+    // Taps that are exposed one by one are no samples of one sine.
+    if (sensor_.waveform.kind == Waveform::Kind::sine && !one_by_one) {
+      work_.amplitude = to_.amplitude.data();
+      work_.phase_rad = to_.phase_rad.data();
+      return;
+    }
+    if (to_.taps.size() != sensor_.taps)
+      throw std::logic_error("electrons of a frame without its taps");
+    for (std::uint32_t k = 0; k < sensor_.taps; ++k)
+      taps_in_[k] = to_.taps[k].data();
+    work_.taps = taps_in_.data();
+  }
+
+  void set_electronics(std::size_t frequency) {
+    const auto as_float = [](double value) { return static_cast<float>(value); };
+    work_.electrons_per_radiance = as_float(electrons_of(1.0, sensor_));
+    work_.all_background_e = as_float(electrons_of(electronics_.background_radiance_w_m2_sr, sensor_));
+    for (const float relative : electronics_.background_image)
+      background_e_.push_back(relative * work_.all_background_e);
+    work_.background_e = background_e_.empty() ? nullptr : background_e_.data();
+    work_.contrast = as_float(electronics_.contrast(frequency));
+    work_.dark_e = as_float(electronics_.dark_current_e_per_s * electronics_.integration_time_s);
+    work_.read_noise_e = as_float(electronics_.read_noise_e);
+    work_.full_well_e = as_float(electronics_.full_well_e);
+    work_.sbi_e = as_float(electronics_.sbi_e);
+    work_.dsnu_e = as_float(electronics_.dsnu_e);
+    work_.prnu = as_float(electronics_.prnu);
+    work_.gain_dn_per_e = as_float(electronics_.gain_dn_per_e);
+    work_.offset_dn = as_float(electronics_.offset_dn);
+    work_.largest_dn = as_float(electronics_.largest_dn());
+    work_.two_tap = electronics_.two_tap;
+    work_.exposures = electronics_.frames_averaged;
+  }
+
+  void set_counter(std::size_t frequency, const ExposureNumber &number) {
+    work_.key[0] = static_cast<std::uint32_t>(electronics_.seed);
+    work_.key[1] = static_cast<std::uint32_t>(electronics_.seed >> 32);
+    work_.frame = number.frame;
+    work_.sensor = number.sensor;
+    work_.frequency = static_cast<std::uint32_t>(frequency);
+  }
+
+  void set_output(bool keep_taps, std::size_t frequency) {
+    const std::size_t pixels = sensor_.pixel_count();
+    const double ambiguity_m = sensor_.ambiguity_m(frequency);
+    work_.ambiguity_m = static_cast<float>(ambiguity_m);
+    work_.below_turn = largest_float_below(turn_rad);
+    work_.below_m = largest_float_below(ambiguity_m);
+    if (electronics_.noiseless_channels) {
+      to_.amplitude_noiseless = to_.amplitude;
+      to_.phase_rad_noiseless = to_.phase_rad;
+      to_.distance_m_noiseless = to_.distance_m;
+    }
+    to_.saturated.resize(pixels);
+    to_.distance_noise_m.resize(pixels);
+    to_.confidence.resize(pixels);
+    work_.amplitude_out = to_.amplitude.data();
+    work_.phase_rad_out = to_.phase_rad.data();
+    work_.distance_m_out = to_.distance_m.data();
+    work_.distance_noise_m = to_.distance_noise_m.data();
+    work_.confidence = to_.confidence.data();
+    work_.saturated = to_.saturated.data();
+    if (keep_taps)
+      set_taps(true, sensor_.taps, pixels, to_.taps, taps_out_);
+    set_taps(keep_taps, sensor_.taps, pixels, to_.tap_a_e, tap_e_[0]);
+    set_taps(keep_taps, sensor_.taps, pixels, to_.tap_a_dn, tap_dn_[0]);
+    set_taps(keep_taps && electronics_.two_tap, sensor_.taps, pixels, to_.tap_b_e, tap_e_[1]);
+    set_taps(keep_taps && electronics_.two_tap, sensor_.taps, pixels, to_.tap_b_dn, tap_dn_[1]);
+    if (!keep_taps)
+      return;
+    work_.taps_out = taps_out_.data();
+    for (const std::size_t tap : {std::size_t{0}, std::size_t{1}})
+      if (tap == 0 || electronics_.two_tap) {
+        work_.tap_e[tap] = tap_e_[tap].data();
+        work_.tap_dn[tap] = tap_dn_[tap].data();
+      }
+  }
+
+  const Sensor &sensor_;
+  const Electronics &electronics_;
+  Return &to_;
+  Phasors reference_{}, twice_reference_{};
+  std::array<const float *, most_images> mean_{}, taps_in_{};
+  std::vector<float> background_e_;
+  Pointers taps_out_{};
+  std::array<Pointers, 2> tap_e_{}, tap_dn_{};
+  ElectronWork work_{};
+};
+
+} // namespace
+
+void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Measurement &frame) {
+  const auto start = std::chrono::steady_clock::now();
+  const ElectronLoops &loops = widest_electron_loops(request.host_vector_bits);
+  for (std::size_t i = 0; i < frame.returns.size(); ++i) {
+    FrequencyElectrons(sensor, request, i, frame).count(loops);
+    if (!request.keep_taps)
+      frame.returns[i].taps.clear();
+  }
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  frame.passes.push_back({"electrons", ms});
+  frame.frame_ms += ms;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,27 @@
+#pragma once
+// The camera's electronics: from a noiseless frame to the frame that the camera would make of its electrons.
+// By the host on any device, so that no bit depends on it.
+
+#include "engine/model/measurement.h"
+#include "engine/model/sensor.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pmdsim {
+
+struct ElectronsRequest {
+  // The mean radiance at the exposure of each tap, frequency by frequency, where they are exposed one by one;
+  // empty: Measurement::mean_radiance.
+  std::vector<std::vector<float>> mean_radiance_of_taps{};
+  bool keep_taps = false;               // fill Return::taps, tap_a_e and the like
+  std::uint32_t host_vector_bits = 512; // at most; any gives the same bits
+};
+
+// `frame` is a noiseless frame of a sensor with electronics, with its number and mean radiance; its taps are
+// read where they are there, and have to be unless the waveform is a sine. All chance follows from
+// Electronics::seed, the frame's and the sensor's number, frequency, tap and pixel (Philox4x32-10). Adds the
+// pass "electrons" to the frame's times.
+void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Measurement &frame);
+
+} // namespace pmdsim
