@@ -9,6 +9,9 @@
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
+// Vectors that a call hands over by memory cost more than what the callee does with them.
+#define PMDSIM_INLINED [[gnu::always_inline]] inline
+
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float two_pi_float = 6.2831853f, turns_per_rad = 0.15915494f;
 // At this read noise and above the steps of single electrons are gone: 3e-9 of them is left.
@@ -22,25 +25,29 @@ struct Pixels {
 
   Ints numbers() const { return static_cast<std::int32_t>(first) + lane_numbers(); }
   Floats load_from(const float *from) const {
+    if (count == lanes)
+      return load<Floats>(from + first);
     Floats values{};
     __builtin_memcpy(&values, from + first, sizeof(float) * static_cast<std::size_t>(count));
     return values;
   }
   template <class V, class T>
   void store_to(T *to, const V &values) const {
+    if (count == lanes)
+      return store(to + first, values);
     __builtin_memcpy(to + first, &values, sizeof(T) * static_cast<std::size_t>(count));
   }
 };
 
-Words4 words_of(const ElectronWork &of, const Pixels &pixels, ChanceStream stream, std::uint32_t call,
-                std::uint32_t exposure) {
+PMDSIM_INLINED Words4 words_of(const ElectronWork &of, const Pixels &pixels, ChanceStream stream,
+                               std::uint32_t call, std::uint32_t exposure) {
   const std::uint32_t shared[3] = {of.frame,
                                    of.frequency << 16 | static_cast<std::uint32_t>(stream) << 8 | call,
                                    of.sensor << 16 | exposure};
   return philox(pixels.numbers(), shared, of.key);
 }
 
-NormalPair normals_of(const Words4 &words, std::uint32_t pair) {
+PMDSIM_INLINED NormalPair normals_of(const Words4 &words, std::uint32_t pair) {
   return normal_pair(words.of[2 * pair], words.of[2 * pair + 1]);
 }
 
@@ -69,11 +76,11 @@ struct TapMeans {
   Floats light[2]; // with the background
   float dark_e;    // of each tap
 
-  Floats of(int tap) const { return light[tap] + dark_e; }
+  Floats of(std::uint32_t tap) const { return light[tap] + dark_e; }
 };
 
-TapMeans tap_means(const ElectronWork &of, const Pixels &pixels, std::uint32_t image,
-                   const Floats &correlation) {
+PMDSIM_INLINED TapMeans tap_means(const ElectronWork &of, const Pixels &pixels, std::uint32_t image,
+                                  const Floats &correlation) {
   const Floats background = of.background_e ? pixels.load_from(of.background_e) : all(of.all_background_e);
   const Floats common =
       0.5f * (of.electrons_per_radiance * pixels.load_from(of.mean_radiance[image]) + background);
@@ -81,85 +88,47 @@ TapMeans tap_means(const ElectronWork &of, const Pixels &pixels, std::uint32_t i
   return {{larger(common + part, none), larger(common - part, none)}, 0.5f * of.dark_e};
 }
 
-// A number with the first four cumulants of Poisson's of that mean, plus a normal one of `noise_e`, from a
-// standard normal z: E. A. Cornish and R. A. Fisher, "Moments and cumulants in the specification of
-// distributions", Rev. Inst. Int. Stat. 5 (1938).
-Floats merged_charge(const Floats &mean, float noise_e, const Floats &z) {
-  const Floats variance = mean + noise_e * noise_e, deviation = exact_root(variance);
-  const Floats shot_share = mean / variance, z2 = z * z;
-  const Floats second = (z2 - 1.0f) * (1.0f / 6.0f);
-  const Floats third =
-      z * ((z2 - 3.0f) * (1.0f / 24.0f) - shot_share * ((2.0f * z2 - 5.0f) * (1.0f / 36.0f)));
-  return mean + deviation * z + shot_share * (second + third / deviation);
+// A number with the first four cumulants of Poisson's of that mean, plus a normal one of that variance, from
+// a standard normal z: E. A. Cornish and R. A. Fisher, "Moments and cumulants in the specification of
+// distributions", Rev. Inst. Int. Stat. 5 (1938). Both together are at least 1.
+PMDSIM_INLINED Floats merged_charge(const Floats &mean, float noise_variance, const Floats &z) {
+  const Floats variance = mean + noise_variance, inverse_deviation = newton_inverse_root(variance);
+  const Floats shot_share = mean * inverse_deviation * inverse_deviation, z2 = z * z;
+  const Floats second = fused(z2, all(1.0f / 6.0f), -1.0f / 6.0f);
+  const Floats third = z * fused(-shot_share, fused(z2, all(1.0f / 18.0f), -5.0f / 36.0f),
+                                 fused(z2, all(1.0f / 24.0f), -1.0f / 8.0f));
+  return fused(variance * inverse_deviation, z,
+               fused(shot_share, fused(third, inverse_deviation, second), mean));
 }
 
-Floats whole_count(const Floats &charge) {
+PMDSIM_INLINED Floats whole_count(const Floats &charge) {
   return charge < least_rounded ? larger(rounded(charge), all(0.0f)) : charge;
 }
 
-// The random numbers of one exposure, call by call as its images ask for them.
-class Chance {
-public:
-  Chance(const ElectronWork &of, const Pixels &pixels, std::uint32_t exposure)
-      : of_(of), pixels_(pixels), exposure_(exposure), separate_(of.read_noise_e < least_merged_noise_e) {}
-
-  // The electrons of an image's tap, of that mean, with its read noise.
-  Floats charge(std::uint32_t image, int tap, const Floats &mean) {
-    const std::uint32_t draw = of_.two_tap ? 2 * image + static_cast<std::uint32_t>(tap) : image;
-    const Floats z = normal(ChanceStream::normals, draw, normals_);
-    const Ints is_small = mean < largest_counted_mean;
-    Floats charge = merged(draw, mean, z);
-    if (bits_of(is_small) != 0) {
-      const Floats counted = poisson(smaller(mean, all(largest_counted_mean)), word_of_count(draw));
-      charge = is_small ? counted + of_.read_noise_e * z : charge;
-    }
-    return charge;
-  }
-
-private:
-  struct Normals {
-    std::uint32_t call = ~0u, pair = ~0u;
-    Words4 words;
-    NormalPair numbers;
-  };
-
-  Floats normal(ChanceStream stream, std::uint32_t draw, Normals &known) {
-    if (known.call != draw / 4) {
-      known.call = draw / 4;
-      known.words = words_of(of_, pixels_, stream, known.call, exposure_);
-    }
-    if (known.pair != draw / 2) {
-      known.pair = draw / 2;
-      known.numbers = normals_of(known.words, known.pair % 2);
-    }
-    return draw % 2 == 0 ? known.numbers.first : known.numbers.second;
-  }
-
-  Floats merged(std::uint32_t draw, const Floats &mean, const Floats &z) {
-    if (!separate_)
-      return merged_charge(mean, of_.read_noise_e, z);
-    const Floats count = whole_count(merged_charge(larger(mean, all(1.0f)), 0.0f, z));
-    if (of_.read_noise_e == 0.0f)
-      return count;
-    return count + of_.read_noise_e * normal(ChanceStream::reads, draw, reads_);
-  }
-
-  Ints word_of_count(std::uint32_t draw) {
-    if (count_call_ != draw / 4) {
-      count_call_ = draw / 4;
-      counts_ = words_of(of_, pixels_, ChanceStream::counts, count_call_, exposure_);
-    }
-    return counts_.of[draw % 4];
-  }
-
-  const ElectronWork &of_;
-  const Pixels &pixels_;
-  std::uint32_t exposure_;
-  bool separate_; // counts and read noise are drawn one by one
-  Normals normals_, reads_;
-  std::uint32_t count_call_ = ~0u;
-  Words4 counts_;
+// An exposure's draws, one for each tap that is read: draws 2 i and 2 i + 1 share a pair of normal numbers,
+// and draws 4 i to 4 i + 3 a call of Philox. All of them at once, as each of them waits long for itself.
+struct Normals {
+  Floats of[2 * most_images];
 };
+
+PMDSIM_INLINED void draw_normals(const ElectronWork &of, const Pixels &pixels, ChanceStream stream,
+                                 std::uint32_t exposure, std::uint32_t draws, Normals &normals) {
+  for (std::uint32_t first = 0; first < draws; first += 4) {
+    const Words4 words = words_of(of, pixels, stream, first / 4, exposure);
+    const NormalPair pairs[2] = {normals_of(words, 0), normals_of(words, 1)};
+    normals.of[first] = pairs[0].first;
+    normals.of[first + 1] = pairs[0].second;
+    normals.of[first + 2] = pairs[1].first;
+    normals.of[first + 3] = pairs[1].second;
+  }
+}
+
+// The charge of a small mean.
+[[gnu::noinline]] Floats counted_charge(const ElectronWork &of, const Pixels &pixels, std::uint32_t exposure,
+                                        std::uint32_t draw, const Floats &mean, const Floats &z) {
+  const Words4 words = words_of(of, pixels, ChanceStream::counts, draw / 4, exposure);
+  return poisson(smaller(mean, all(largest_counted_mean)), words.of[draw % 4]) + of.read_noise_e * z;
+}
 
 // What the camera reads of an image: taps' electrons before the ADC, and digital numbers.
 struct Reading {
@@ -177,13 +146,12 @@ void suppress_background(const ElectronWork &of, Reading &reading) {
 }
 
 // The lanes where the tap is full, or beyond the ADC's range.
-Ints read_tap(const ElectronWork &of, Reading &reading, int tap) {
+PMDSIM_INLINED Ints read_tap(const ElectronWork &of, Reading &reading, std::uint32_t tap) {
   Floats &charge = reading.charge_e[tap];
   const Ints is_full = charge > of.full_well_e;
-  charge = is_full ? all(of.full_well_e) : charge;
-  const Floats voltage_dn = of.gain_dn_per_e * charge + of.offset_dn;
-  const Floats within_dn = smaller(larger(voltage_dn, all(0.0f)), all(of.largest_dn));
-  reading.number_dn[tap] = rounded(within_dn);
+  charge = smaller(charge, all(of.full_well_e));
+  const Floats voltage_dn = fused(all(of.gain_dn_per_e), charge, of.offset_dn);
+  reading.number_dn[tap] = rounded(smaller(larger(voltage_dn, all(0.0f)), all(of.largest_dn)));
   return is_full | (voltage_dn > of.largest_dn + 0.5f);
 }
 
@@ -192,15 +160,14 @@ struct Correlations {
 };
 
 // A vector of pixels.
+template <bool two_tap, bool merged>
 class PixelElectrons {
 public:
   PixelElectrons(const ElectronWork &of, const Pixels &pixels)
-      : of_(of), pixels_(pixels), taps_(of.two_tap ? 2 : 1), pattern_(fixed_pattern(of, pixels)) {}
+      : of_(of), pixels_(pixels), pattern_(fixed_pattern(of, pixels)) {}
 
   void count() {
     find_light();
-    for (std::uint32_t k = 0; k < of_.images; ++k)
-      predict(k, tap_means(of_, pixels_, k, light_.of[k]));
     for (std::uint32_t k = 0; k < of_.images; ++k)
       images_[k] = {};
     for (std::uint32_t exposure = 0; exposure < of_.exposures; ++exposure)
@@ -210,8 +177,10 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t taps_ = two_tap ? 2 : 1;
+
   // The noiseless z and correlation samples.
-  void find_light() {
+  PMDSIM_INLINED void find_light() {
     if (of_.amplitude) {
       const Floats amplitude = pixels_.load_from(of_.amplitude), phase_rad = pixels_.load_from(of_.phase_rad);
       const Ints is_lit = amplitude > 0.0f;
@@ -229,12 +198,12 @@ private:
   }
 
   // The variance of the image's reading, and whether its taps are to be full.
-  void predict(std::uint32_t image, const TapMeans &means) {
+  PMDSIM_INLINED void predict(std::uint32_t image, const TapMeans &means) {
     Floats variance = all(0.0f);
     const float step_e = 1.0f / of_.gain_dn_per_e;
     const float of_reading = of_.read_noise_e * of_.read_noise_e + step_e * step_e * (1.0f / 12.0f);
     Floats fullest = means.of(0);
-    for (int tap = 0; tap < taps_; ++tap) {
+    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       variance += means.of(tap) + of_reading;
       fullest = larger(fullest, means.of(tap));
     }
@@ -246,23 +215,49 @@ private:
     second_ = {second_.re + re * variance, second_.im + im * variance};
   }
 
+  // The electrons of a tap of that mean, with its read noise. `merged`: both are drawn as one.
+  PMDSIM_INLINED Floats charge(std::uint32_t exposure, std::uint32_t draw, const Floats &mean) {
+    const Floats &z = normals_.of[draw];
+    Floats charge;
+    if (merged) {
+      charge = merged_charge(mean, of_.read_noise_e * of_.read_noise_e, z);
+    } else {
+      charge = whole_count(merged_charge(larger(mean, all(1.0f)), 0.0f, z));
+      charge += of_.read_noise_e > 0.0f ? of_.read_noise_e * reads_.of[draw] : all(0.0f);
+    }
+    const Ints is_small = mean < largest_counted_mean;
+    if (bits_of(is_small) != 0)
+      charge = is_small ? counted_charge(of_, pixels_, exposure, draw, mean, z) : charge;
+    return charge;
+  }
+
   void expose(std::uint32_t exposure) {
-    Chance chance(of_, pixels_, exposure);
+    const std::uint32_t draws = taps_ * of_.images;
+    draw_normals(of_, pixels_, ChanceStream::normals, exposure, draws, normals_);
+    if (!merged && of_.read_noise_e > 0.0f)
+      draw_normals(of_, pixels_, ChanceStream::reads, exposure, draws, reads_);
     for (std::uint32_t k = 0; k < of_.images; ++k) {
       const TapMeans means = tap_means(of_, pixels_, k, light_.of[k]);
+      if (exposure == 0)
+        predict(k, means);
       Reading reading{};
-      for (int tap = 0; tap < taps_; ++tap)
-        reading.charge_e[tap] =
-            chance.charge(k, tap, pattern_.response[tap] * means.light[tap] + means.dark_e) +
-            pattern_.offset_e[tap];
-      if (of_.sbi_e > 0.0f && taps_ == 2)
-        suppress_background(of_, reading);
-      for (int tap = 0; tap < taps_; ++tap) {
-        const Ints is_full = read_tap(of_, reading, tap);
-        saturated_ |= is_full & static_cast<std::int32_t>(1u << (static_cast<std::uint32_t>(16 * tap) + k));
-        images_[k].charge_e[tap] += reading.charge_e[tap];
-        images_[k].number_dn[tap] += reading.number_dn[tap];
+      for (std::uint32_t tap = 0; tap < taps_; ++tap) {
+        const Floats mean = fused(pattern_.response[tap], means.light[tap], means.dark_e);
+        const std::uint32_t draw = taps_ * k + tap;
+        reading.charge_e[tap] = charge(exposure, draw, mean) + pattern_.offset_e[tap];
       }
+      add(k, reading);
+    }
+  }
+
+  PMDSIM_INLINED void add(std::uint32_t image, Reading reading) {
+    if (two_tap && of_.sbi_e > 0.0f)
+      suppress_background(of_, reading);
+    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
+      const Ints is_full = read_tap(of_, reading, tap);
+      saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
+      images_[image].charge_e[tap] += reading.charge_e[tap];
+      images_[image].number_dn[tap] += reading.number_dn[tap];
     }
   }
 
@@ -274,13 +269,13 @@ private:
            (images_[image].number_dn[0] - (taps_ == 2 ? images_[image].number_dn[1] : all(of_.offset_dn)));
   }
 
-  void demodulate() {
+  PMDSIM_INLINED void demodulate() {
     const float per_exposure = 1.0f / static_cast<float>(of_.exposures);
     const float scale = 2.0f / static_cast<float>(of_.images);
     Floats difference[most_images], mean = all(0.0f);
     Complex z{};
     for (std::uint32_t k = 0; k < of_.images; ++k) {
-      for (int tap = 0; tap < taps_; ++tap) {
+      for (std::uint32_t tap = 0; tap < taps_; ++tap) {
         images_[k].charge_e[tap] *= per_exposure;
         images_[k].number_dn[tap] *= per_exposure;
         if (of_.tap_e[tap])
@@ -337,8 +332,8 @@ private:
 
   const ElectronWork &of_;
   const Pixels &pixels_;
-  int taps_;
   FixedPattern pattern_;
+  Normals normals_, reads_;
   Complex z_{};
   Correlations light_;
   Floats variance_{}; // sum over the images
@@ -347,12 +342,20 @@ private:
   Reading images_[most_images]; // sums over the exposures
 };
 
-void count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+template <bool two_tap, bool merged>
+void count_pixels(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t pixel = first; pixel < last; pixel += lanes) {
     const std::uint32_t left = last - pixel;
     const Pixels pixels{pixel, left < lanes ? static_cast<int>(left) : lanes};
-    PixelElectrons(of, pixels).count();
+    PixelElectrons<two_tap, merged>(of, pixels).count();
   }
+}
+
+void count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+  const bool merged = of.read_noise_e >= least_merged_noise_e;
+  if (of.two_tap)
+    return merged ? count_pixels<true, true>(of, first, last) : count_pixels<true, false>(of, first, last);
+  return merged ? count_pixels<false, true>(of, first, last) : count_pixels<false, false>(of, first, last);
 }
 
 } // namespace

@@ -71,4 +71,8 @@ double solid_angle_sr(const Pattern &pattern);
 // Rounded to the float channels that the simulator gives.
 Measurement to_measurement(const Frame &frame);
 
+// Puts the noisy channels of a frame of a sensor with electronics in place of the noiseless ones of
+// `measurement`, which has the frame's number. `keep_taps`: fill the channels of taps.
+void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, Measurement &measurement);
+
 } // namespace pmdsim::reference

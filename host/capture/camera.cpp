@@ -1,7 +1,6 @@
 #include "host/capture/camera.h"
 
 #include "engine/electronics/electrons.h"
-#include "engine/reference/reference.h"
 #include "host/capture/progress.h"
 
 #include <algorithm>
@@ -45,16 +44,9 @@ void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector
   if (simulator_)
     return simulator_->prepare(scene, sensor, illuminators, backscatter, shadows, accuracy, bounces);
   const reference::Options options{.shadows = shadows, .bounces = bounces, .paths = extras_.paths};
-  const bool keep_taps = extras_.taps || sensor.electronics;
+  diode_count_ = static_cast<std::uint32_t>(diode_count(illuminators));
   reference_frame_ = [=, &scene](const Progress &progress) {
-    Measurement measurement = reference::to_measurement(
-        reference::simulate(scene, sensor, illuminators, backscatter, options, progress));
-    measurement.accuracy.precision = Precision::fp64;
-    measurement.accuracy.diodes = static_cast<std::uint32_t>(diode_count(illuminators));
-    if (!keep_taps)
-      for (Return &of_frequency : measurement.returns)
-        of_frequency.taps.clear();
-    return measurement;
+    return reference::simulate(scene, sensor, illuminators, backscatter, options, progress);
   };
 }
 
@@ -68,18 +60,34 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
 }
 
 Measurement Camera::measure(const Progress &progress, const ExposureNumber &number) {
-  Measurement measurement = measure_light(progress, number);
+  if (simulator_) {
+    Measurement measurement = measure_light(progress, number);
+    if (sensor_.electronics)
+      count_electrons(sensor_, {.keep_taps = extras_.taps}, measurement);
+    return measurement;
+  }
+  throw_if_interrupted();
+  const reference::Frame frame = reference_frame_(progress);
+  Measurement measurement = measurement_of(frame, number);
   if (sensor_.electronics)
-    count_electrons(sensor_, {.keep_taps = extras_.taps}, measurement);
+    reference::count_electrons(frame, sensor_, extras_.taps, measurement);
   return measurement;
 }
 
 Measurement Camera::measure_light(const Progress &progress, const ExposureNumber &number) {
   throw_if_interrupted();
-  if (simulator_)
-    return simulator_->measure(progress, number);
-  Measurement measurement = reference_frame_(progress);
+  return simulator_ ? simulator_->measure(progress, number)
+                    : measurement_of(reference_frame_(progress), number);
+}
+
+Measurement Camera::measurement_of(const reference::Frame &frame, const ExposureNumber &number) const {
+  Measurement measurement = reference::to_measurement(frame);
   measurement.number = number;
+  measurement.accuracy.precision = Precision::fp64;
+  measurement.accuracy.diodes = diode_count_;
+  if (!extras_.taps)
+    for (Return &of_frequency : measurement.returns)
+      of_frequency.taps.clear();
   return measurement;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Whatever computes frames: a Vulkan device or the reference on the CPU, behind one face.
 
+#include "engine/reference/reference.h"
 #include "engine/simulator.h"
 #include "host/input/setup/setup.h"
 
@@ -52,10 +53,13 @@ public:
   void reuse(Measurement &&frame);
 
 private:
-  std::optional<Simulator> simulator_;                           // empty: the reference
-  std::function<Measurement(const Progress &)> reference_frame_; // of what is prepared
+  std::optional<Simulator> simulator_;                                // empty: the reference
+  std::function<reference::Frame(const Progress &)> reference_frame_; // of what is prepared
+  Measurement measurement_of(const reference::Frame &frame, const ExposureNumber &number) const;
+
   Extras extras_;
   Sensor sensor_; // that is prepared
+  std::uint32_t diode_count_ = 0;
   std::string device_, driver_;
 };
 
