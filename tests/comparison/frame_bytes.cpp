@@ -1,5 +1,6 @@
 #include "tests/comparison/frame_bytes.h"
 
+#include "engine/model/channels.h"
 #include "tests/support/random_scenes.h"
 
 #include <functional>
@@ -126,6 +127,10 @@ std::string bytes_of(const Measurement &measurement) {
   for (const auto *ids : {&measurement.triangle_id, &measurement.object_id, &measurement.sample_triangle_id,
                           &measurement.sample_pixel_id, &measurement.sample_visibility})
     append(bytes, *ids);
+  for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
+    if (of.row.slot.area == DeviceSlot::Area::mean || of.row.slot.area == DeviceSlot::Area::electrons)
+      append(bytes, values);
+  });
   return bytes;
 }
 
