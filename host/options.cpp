@@ -161,12 +161,18 @@ void add_commands(CLI::App &app, Written &written) {
   tradeoff->add_option("--device", written.options.capture.device,
                        "part of a device's name, or its index (see `pmdsim devices`)");
 
+  CLI::App *noise = app.add_subcommand(
+      "noise", "of sensors with electronics: photon transfer curve, and precision against distance and "
+               "reflectivity, predicted and found in frames");
+  add_setup(*noise, written);
+  add_output(*noise, written);
+
   CLI::App *import_calibration = app.add_subcommand(
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");
   add_importing(*import_calibration, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {render, deform, check, bench, tradeoff, import_calibration, devices})
+  for (CLI::App *command : {render, deform, check, bench, tradeoff, noise, import_calibration, devices})
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
 }

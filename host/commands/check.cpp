@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json sensor_json(const SensorFindings &findings) {
-  const auto &[sensor, view, visible, shares_beyond] = findings;
+  const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   return {{"name", sensor.name},
           {"resolution", {sensor.resolution.x, sensor.resolution.y}},
           {"samples", sample_choice_json({sensor.samples, sensor.adaptive_samples})},
@@ -34,7 +34,8 @@ ordered_json sensor_json(const SensorFindings &findings) {
           {"waveform", waveform_json(sensor.waveform)},
           {"taps", sensor.taps},
           {"tap_interval_s", sensor.tap_interval_s},
-          {"tap_sequence_s", tap_sequence_s(sensor)}};
+          {"tap_sequence_s", tap_sequence_s(sensor)},
+          {"electrons", electrons_json(electrons)}};
 }
 
 double end_s(const FrameTimes &frames) { return frames.time_s(frames.count - 1); }
@@ -128,7 +129,7 @@ std::string frequencies_text(const Sensor &sensor) {
 }
 
 std::string sensor_text(const SensorFindings &findings) {
-  const auto &[sensor, view, visible, shares_beyond] = findings;
+  const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   const glm::dvec2 footprint_mm = 1e3 * view.footprint_at_1m_m;
   std::string text =
       "\n" + line("sensor", sensor.name) + line("visible", visible_text(visible)) +
@@ -147,7 +148,8 @@ std::string sensor_text(const SensorFindings &findings) {
     text += line("taps of a frame",
                  fmt::format("{} one after the other, {:.6g} s each, {:.6g} s in all",
                              sensor.taps * sensor.modulation_hz.size(), sensor.tap_interval_s, sequence_s));
-  return text + frequencies_text(sensor);
+  text += frequencies_text(sensor);
+  return electrons ? text + line("electrons", electrons_text(*electrons)) : text;
 }
 
 std::string frames_text(const FrameTimes &frames) {

@@ -66,6 +66,7 @@ std::vector<double> visible_ranges_m(const Setup &setup, const Sensor &fine) {
   sensor.samples = 1;
   sensor.modulation_hz.resize(1); // geometry is all that is asked for
   sensor.waveform = {};
+  sensor.electronics.reset();
   std::vector<double> ranges_m =
       reference::simulate(setup.start.scene, sensor, {monostatic_illuminator(sensor.world_from_camera)},
                           setup.backscatter)
@@ -82,7 +83,7 @@ double share_beyond(const std::vector<double> &ranges_m, double ambiguity_m) {
 
 SensorFindings findings_of_sensor(const Setup &setup, const Sensor &sensor) {
   const std::vector<double> ranges_m = visible_ranges_m(setup, sensor);
-  SensorFindings findings{sensor, field_of_view(sensor), {}, {}};
+  SensorFindings findings{sensor, field_of_view(sensor), {}, {}, electron_findings(setup, sensor)};
   if (!ranges_m.empty())
     findings.visible = {std::ranges::min(ranges_m), std::ranges::max(ranges_m)};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i)
@@ -112,7 +113,7 @@ LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &k
 }
 
 void add_view_warnings(std::vector<std::string> &warnings, const SensorFindings &findings) {
-  const auto &[sensor, view, visible, shares_beyond] = findings;
+  const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   if (visible.is_empty())
     warnings.push_back(fmt::format("sensor {}: no ray of a coarse frame hits the scene; is the camera turned "
                                    "away, or are the scene's back faces culled?",
@@ -185,8 +186,11 @@ std::vector<std::string> warnings_of(const Setup &setup, const Findings &finding
   if (setup.start.scene.shape_count() > 0)
     for (const SensorFindings &sensor : findings.sensors)
       add_view_warnings(warnings, sensor);
-  for (const SensorFindings &sensor : findings.sensors)
+  for (const SensorFindings &sensor : findings.sensors) {
     add_tap_warning(warnings, sensor.sensor, setup.frames);
+    if (sensor.electrons && sensor.electrons->share_full > 0.0)
+      warnings.push_back(full_warning(sensor.sensor, *sensor.electrons));
+  }
   return warnings;
 }
 

@@ -2,6 +2,7 @@
 // Findings that follow from a setup before anything is measured, and the view of a sensor's lens.
 
 #include "host/input/setup/setup.h"
+#include "host/report/electron_findings.h"
 
 #include <cmath>
 #include <limits>
@@ -43,6 +44,7 @@ struct SensorFindings {
   VisibleRange visible;
   // Among the rays that see something, the share that sees it beyond a frequency's ambiguity range, 0 to 1.
   std::vector<double> shares_beyond;
+  std::optional<ElectronFindings> electrons{}; // nothing without electronics
 };
 
 // The light of all diodes of one illuminator together, or of all that there are.

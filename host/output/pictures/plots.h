@@ -2,6 +2,7 @@
 // Curves and points over two axes.
 
 #include "host/output/pictures/canvas.h"
+#include "host/output/tables/noise.h"
 #include "host/output/tables/tradeoff.h"
 
 #include <glm/glm.hpp>
@@ -17,5 +18,9 @@ Canvas draw_profile(std::span<const float> values, const glm::uvec2 &resolution,
 // Speed against accuracy: the largest error beside edges against frame time, both logarithmic, with the
 // fronts.
 Canvas draw_tradeoff(const Tradeoff &tradeoff);
+
+// Noise of distances against distance, and variance against mean of a tap: predicted lines, dots as found.
+Canvas draw_precision(const NoiseStudy &study);
+Canvas draw_transfer(const NoiseStudy &study);
 
 } // namespace pmdsim
