@@ -272,7 +272,7 @@ private:
   PMDSIM_INLINED void demodulate() {
     const float per_exposure = 1.0f / static_cast<float>(of_.exposures);
     const float scale = 2.0f / static_cast<float>(of_.images);
-    Floats difference[most_images], mean = all(0.0f);
+    Floats difference[most_images], mean = all(0.0f), largest = all(0.0f);
     Complex z{};
     for (std::uint32_t k = 0; k < of_.images; ++k) {
       for (std::uint32_t tap = 0; tap < taps_; ++tap) {
@@ -285,10 +285,13 @@ private:
       }
       difference[k] = difference_e(k);
       mean += difference[k] * (1.0f / static_cast<float>(of_.images));
+      largest = larger(largest, absolute(difference[k]));
       const auto &[re, im] = of_.reference[k];
       z = {z.re + (scale * re) * difference[k], z.im + (scale * im) * difference[k]};
     }
-    store_return(z);
+    // Less than that is rounding: all numbers are alike.
+    const Ints is_nothing = (absolute(z.re) <= 0x1p-20f * largest) & (absolute(z.im) <= 0x1p-20f * largest);
+    store_return({is_nothing ? all(0.0f) : z.re, is_nothing ? all(0.0f) : z.im});
     if (!of_.taps_out)
       return;
     for (std::uint32_t k = 0; k < of_.images; ++k)

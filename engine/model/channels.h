@@ -35,6 +35,7 @@ struct DeviceSlot {
     mean,      // only where the sensor has electronics
     none,      // not there: the host makes them of what it reads back, where light bounces
     electrons, // likewise, where the sensor has electronics
+    unwrapped, // likewise, where distances are unwrapped
   };
   Area area;
   std::uint32_t index; // of a tap: that of tap 0
@@ -96,7 +97,7 @@ inline constexpr std::array channel_rows = [] {
       {"tap_a_dn", "DN", "digital numbers of tap A", &Return::tap_a_dn, {Area::electrons, 2}},
       {"tap_b_dn", "DN", "of tap B, of two taps", &Return::tap_b_dn, {Area::electrons, 3}},
       {"saturated",
-       "",
+       "bits",
        "bit k: tap A of image k was full or beyond the ADC's range, bit 16 + k: tap B",
        &Return::saturated,
        {Area::electrons, 4}},
@@ -125,7 +126,8 @@ inline constexpr std::array channel_rows = [] {
        "m",
        "distance_m without noise, likewise",
        &Return::distance_m_noiseless,
-       {Area::electrons, 9}},
+       {Area::electrons, 9},
+       Preview{"distance without noise", Scale::sequential}},
       {"error_bound_m",
        "m",
        "how far distance_m is off at most; only where an error was asked for that some pixels may exceed",
@@ -188,6 +190,17 @@ inline constexpr std::array channel_rows = [] {
        "mean radiance of all diodes' light, noiseless; only with electronics",
        &Measurement::mean_radiance,
        {Area::mean, 0}},
+      {"unwrapped_distance_m",
+       "m",
+       "distance from all frequencies together; only with \"unwrap_range_m\"",
+       &Measurement::unwrapped_distance_m,
+       {Area::unwrapped, 0},
+       Preview{"unwrapped distance", Scale::sequential}},
+      {"unwrap_ok",
+       "",
+       "1 where the phases agree on that distance and on no other, else 0; likewise",
+       &Measurement::unwrap_ok,
+       {Area::unwrapped, 1}},
       {"triangle_id",
        "",
        "of the sample nearest the pixel's centre; 4294967295 where it hits nothing",

@@ -76,6 +76,10 @@ struct Measurement {
   std::vector<float> lit;
   // The mean radiance of all diodes' light, W/(m^2 sr), noiseless; empty unless Sensor::electronics.
   std::vector<float> mean_radiance;
+  // From all frequencies together, with Sensor::unwrap_range_m, else empty: the distance, NaN where some
+  // frequency has none, and 1 where the phases agree on it and on no other, else 0.
+  std::vector<float> unwrapped_distance_m;
+  std::vector<std::uint32_t> unwrap_ok;
   // The ids at the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;

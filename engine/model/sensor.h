@@ -59,6 +59,12 @@ constexpr bool taps_show(std::size_t harmonic, std::size_t taps) {
   return harmonic % taps == 1 || harmonic % taps == taps - 1;
 }
 
+// A part of the light that is scattered inside the camera: a Gaussian on the chip.
+struct ScatterLobe {
+  double share = 0.0;   // of all light, 0 to 1; what is left of all lobes goes straight
+  double sigma_m = 0.0; // standard deviation along either axis of the chip
+};
+
 struct Sensor {
   std::string name = "pmd";
   glm::uvec2 resolution{640, 640};        // columns, rows
@@ -82,6 +88,12 @@ struct Sensor {
   // Without it the camera is noiseless. With it the simulator and the reference fill
   // Measurement::mean_radiance, of which engine/electronics makes electrons.
   std::optional<Electronics> electronics;
+  // Scatter inside the camera (engine/electronics/scatter.h); empty: none. The simulator leaves it to its
+  // caller.
+  std::vector<ScatterLobe> scatter;
+  // Distances are unwrapped from all frequencies within so much, from 0 on (engine/signal/unwrapping.h); 0:
+  // they are not. Likewise.
+  double unwrap_range_m = 0.0;
 
   // S2 of the thin lens, 1/S1 + 1/S2 = 1/f (paper, section 2.1).
   double image_distance_m() const {

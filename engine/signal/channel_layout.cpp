@@ -95,6 +95,7 @@ bool ChannelLayout::holds(const ChannelRow &row) const {
   case Area::mean:
     return mean;
   case Area::electrons:
+  case Area::unwrapped:
   case Area::none:
     break;
   }

@@ -170,6 +170,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
     if (layout.holds(of.row)) // the host fills or clears all others
       values.resize(pixels);
     else if (of.row.slot.area == DeviceSlot::Area::none || of.row.slot.area == DeviceSlot::Area::mean ||
+             of.row.slot.area == DeviceSlot::Area::unwrapped ||
              (of.row.slot.area == DeviceSlot::Area::electrons && !layout.mean))
       values.clear();
   });

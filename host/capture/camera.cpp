@@ -1,6 +1,8 @@
 #include "host/capture/camera.h"
 
 #include "engine/electronics/electrons.h"
+#include "engine/electronics/scatter.h"
+#include "engine/signal/unwrapping.h"
 #include "host/capture/progress.h"
 
 #include <algorithm>
@@ -60,17 +62,21 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
 }
 
 Measurement Camera::measure(const Progress &progress, const ExposureNumber &number) {
-  if (simulator_) {
-    Measurement measurement = measure_light(progress, number);
+  Measurement measurement;
+  if (is_reference() && sensor_.electronics && sensor_.scatter.empty()) {
+    throw_if_interrupted();
+    const reference::Frame frame = reference_frame_(progress);
+    measurement = measurement_of(frame, number);
+    reference::count_electrons(frame, sensor_, extras_.taps, measurement);
+  } else {
+    measurement = measure_light(progress, number);
+    if (!sensor_.scatter.empty())
+      scatter(sensor_, measurement);
     if (sensor_.electronics)
       count_electrons(sensor_, {.keep_taps = extras_.taps}, measurement);
-    return measurement;
   }
-  throw_if_interrupted();
-  const reference::Frame frame = reference_frame_(progress);
-  Measurement measurement = measurement_of(frame, number);
-  if (sensor_.electronics)
-    reference::count_electrons(frame, sensor_, extras_.taps, measurement);
+  if (sensor_.unwrap_range_m > 0.0)
+    unwrap_distances(sensor_, measurement);
   return measurement;
 }
 
@@ -85,7 +91,7 @@ Measurement Camera::measurement_of(const reference::Frame &frame, const Exposure
   measurement.number = number;
   measurement.accuracy.precision = Precision::fp64;
   measurement.accuracy.diodes = diode_count_;
-  if (!extras_.taps)
+  if (!extras_.taps && !sensor_.electronics)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();
   return measurement;

@@ -1,8 +1,10 @@
 #include "host/capture/exposure.h"
 
 #include "engine/electronics/electrons.h"
+#include "engine/electronics/scatter.h"
 #include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
+#include "engine/signal/unwrapping.h"
 #include "host/capture/multipath_of_taps.h"
 
 #include <algorithm>
@@ -77,6 +79,8 @@ bool is_there(const ChannelRow &row, const Sensor &sensor, const Bounces &bounce
   case DeviceSlot::Area::mean:
   case DeviceSlot::Area::electrons:
     return sensor.electronics.has_value();
+  case DeviceSlot::Area::unwrapped:
+    return sensor.unwrap_range_m > 0.0;
   default:
     return true;
   }
@@ -113,6 +117,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
         frame = std::move(exposure);
       }
     }
+    if (!sensor.scatter.empty())
+      scatter_images(sensor, taps);
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
     bounces.finish(returns.back(), i);
   }
@@ -120,8 +126,12 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
   frame->returns = std::move(returns);
   // Those of the exposures; what they come to together has no bound.
   frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
+  if (!sensor.scatter.empty())
+    scatter_images(sensor, electrons.mean_radiance_of_taps);
   if (sensor.electronics)
     count_electrons(sensor, electrons, *frame);
+  if (sensor.unwrap_range_m > 0.0)
+    unwrap_distances(sensor, *frame);
   return std::move(*frame);
 }
 

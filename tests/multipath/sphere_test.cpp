@@ -61,6 +61,21 @@ TEST_CASE("the simulator's slow light within a sphere adds up to 1 / (1 - rho) o
   CHECK(errors.amplitude < 1e-3 + 4.0 * mesh.error_m / sphere_radius_m);
 }
 
+TEST_CASE("the mean light bounces, too, without a phase and by the depth of its modulation") {
+  const SphereMesh mesh = sphere_mesh(5);
+  Sensor sensor = wide_sensor({6, 6}, 2);
+  sensor.modulation_hz = {1e3}; // so slow that the return is the mean of the modulated part
+  sensor.electronics.emplace();
+  Illuminator light = monostatic_illuminator(sensor.world_from_camera);
+  light.modulation_depth = 0.8;
+  light.modulation_phase_rad = 0.5;
+  const Measurement frame =
+      bounced_frame(mesh.scene, sensor, {light}, {.count = all_bounces, .max_error_m = 1e-3 * 20e6 / 1e3});
+  REQUIRE(frame.mean_radiance.size() == frame.coverage.size());
+  for (std::size_t i = 0; i < frame.mean_radiance.size(); ++i)
+    CHECK(frame.mean_radiance[i] == Approx(frame.returns[0].amplitude[i] / 0.8).epsilon(2e-3));
+}
+
 TEST_CASE("within spheres of 20480 triangles distances are right to 1 mm and amplitudes to 0.1 %", "[long]") {
   const auto check = [](const Sphere &sphere, std::uint32_t bounces, double modulation_hz) {
     const SphereMesh mesh = sphere_mesh(5, sphere, icosahedron());

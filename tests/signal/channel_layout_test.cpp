@@ -62,7 +62,9 @@ TEST_CASE("channels that a layout holds have a number each, and the range is the
   std::set<std::uint32_t> numbers;
   std::size_t channels = 0;
   for_each_channel(frame, [&](const ChannelIndex &of, auto &) {
-    if (of.row.slot.area == DeviceSlot::Area::bound || of.row.slot.area == DeviceSlot::Area::none) {
+    using Area = DeviceSlot::Area;
+    if (of.row.slot.area != Area::truth && of.row.slot.area != Area::frequency &&
+        of.row.slot.area != Area::shadow) {
       CHECK_FALSE(with.holds(of.row));
       return;
     }
@@ -76,6 +78,26 @@ TEST_CASE("channels that a layout holds have a number each, and the range is the
   CHECK(with.number({row_of(&Measurement::range_m)}) == 7);
   CHECK(with.number({row_of(&Return::distance_m), 1}) == 18);
   CHECK(with.number({row_of(&Return::taps), 1, 6}) == 26);
+}
+
+TEST_CASE("the mean light is a channel of its own behind all others, and a frequency without a phase") {
+  Modulation signal = signal_with_taps();
+  const ChannelLayout without(signal);
+  const std::uint32_t sums = signal.sum_planes();
+  signal.keeps_mean = true;
+  const ChannelLayout with(signal);
+  CHECK(with.frequencies == without.frequencies);
+  CHECK(with.holds(row_of(&Measurement::mean_radiance)));
+  CHECK_FALSE(without.holds(row_of(&Measurement::mean_radiance)));
+  CHECK(with.number({row_of(&Measurement::mean_radiance)}) == without.channels());
+  CHECK(with.channels() == without.channels() + 2);
+  CHECK(signal.sum_planes() == sums + signal.planes);
+  const auto records = frequency_records(signal, 2.5, {}, 240);
+  REQUIRE(records.size() == modulation_hz.size() + 1);
+  CHECK(records.back().first_channel == with.mean_channel());
+  CHECK(records.back().ambiguity_m.x == 0.0f);
+  CHECK(signal.all_tones().back().turns_per_m.x == 0.0f);
+  CHECK(signal.all_tones().back().harmonic == 0.0f);
 }
 
 TEST_CASE("bounds lie behind each frequency's taps, where they are kept") {

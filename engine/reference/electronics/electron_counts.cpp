@@ -193,14 +193,18 @@ public:
   void set(std::uint32_t pixel) {
     const PixelTaps read = camera_.expose(pixel);
     std::vector<double> differences_e;
-    double mean_e = 0.0;
+    double mean_e = 0.0, largest_e = 0.0;
     std::complex<double> z_e = 0.0;
     for (std::uint32_t k = 0; k < taps_; ++k) {
       const double other_dn = of_.two_tap ? read.number_dn[1][k] : of_.offset_dn;
       differences_e.push_back((read.number_dn[0][k] - other_dn) / of_.gain_dn_per_e);
       mean_e += differences_e.back() / taps_;
+      largest_e = std::max(largest_e, std::abs(differences_e.back()));
       z_e += 2.0 / taps_ * differences_e.back() * std::polar(1.0, turn_rad * k / taps_);
     }
+    constexpr double rounding = 0x1p-20; // what is less is no return
+    if (std::max(std::abs(z_e.real()), std::abs(z_e.imag())) <= rounding * largest_e)
+      z_e = 0.0;
     const double radiance_per_e =
         (of_.two_tap ? 1.0 : 2.0) / (camera_.contrast() * camera_.electrons_per_radiance());
     set_return(pixel, z_e, radiance_per_e);

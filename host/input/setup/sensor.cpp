@@ -55,6 +55,33 @@ void check_highest_harmonic(const Sensor &sensor, const Place &place) {
                                     sensor.modulation_hz[i] * static_cast<double>(harmonics)));
 }
 
+std::vector<ScatterLobe> scatter_of(const ordered_json &lobes, const Place &place) {
+  std::vector<ScatterLobe> scatter;
+  double shares = 0.0;
+  for (const ordered_json &lobe : lobes) {
+    scatter.push_back({lobe.at("share").get<double>(), lobe.at("sigma_m").get<double>()});
+    shares += scatter.back().share;
+  }
+  if (shares > 1.0)
+    throw input_error(place, fmt::format("expected shares that come to at most 1, found {}", shares));
+  return scatter;
+}
+
+// Every ambiguity range of the highest frequency is tried.
+double unwrap_range_m(double range_m, const Place &place, const Sensor &sensor) {
+  constexpr double most_tries = 10'000.0;
+  if (sensor.modulation_hz.size() < 2)
+    throw input_error(place, "expected two frequencies or more beside it");
+  const double highest_hz = std::ranges::max(sensor.modulation_hz);
+  const double most_m = most_tries * speed_of_light_m_s / (2.0 * highest_hz);
+  if (range_m > most_m)
+    throw input_error(place,
+                      fmt::format("expected at most {:.6g} m, {} ambiguity ranges of the highest frequency, "
+                                  "found {}",
+                                  most_m, most_tries, range_m));
+  return range_m;
+}
+
 // The image's corners and, between them, the middles of its sides.
 std::vector<glm::dvec2> rim(const Sensor &sensor) {
   std::vector<glm::dvec2> places;
@@ -125,6 +152,9 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   sensor.at("taps").get_to(result.taps);
   sensor.at("tap_interval_s").get_to(result.tap_interval_s);
   set_samples(result, sample_choice_of(sensor.at("samples")));
+  result.scatter = scatter_of(sensor.at("scatter"), place / "scatter");
+  if (sensor.contains("unwrap_range_m"))
+    result.unwrap_range_m = unwrap_range_m(sensor.at("unwrap_range_m"), place / "unwrap_range_m", result);
   if (sensor.contains("electronics"))
     result.electronics = electronics_of(sensor.at("electronics"), place / "electronics", result);
   check_highest_harmonic(result, place);

@@ -223,7 +223,8 @@ TEST_CASE("The setup as used states every default") {
       "waveform": "sine",
       "taps": 4,
       "tap_interval_s": 0,
-      "samples": 1
+      "samples": 1,
+      "scatter": []
     }],
     "illuminators": [{
       "name": "ring",
@@ -231,7 +232,8 @@ TEST_CASE("The setup as used states every default") {
       "diodes": {"rings": [{"radius_m": 0.1, "count": 8, "active_deg": [0, 360]}]},
       "pattern": {"isotropic": true},
       "intensity_w_sr": 1,
-      "modulation_phase_deg": 0
+      "modulation_phase_deg": 0,
+      "modulation_depth": 1
     }],
     "frames": {"start_s": 0, "count": 1}
   })"));
