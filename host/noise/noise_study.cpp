@@ -128,15 +128,20 @@ NoiseShares shares_of(const Sensor &sensor, double signal_e) {
   return {part * signal_e / all, part * background_e / all, part * dark_e / all, read_e2 / all, adc_e2 / all};
 }
 
-// The root of the mean square of what the distances are off the true one by; nothing where some have none.
+// The root of the mean square of what the distances that are known are off the true one by; nothing where
+// most are not.
 std::optional<double> found_noise_m(const std::vector<float> &distances_m, double true_m,
                                     double ambiguity_m) {
-  double sum = 0.0;
+  double sum = 0.0, known = 0.0;
   for (const float distance_m : distances_m) {
+    if (std::isnan(distance_m))
+      continue;
     const double off_m = std::remainder(static_cast<double>(distance_m) - true_m, ambiguity_m);
-    sum += off_m * off_m / static_cast<double>(distances_m.size());
+    sum += off_m * off_m;
+    known += 1.0;
   }
-  return std::isnan(sum) ? std::nullopt : std::optional(std::sqrt(sum));
+  const bool are_most = known > 0.5 * static_cast<double>(distances_m.size());
+  return are_most ? std::optional(std::sqrt(sum / known)) : std::nullopt;
 }
 
 PrecisionPoint precision_point(const Sensor &sensor, const reference::Frame &white, double reflectivity,
@@ -163,7 +168,8 @@ PrecisionPoint precision_point(const Sensor &sensor, const reference::Frame &whi
 }
 
 std::vector<PrecisionPoint> precision(const Setup &setup, const Sensor &sensor) {
-  const double last_m = std::clamp(sensor.ambiguity_m(), 2.0 * nearest_m, farthest_m);
+  const double of_sensor_m = std::max(sensor.ambiguity_m(), sensor.unwrap_range_m);
+  const double last_m = std::clamp(of_sensor_m, 2.0 * nearest_m, farthest_m);
   std::vector<PrecisionPoint> points;
   for (const double reflectivity : reflectivities)
     for (int i = 0; i < distances; ++i) {

@@ -186,3 +186,29 @@ TEST_CASE("averaged frames have a part of the variance, and background suppressi
   levels.sensor.electronics->sbi_e = 0.0;
   CHECK(noisy_frame(levels, 0).returns[0].saturated[0] != 0);
 }
+
+TEST_CASE("parts of a pixel that are averaged have its light together, and noise each of its own") {
+  Electronics electronics = plain_electronics();
+  electronics.dsnu_e = 80.0;
+  electronics.parts_averaged = 4;
+  LightLevels levels = light_levels(electronics, 4, {4000.0}, phase_rad, 512); // of each part
+  Moments over_pixels;
+  Moments amplitude;
+  std::vector<Moments> pixels(512);
+  for (std::uint32_t number = 0; number < 600; ++number) {
+    const Return frame = noisy_frame(levels, number).returns[0];
+    for (std::size_t i = 0; i < 512; ++i)
+      pixels[i].add(frame.tap_a_e[0][i]);
+    amplitude.add(frame.amplitude[7] / levels.noiseless.returns[0].amplitude[7]);
+  }
+  double temporal = 0.0;
+  for (const Moments &pixel : pixels) {
+    temporal += pixel.variance() / 512.0;
+    over_pixels.add(pixel.mean());
+  }
+  const MeanAndVariance single = theory_e(levels, 4000.0, 0, false);
+  CHECK(over_pixels.mean() == Approx(single.mean).margin(4.0 * 80.0 / std::sqrt(4.0 * 512.0)));
+  CHECK(temporal == Approx(single.variance / 4.0).epsilon(0.01));
+  CHECK(std::sqrt(over_pixels.variance()) == Approx(80.0 / 2.0).epsilon(0.1));
+  CHECK(amplitude.mean() == Approx(1.0).epsilon(0.01));
+}
