@@ -56,12 +56,12 @@ struct FixedPattern {
   Floats response[2], offset_e[2];
 };
 
-FixedPattern fixed_pattern(const ElectronWork &of, const Pixels &pixels) {
+FixedPattern fixed_pattern(const ElectronWork &of, const Pixels &pixels, std::uint32_t part) {
   FixedPattern pattern{{all(1.0f), all(1.0f)}, {all(0.0f), all(0.0f)}};
   if (of.dsnu_e == 0.0f && of.prnu == 0.0f)
     return pattern;
   const std::uint32_t shared[3] = {0, static_cast<std::uint32_t>(ChanceStream::pattern) << 8,
-                                   of.sensor << 16};
+                                   of.sensor << 16 | part};
   const Words4 words = philox(pixels.numbers(), shared, of.key);
   const NormalPair responses = normals_of(words, 0), offsets = normals_of(words, 1);
   pattern.response[0] = larger(1.0f + of.prnu * responses.first, all(0.0f));
@@ -164,14 +164,17 @@ template <bool two_tap, bool merged>
 class PixelElectrons {
 public:
   PixelElectrons(const ElectronWork &of, const Pixels &pixels)
-      : of_(of), pixels_(pixels), pattern_(fixed_pattern(of, pixels)) {}
+      : of_(of), pixels_(pixels), pattern_(fixed_pattern(of, pixels, 0)) {}
 
   void count() {
     find_light();
     for (std::uint32_t k = 0; k < of_.images; ++k)
       images_[k] = {};
-    for (std::uint32_t exposure = 0; exposure < of_.exposures; ++exposure)
+    for (std::uint32_t exposure = 0; exposure < of_.exposures; ++exposure) {
+      if (of_.parts > 1)
+        pattern_ = fixed_pattern(of_, pixels_, exposure % of_.parts);
       expose(exposure);
+    }
     demodulate();
     store_noise();
   }

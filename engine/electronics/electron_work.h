@@ -27,7 +27,8 @@ struct ElectronWork {
   float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
   float gain_dn_per_e, offset_dn, largest_dn;
   bool two_tap;
-  std::uint32_t exposures; // that are averaged
+  std::uint32_t exposures; // that are averaged, of all parts of a pixel in turn
+  std::uint32_t parts;     // each has a fixed pattern of its own
   // Of Philox's counter: key, frame, the word of sensor and exposure without the latter, and that of the
   // frequency.
   std::uint32_t key[2], frame, sensor, frequency;

@@ -111,7 +111,8 @@ private:
     work_.offset_dn = as_float(electronics_.offset_dn);
     work_.largest_dn = as_float(electronics_.largest_dn());
     work_.two_tap = electronics_.two_tap;
-    work_.exposures = electronics_.frames_averaged;
+    work_.exposures = electronics_.readings();
+    work_.parts = electronics_.parts_averaged;
   }
 
   void set_counter(std::size_t frequency, const ExposureNumber &number) {

@@ -12,7 +12,8 @@ double irradiance_w_m2(double radiance_w_m2_sr, const Electronics &electronics) 
 
 double photons(double irradiance_w_m2, const Sensor &sensor) {
   const glm::dvec2 active_m = sensor.pixel_pitch_m * sensor.fill_factor;
-  const double energy_j = irradiance_w_m2 * active_m.x * active_m.y * sensor.electronics->integration_time_s;
+  const double area_m2 = active_m.x * active_m.y / sensor.electronics->parts_averaged;
+  const double energy_j = irradiance_w_m2 * area_m2 * sensor.electronics->integration_time_s;
   return energy_j * sensor.electronics->wavelength_m / (planck_j_s * speed_of_light_m_s);
 }
 
@@ -49,7 +50,7 @@ double phase_noise_rad(const ImageElectrons &image, double modulated_e, double p
     across += variance * std::sin(apart_rad) * std::sin(apart_rad);
   }
   const double of_difference_e = electronics.two_tap ? amplitude_e : 0.5 * amplitude_e;
-  return 2.0 / (sensor.taps * of_difference_e) * std::sqrt(across / electronics.frames_averaged);
+  return 2.0 / (sensor.taps * of_difference_e) * std::sqrt(across / electronics.readings());
 }
 
 } // namespace pmdsim

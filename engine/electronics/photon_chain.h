@@ -10,7 +10,7 @@ inline constexpr double planck_j_s = 6.62607015e-34; // exactly
 
 // pi L T / (4 N^2) on the chip, W/m^2. A vignetting of the lens is in the radiance already.
 double irradiance_w_m2(double radiance_w_m2_sr, const Electronics &electronics);
-// On the pixel's active area in one image's exposure.
+// On the pixel's active area, or that of one of the parts that are averaged, in one image's exposure.
 double photons(double irradiance_w_m2, const Sensor &sensor);
 // In both taps together.
 double electrons(double photons, const Electronics &electronics);
@@ -38,7 +38,7 @@ double reading_variance_e2(const Electronics &electronics);
 // sigma_phi of N images of a sine at one range, rad, to the first order in the noise: of two taps 2 (S + B +
 // D
 // + 2 sigma_r^2 + 2 Delta^2 / 12) / (N C^2 s^2) under the root, s the electrons of the modulated light; of
-// one tap the sum over its images. `phase_rad` counts with one tap alone. Frames that are averaged count.
+// one tap the sum over its images. `phase_rad` counts with one tap alone. Readings that are averaged count.
 double phase_noise_rad(const ImageElectrons &image, double modulated_e, double phase_rad,
                        const Sensor &sensor, std::size_t frequency = 0);
 

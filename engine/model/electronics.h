@@ -30,12 +30,16 @@ struct Electronics {
   double sbi_e = 0.0;  // the most that is taken from both taps alike where one would be more than full
   bool two_tap = true; // else tap A alone is read
   std::uint32_t frames_averaged = 1; // digital numbers of so many frames are averaged
+  // And of so many parts of a pixel, each of which has its share of the area and figures as above of its own.
+  std::uint32_t parts_averaged = 1;
   std::uint64_t seed = 0;
   bool noiseless_channels = false; // the channels of the noiseless camera stand beside the others
 
   double contrast(std::size_t frequency) const {
     return demodulation_contrast[demodulation_contrast.size() > 1 ? frequency : 0];
   }
+  // Digital numbers that are averaged, at most 2^16.
+  std::uint32_t readings() const { return frames_averaged * parts_averaged; }
   // The largest digital number.
   double largest_dn() const { return static_cast<double>((std::uint64_t{1} << adc_bits) - 1); }
 };

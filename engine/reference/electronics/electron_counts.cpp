@@ -25,9 +25,10 @@ enum class Stream : std::uint32_t { normals, counts, reads, pattern };
 class PixelChance {
 public:
   PixelChance(std::uint64_t seed, const ExposureNumber &number, std::uint32_t frequency, std::uint32_t pixel,
-              std::uint32_t exposure)
+              std::uint32_t exposure, std::uint32_t parts)
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}, frame_(number.frame),
-        sensor_(number.sensor), frequency_(frequency), pixel_(pixel), exposure_(exposure) {}
+        sensor_(number.sensor), frequency_(frequency), pixel_(pixel), exposure_(exposure),
+        part_(exposure % parts) {}
 
   double normal(Stream stream, std::uint32_t draw) const {
     const std::uint32_t first = draw / 2 * 2;
@@ -58,12 +59,12 @@ private:
     const PhiloxCounter counter{pixel_, fixed ? 0 : frame_,
                                 (fixed ? 0 : frequency_ << 16) | static_cast<std::uint32_t>(stream) << 8 |
                                     draw / 4,
-                                sensor_ << 16 | (fixed ? 0 : exposure_)};
+                                sensor_ << 16 | (fixed ? part_ : exposure_)};
     return philox4x32(counter, key_)[draw % 4];
   }
 
   PhiloxKey key_;
-  std::uint32_t frame_, sensor_, frequency_, pixel_, exposure_;
+  std::uint32_t frame_, sensor_, frequency_, pixel_, exposure_, part_;
 };
 
 // One pixel's images at one frequency.
@@ -81,10 +82,12 @@ public:
         sensor.pixel_pitch_m.x * sensor.fill_factor.x * sensor.pixel_pitch_m.y * sensor.fill_factor.y;
     const double irradiance =
         std::numbers::pi * of_.lens_transmission / (4.0 * of_.lens_f_number * of_.lens_f_number);
-    electrons_per_radiance_ =
-        irradiance * area_m2 * of_.integration_time_s / energy_j * of_.quantum_efficiency;
+    electrons_per_radiance_ = irradiance * area_m2 / of_.parts_averaged * of_.integration_time_s / energy_j *
+                              of_.quantum_efficiency;
   }
 
+  // Readings that are averaged.
+  double exposures() const { return static_cast<double>(of_.frames_averaged) * of_.parts_averaged; }
   double contrast() const { return of_.contrast(frequency_); }
   double electrons_per_radiance() const { return electrons_per_radiance_; }
 
@@ -105,7 +108,7 @@ public:
       sum.charge_e[tap].resize(sensor_.taps);
       sum.number_dn[tap].resize(sensor_.taps);
     }
-    for (std::uint32_t exposure = 0; exposure < of_.frames_averaged; ++exposure)
+    for (std::uint32_t exposure = 0; exposure < of_.frames_averaged * of_.parts_averaged; ++exposure)
       for (std::uint32_t image = 0; image < sensor_.taps; ++image)
         add_image(pixel, exposure, image, sum);
     return sum;
@@ -113,7 +116,7 @@ public:
 
 private:
   void add_image(std::uint32_t pixel, std::uint32_t exposure, std::uint32_t image, PixelTaps &sum) const {
-    const PixelChance chance(of_.seed, number_, frequency_, pixel, exposure);
+    const PixelChance chance(of_.seed, number_, frequency_, pixel, exposure, of_.parts_averaged);
     const int taps = of_.two_tap ? 2 : 1;
     double charge[2] = {0.0, 0.0};
     for (int tap = 0; tap < taps; ++tap) {
@@ -136,9 +139,9 @@ private:
       const double voltage_dn = of_.gain_dn_per_e * charge[tap] + of_.offset_dn;
       if (is_full || voltage_dn > of_.largest_dn() + 0.5)
         sum.saturated |= 1u << (static_cast<std::uint32_t>(16 * tap) + image);
-      sum.charge_e[tap][image] += charge[tap] / of_.frames_averaged;
+      sum.charge_e[tap][image] += charge[tap] / exposures();
       sum.number_dn[tap][image] +=
-          std::nearbyint(std::clamp(voltage_dn, 0.0, of_.largest_dn())) / of_.frames_averaged;
+          std::nearbyint(std::clamp(voltage_dn, 0.0, of_.largest_dn())) / exposures();
     }
   }
 
@@ -250,12 +253,12 @@ private:
       across += variance * sine * sine;
     }
     const double amplitude_e = std::abs(noiseless_.z[pixel]) / radiance_per_e;
-    const double noise_rad = 2.0 / (taps_ * amplitude_e) * std::sqrt(across / of_.frames_averaged);
+    const double noise_rad = 2.0 / (taps_ * amplitude_e) * std::sqrt(across / camera_.exposures());
     const bool is_known = amplitude_e > 0.0 && !is_full;
     to_.distance_noise_m[pixel] =
         static_cast<float>(is_known ? noiseless_.ambiguity_m * noise_rad / turn_rad : no_number);
     to_.confidence[pixel] =
-        static_cast<float>(std::abs(z_e) / (2.0 / taps_ * std::sqrt(0.5 * all / of_.frames_averaged)));
+        static_cast<float>(std::abs(z_e) / (2.0 / taps_ * std::sqrt(0.5 * all / camera_.exposures())));
   }
 
   const PixelCamera &camera_;

@@ -1,7 +1,9 @@
 #include "host/input/file/input_file.h"
+#include "host/input/file/json_file.h"
 #include "host/input/image/image_pixels.h"
 #include "host/input/setup/parts.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <span>
 
@@ -80,6 +82,26 @@ void check_together(const Electronics &electronics, const Place &place) {
     throw input_error(place / "sbi", "expected 0 with one tap: it takes the same from both");
 }
 
+// Electrons that are added are those of a larger pixel with a larger well, whose pattern evens out.
+Electronics binned(Electronics electronics, std::uint32_t pixels, bool after_adc, const Place &place) {
+  constexpr std::uint32_t most_readings = 1u << 16; // that random numbers tell apart
+  if (after_adc) {
+    electronics.parts_averaged = pixels;
+    if (electronics.readings() > most_readings)
+      throw input_error(place / "frames_averaged",
+                        fmt::format("expected at most {} with so many pixels each, found {}",
+                                    most_readings / pixels, electronics.frames_averaged));
+    return electronics;
+  }
+  const double root = std::sqrt(static_cast<double>(pixels));
+  electronics.full_well_e *= pixels;
+  electronics.dark_current_e_per_s *= pixels;
+  electronics.sbi_e *= pixels;
+  electronics.dsnu_e *= root;
+  electronics.prnu /= root;
+  return electronics;
+}
+
 } // namespace
 
 void fill_presets(json &setup) {
@@ -130,7 +152,8 @@ Electronics electronics_of(const ordered_json &electronics, const Place &place, 
     background.get_to(result.background_radiance_w_m2_sr);
   }
   check_together(result, place);
-  return result;
+  const auto binning = electronics.at("binning").get<glm::uvec2>();
+  return binned(result, binning.x * binning.y, electronics.at("binning_after_adc").get<bool>(), place);
 }
 
 } // namespace pmdsim

@@ -2,6 +2,7 @@
 
 #include "tests/host/input/setup/setup_fixture.h"
 
+#include <cmath>
 #include <string>
 
 using namespace pmdsim;
@@ -118,6 +119,23 @@ TEST_CASE("Electronics that cannot be are refused in one line") {
     fixture.sensor()["electronics"] = odd;
     CHECK_THAT(fixture.error(), Contains("/sensors/0/electronics: "));
   }
+}
+
+TEST_CASE("Binning makes one pixel of several, before the ADC or after") {
+  SetupFixture fixture;
+  give_electronics(fixture, {{"binning", {2, 3}}, {"dsnu_e", 10}, {"dark_current_e_per_s", 100}});
+  const Electronics before = *fixture.load().start.sensors[0].electronics;
+  CHECK(before.full_well_e == 300'000.0);
+  CHECK(before.dark_current_e_per_s == 600.0);
+  CHECK(before.dsnu_e == Approx(10.0 * std::sqrt(6.0)));
+  CHECK(before.readings() == 1);
+  fixture.sensor()["electronics"]["binning_after_adc"] = true;
+  const Electronics after = *fixture.load().start.sensors[0].electronics;
+  CHECK(after.full_well_e == 50'000.0);
+  CHECK(after.parts_averaged == 6);
+  fixture.sensor()["electronics"]["frames_averaged"] = 10'000;
+  fixture.sensor()["electronics"]["binning"] = {4, 4};
+  CHECK_THAT(fixture.error(), Contains("/frames_averaged: expected at most 4096"));
 }
 
 TEST_CASE("Scatter and unwrapping are what the setup says, or are refused") {
