@@ -54,8 +54,9 @@ inline Floats log_of_share(const Floats &x) {
   const Ints exponent = (reinterpret_cast<Ints>(x * 1.41421356f) >> 23) - 127;
   const Floats f = reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) - (exponent << 23)) - 1.0f, f2 = f * f;
   Floats p = fused(f, all(7.0376836292e-2f), -1.1514610310e-1f);
-  for (const float coefficient : {1.1676998740e-1f, -1.2420140846e-1f, 1.4249322787e-1f, -1.6668057665e-1f,
-                                  2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f})
+  constexpr float coefficients[] = {1.1676998740e-1f, -1.2420140846e-1f, 1.4249322787e-1f, -1.6668057665e-1f,
+                                    2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f};
+  for (const float coefficient : coefficients)
     p = fused(p, f, coefficient);
   const Floats whole = __builtin_convertvector(exponent, Floats);
   return fused(whole, all(0.693147181f), f + fused(f2 * f, p, -0.5f * f2));
@@ -68,9 +69,11 @@ inline Complex phasor_of_word(const Ints &word) {
   const auto rest = reinterpret_cast<Ints>(bits - (reinterpret_cast<UnsignedInts>(quarter) << 30));
   const Floats y = __builtin_convertvector(rest, Floats) * 0x1p-32f, u = y * y;
   Floats s = fused(u, all(41.47283324f), -76.69786635f), c = fused(u, all(59.22016896f), -85.44284467f);
-  for (const float coefficient : {81.60520471f, -41.34170215f, 6.283185307f})
+  constexpr float of_s[] = {81.60520471f, -41.34170215f, 6.283185307f},
+                  of_c[] = {64.93931614f, -19.73920865f, 1.0f};
+  for (const float coefficient : of_s)
     s = fused(s, u, coefficient);
-  for (const float coefficient : {64.93931614f, -19.73920865f, 1.0f})
+  for (const float coefficient : of_c)
     c = fused(c, u, coefficient);
   s *= y;
   const Ints is_odd = (quarter & 1) != 0, turned = quarter << 30 & std::numeric_limits<std::int32_t>::min();

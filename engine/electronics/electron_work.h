@@ -20,18 +20,22 @@ struct ElectronWork {
   const float *amplitude, *phase_rad;
   const float *const *taps;
   const float *const *mean_radiance; // of each image
-  const float *background_e;         // of each pixel and image; nullptr: of all alike
+  const float *background_e;         // of each pixel and tap; nullptr: of all alike
   float all_background_e;
-  float electrons_per_radiance; // of one image, both taps
-  float contrast, dark_e;       // of both taps
+  // Electrons of each tap: half of what the mean light makes of a radiance, what its correlation sample adds
+  // to tap A and takes from B, and in the dark.
+  float half_per_radiance, part_per_correlation, dark_e;
   float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
-  float gain_dn_per_e, offset_dn, largest_dn;
+  float gain_dn_per_e, e_per_dn, offset_dn, largest_dn;
+  float reading_variance_e2; // of the reading of one tap
+  float radiance_per_e;      // of the difference that the camera takes for a correlation sample
   bool two_tap;
   std::uint32_t exposures; // that are averaged, of all parts of a pixel in turn
   std::uint32_t parts;     // each has a fixed pattern of its own
   // Of Philox's counter: key, frame, the word of sensor and exposure without the latter, and that of the
   // frequency.
   std::uint32_t key[2], frame, sensor, frequency;
+  float of_image, per_exposure; // 2 / N, 1 / exposures
   float ambiguity_m;
   float below_turn, below_m; // the largest floats below 2 pi and below the ambiguity
   // Out: what the camera makes of it, and of its noise. Arrays of taps' pointers are nullptr where not kept.

@@ -95,24 +95,31 @@ private:
 
   void set_electronics(std::size_t frequency) {
     const auto as_float = [](double value) { return static_cast<float>(value); };
-    work_.electrons_per_radiance = as_float(electrons_of(1.0, sensor_));
-    work_.all_background_e = as_float(electrons_of(electronics_.background_radiance_w_m2_sr, sensor_));
+    const double per_radiance = electrons_of(1.0, sensor_), contrast = electronics_.contrast(frequency);
+    work_.half_per_radiance = as_float(0.5 * per_radiance);
+    work_.part_per_correlation = as_float(0.5 * contrast * per_radiance);
+    // One tap has half of the signal that the difference of two has.
+    work_.radiance_per_e = as_float((electronics_.two_tap ? 1.0 : 2.0) / (contrast * per_radiance));
+    work_.all_background_e = as_float(0.5 * electrons_of(electronics_.background_radiance_w_m2_sr, sensor_));
     for (const float relative : electronics_.background_image)
       background_e_.push_back(relative * work_.all_background_e);
     work_.background_e = background_e_.empty() ? nullptr : background_e_.data();
-    work_.contrast = as_float(electronics_.contrast(frequency));
-    work_.dark_e = as_float(electronics_.dark_current_e_per_s * electronics_.integration_time_s);
+    work_.dark_e = as_float(0.5 * electronics_.dark_current_e_per_s * electronics_.integration_time_s);
     work_.read_noise_e = as_float(electronics_.read_noise_e);
     work_.full_well_e = as_float(electronics_.full_well_e);
     work_.sbi_e = as_float(electronics_.sbi_e);
     work_.dsnu_e = as_float(electronics_.dsnu_e);
     work_.prnu = as_float(electronics_.prnu);
+    work_.reading_variance_e2 = as_float(reading_variance_e2(electronics_));
     work_.gain_dn_per_e = as_float(electronics_.gain_dn_per_e);
+    work_.e_per_dn = as_float(1.0 / electronics_.gain_dn_per_e);
     work_.offset_dn = as_float(electronics_.offset_dn);
     work_.largest_dn = as_float(electronics_.largest_dn());
     work_.two_tap = electronics_.two_tap;
     work_.exposures = electronics_.readings();
     work_.parts = electronics_.parts_averaged;
+    work_.per_exposure = as_float(1.0 / electronics_.readings());
+    work_.of_image = as_float(2.0 / sensor_.taps);
   }
 
   void set_counter(std::size_t frequency, const ExposureNumber &number) {
