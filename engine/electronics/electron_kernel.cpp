@@ -47,8 +47,8 @@ PMDSIM_INLINED Words4 words_of(const ElectronWork &of, const Pixels &pixels, Cha
   return philox(pixels.numbers(), shared, of.key);
 }
 
-PMDSIM_INLINED NormalPair normals_of(const Words4 &words, std::uint32_t pair) {
-  return normal_pair(words.of[2 * pair], words.of[2 * pair + 1]);
+PMDSIM_INLINED NormalPair normals_of(const Words4 &words, int pair) {
+  return pair == 0 ? normal_pair(words.of[0], words.of[1]) : normal_pair(words.of[2], words.of[3]);
 }
 
 // Offsets and relative responses of taps A and B, the same in every frame.
@@ -172,6 +172,14 @@ PMDSIM_INLINED Floats phase_turns(const Complex &z) {
   return turns < 1.0f ? turns : all(0.0f);
 }
 
+// A sum of many readings is as exact as one of few: W. Kahan, "Further remarks on reducing truncation
+// errors", CACM 8 (1965).
+PMDSIM_INLINED void add_exactly(Floats &sum, Floats &rest, const Floats &term) {
+  const Floats whole = sum + term;
+  rest += term - (whole - sum);
+  sum = whole;
+}
+
 struct Correlations {
   Floats of[most_images];
 };
@@ -182,8 +190,8 @@ class PixelElectrons {
 public:
   PixelElectrons(const ElectronWork &of, const Pixels &pixels)
       : of_(of), pixels_(pixels), pattern_(fixed_pattern(of, pixels, 0)) {
-    for (std::uint32_t k = 0; k < of_.images; ++k)
-      images_[k] = {};
+    for (std::uint32_t k = 0; of_.exposures > 1 && k < of_.images; ++k)
+      images_[k] = rests_[k] = {};
   }
 
   void count() {
@@ -240,14 +248,12 @@ private:
     Floats difference[most_images], mean = all(0.0f), largest = all(0.0f);
     Complex z{};
     for (std::uint32_t k = 0; k < of_.images; ++k) {
-      for (std::uint32_t tap = 0; tap < taps_; ++tap) {
-        images_[k].number_dn[tap] *= of_.per_exposure;
-        if (!of_.tap_e[tap])
-          continue;
-        pixels_.store_to(of_.tap_e[tap][k], of_.per_exposure * images_[k].charge_e[tap]);
-        pixels_.store_to(of_.tap_dn[tap][k], images_[k].number_dn[tap]);
+      const Reading reading = mean_reading(k);
+      for (std::uint32_t tap = 0; of_.taps_out && tap < taps_; ++tap) {
+        pixels_.store_to(of_.tap_e[tap][k], reading.charge_e[tap]);
+        pixels_.store_to(of_.tap_dn[tap][k], reading.number_dn[tap]);
       }
-      difference[k] = difference_e(k);
+      difference[k] = difference_e(reading);
       mean += (0.5f * of_.of_image) * difference[k];
       largest = larger(largest, absolute(difference[k]));
       const auto &[re, im] = of_.reference[k];
@@ -284,8 +290,10 @@ private:
       variance += means.of(tap) + of_.reading_variance_e2;
       fullest = larger(fullest, means.of(tap));
     }
-    if (taps_ == 2)
-      fullest -= smaller(all(of_.sbi_e), smaller(means.of(0), means.of(1)));
+    if (taps_ == 2 && of_.sbi_e > 0.0f) {
+      const Floats over = larger(fullest - of_.full_well_e, all(0.0f));
+      fullest -= smaller(over, smaller(all(of_.sbi_e), smaller(means.of(0), means.of(1))));
+    }
     is_full_ |= (fullest > of_.full_well_e) | (of_.gain_dn_per_e * fullest + of_.offset_dn > of_.largest_dn);
     const auto &[re, im] = of_.twice_reference[image];
     variance_ += variance;
@@ -314,16 +322,31 @@ private:
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       const Ints is_full = read_tap(of_, reading, tap);
       saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
-      images_[image].charge_e[tap] += reading.charge_e[tap];
-      images_[image].number_dn[tap] += reading.number_dn[tap];
     }
+    if (of_.exposures == 1) {
+      images_[image] = reading;
+      return;
+    }
+    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
+      add_exactly(images_[image].charge_e[tap], rests_[image].charge_e[tap], reading.charge_e[tap]);
+      add_exactly(images_[image].number_dn[tap], rests_[image].number_dn[tap], reading.number_dn[tap]);
+    }
+  }
+
+  // Of all exposures.
+  PMDSIM_INLINED Reading mean_reading(std::uint32_t image) const {
+    Reading mean = images_[image];
+    for (std::uint32_t tap = 0; of_.exposures > 1 && tap < taps_; ++tap) {
+      mean.charge_e[tap] = of_.per_exposure * (mean.charge_e[tap] + rests_[image].charge_e[tap]);
+      mean.number_dn[tap] = of_.per_exposure * (mean.number_dn[tap] + rests_[image].number_dn[tap]);
+    }
+    return mean;
   }
 
   // What the camera takes for the image's correlation sample, in electrons; of one tap with all that is
   // common.
-  Floats difference_e(std::uint32_t image) {
-    return of_.e_per_dn *
-           (images_[image].number_dn[0] - (taps_ == 2 ? images_[image].number_dn[1] : all(of_.offset_dn)));
+  Floats difference_e(const Reading &reading) const {
+    return of_.e_per_dn * (reading.number_dn[0] - (taps_ == 2 ? reading.number_dn[1] : all(of_.offset_dn)));
   }
 
   void store_return(const Complex &z) {
@@ -349,7 +372,8 @@ private:
   Floats variance_{}; // sum over the images
   Complex second_{};  // the same times exp(2 j theta_k)
   Ints is_full_{}, saturated_{};
-  Reading images_[most_images]; // sums over the exposures
+  Reading images_[most_images],
+      rests_[most_images]; // sums over the exposures, and what rounding took from them
 };
 
 template <bool two_tap, bool merged>

@@ -2,6 +2,7 @@
 
 #include "engine/electronics/electron_work.h"
 #include "engine/electronics/photon_chain.h"
+#include "engine/model/float_below.h"
 #include "engine/model/instruction_sets.h"
 
 #include <algorithm>
@@ -18,7 +19,11 @@ namespace pmdsim {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
-constexpr std::uint32_t pixels_at_once = 4096; // a multiple of the lanes of all instruction sets
+// Multiples of the lanes of all instruction sets: a thread's work, of one exposure and of many.
+constexpr std::uint32_t pixels_at_once = 4096, pixels_of_many = 256;
+constexpr std::uint32_t many_exposures = 64;
+// Between which a frame of many exposures may be stopped.
+constexpr std::uint32_t parts_at_once = 8;
 
 using Pointers = std::array<float *, most_images>;
 using Phasors = std::array<std::array<float, 2>, most_images>;
@@ -30,11 +35,6 @@ Phasors phasors(std::uint32_t images, double multiple) {
     of[k] = {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))};
   }
   return of;
-}
-
-float largest_float_below(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, 0.0f);
 }
 
 // An array of each tap, or none.
@@ -59,13 +59,19 @@ public:
     set_output(request.keep_taps, frequency);
   }
 
-  void count(const ElectronLoops &loops) const {
+  void count(const ElectronLoops &loops, const std::function<void()> &between) const {
     const auto pixels = static_cast<std::uint32_t>(sensor_.pixel_count());
-    const std::uint32_t parts = (pixels + pixels_at_once - 1) / pixels_at_once;
-    tbb::parallel_for(0u, parts, [&](std::uint32_t part) {
-      const std::uint32_t first = part * pixels_at_once;
-      loops.count(work_, first, std::min(first + pixels_at_once, pixels));
-    });
+    const bool are_many = work_.exposures > many_exposures;
+    const std::uint32_t of_part = are_many ? pixels_of_many : pixels_at_once;
+    const std::uint32_t parts = (pixels + of_part - 1) / of_part, at_once = are_many ? parts_at_once : parts;
+    for (std::uint32_t begin = 0; begin < parts; begin += at_once) {
+      tbb::parallel_for(begin, std::min(begin + at_once, parts), [&](std::uint32_t part) {
+        const std::uint32_t first = part * of_part;
+        loops.count(work_, first, std::min(first + of_part, pixels));
+      });
+      if (between)
+        between();
+    }
   }
 
 private:
@@ -140,6 +146,9 @@ private:
       to_.amplitude_noiseless = to_.amplitude;
       to_.phase_rad_noiseless = to_.phase_rad;
       to_.distance_m_noiseless = to_.distance_m;
+    } else {
+      for (auto *channel : {&to_.amplitude_noiseless, &to_.phase_rad_noiseless, &to_.distance_m_noiseless})
+        channel->clear();
     }
     to_.saturated.resize(pixels);
     to_.distance_noise_m.resize(pixels);
@@ -183,7 +192,7 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Meas
   const auto start = std::chrono::steady_clock::now();
   const ElectronLoops &loops = widest_electron_loops(request.host_vector_bits);
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
-    FrequencyElectrons(sensor, request, i, frame).count(loops);
+    FrequencyElectrons(sensor, request, i, frame).count(loops, request.between);
     if (!request.keep_taps)
       frame.returns[i].taps.clear();
   }

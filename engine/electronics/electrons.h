@@ -1,11 +1,12 @@
 #pragma once
 // The camera's electronics: from a noiseless frame to the frame that the camera would make of its electrons.
-// By the host on any device, so that no bit depends on it.
+// By the host on any device: the same light gives the same bits.
 
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pmdsim {
@@ -16,6 +17,7 @@ struct ElectronsRequest {
   std::vector<std::vector<float>> mean_radiance_of_taps{};
   bool keep_taps = false;               // fill Return::taps, tap_a_e and the like
   std::uint32_t host_vector_bits = 512; // at most; any gives the same bits
+  std::function<void()> between = {};   // called now and then; may throw to stop
 };
 
 // `frame` is a noiseless frame of a sensor with electronics, with its number and mean radiance; its taps are

@@ -31,9 +31,13 @@ TapElectrons tap_electrons(const ImageElectrons &image, double correlation_e, do
   return {common_e + part_e, common_e - part_e};
 }
 
-double reading_variance_e2(const Electronics &electronics) {
+double step_variance_e2(const Electronics &electronics) {
   const double step_e = 1.0 / electronics.gain_dn_per_e;
-  return electronics.read_noise_e * electronics.read_noise_e + step_e * step_e / 12.0;
+  return step_e * step_e / 12.0;
+}
+
+double reading_variance_e2(const Electronics &electronics) {
+  return electronics.read_noise_e * electronics.read_noise_e + step_variance_e2(electronics);
 }
 
 double phase_noise_rad(const ImageElectrons &image, double modulated_e, double phase_rad,

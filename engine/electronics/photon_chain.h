@@ -32,13 +32,14 @@ struct TapElectrons {
 };
 TapElectrons tap_electrons(const ImageElectrons &image, double correlation_e, double contrast);
 
-// What reading a tap adds to its variance: the read noise and the ADC's step, e^2.
+// What the ADC's steps add to the variance of a tap, and what reading it adds in all, with the read noise,
+// e^2.
+double step_variance_e2(const Electronics &electronics);
 double reading_variance_e2(const Electronics &electronics);
 
-// sigma_phi of N images of a sine at one range, rad, to the first order in the noise: of two taps 2 (S + B +
-// D
-// + 2 sigma_r^2 + 2 Delta^2 / 12) / (N C^2 s^2) under the root, s the electrons of the modulated light; of
-// one tap the sum over its images. `phase_rad` counts with one tap alone. Readings that are averaged count.
+// The standard deviation of the phase that is formed of N images of a sine, rad, to the first order in the
+// noise (docs/theory.md, E6), `modulated_e` the electrons of the modulated light. Readings that are averaged
+// count; `phase_rad` counts with one tap alone.
 double phase_noise_rad(const ImageElectrons &image, double modulated_e, double phase_rad,
                        const Sensor &sensor, std::size_t frequency = 0);
 

@@ -8,6 +8,7 @@
 #include <complex>
 #include <fftw3.h>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -105,6 +106,7 @@ public:
       direct -= lobe.share;
       add_lobe(lobe, sensor.pixel_pitch_m);
     }
+    response_.reserve(plane_.count());
     plane_.at(0, 0) += static_cast<float>(direct);
     plane_.transform();
     const auto scale = 1.0f / static_cast<float>(plane_.count());
@@ -171,19 +173,37 @@ void scatter_pair(Scattering &scattering, std::vector<float> &first, std::vector
 }
 
 void scatter_all(Scattering &scattering, std::vector<std::vector<float>> &images) {
-  for (std::size_t i = 0; i < images.size(); i += 2)
-    if (!images[i].empty())
-      scatter_pair(scattering, images[i], i + 1 < images.size() ? &images[i + 1] : nullptr);
+  std::vector<std::vector<float> *> filled;
+  for (std::vector<float> &image : images)
+    if (!image.empty())
+      filled.push_back(&image);
+  for (std::size_t i = 0; i < filled.size(); i += 2)
+    scatter_pair(scattering, *filled[i], i + 1 < filled.size() ? filled[i + 1] : nullptr);
 }
 
+// Light does not fall below 0, as rounding may.
+void scatter_mean(Scattering &scattering, std::vector<float> &radiance) {
+  if (radiance.empty())
+    return;
+  scatter_pair(scattering, radiance, nullptr);
+  for (float &value : radiance)
+    value = std::max(value, 0.0f);
+}
+
+// What is less than that part of the brightest pixel is the transforms' rounding.
+constexpr float rounding_part = 1e-6f;
+
 void scatter_return(Scattering &scattering, double ambiguity_m, Return &of) {
+  const float least = of.amplitude.empty() ? 0.0f : rounding_part * std::ranges::max(of.amplitude);
   scattering.apply(
       [&](std::size_t pixel) {
         return of.amplitude[pixel] > 0.0f ? std::polar(of.amplitude[pixel], of.phase_rad[pixel]) : Complex();
       },
       [&](std::size_t pixel, const Complex &value) {
-        if (value != Complex())
-          set_return(of, pixel, value, ambiguity_m);
+        if (std::abs(value) > least)
+          return set_return(of, pixel, value, ambiguity_m);
+        of.amplitude[pixel] = 0.0f;
+        of.phase_rad[pixel] = of.distance_m[pixel] = std::numeric_limits<float>::quiet_NaN();
       });
 }
 
@@ -192,8 +212,7 @@ void scatter_return(Scattering &scattering, double ambiguity_m, Return &of) {
 void scatter(const Sensor &sensor, Measurement &frame) {
   const auto start = std::chrono::steady_clock::now();
   Scattering scattering(sensor);
-  if (!frame.mean_radiance.empty())
-    scatter_pair(scattering, frame.mean_radiance, nullptr);
+  scatter_mean(scattering, frame.mean_radiance);
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
     Return &of = frame.returns[i];
     scatter_return(scattering, sensor.ambiguity_m(i), of);

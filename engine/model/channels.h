@@ -130,7 +130,8 @@ inline constexpr std::array channel_rows = [] {
        Preview{"distance without noise", Scale::sequential}},
       {"error_bound_m",
        "m",
-       "how far distance_m is off at most; only where an error was asked for that some pixels may exceed",
+       "how far distance_m without noise is off at most; only where an error was asked for that some pixels "
+       "may exceed",
        &Return::error_bound_m,
        {Area::bound, 0}},
       {"multipath_m",

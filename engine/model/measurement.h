@@ -34,6 +34,7 @@ struct Return {
   // With electronics (engine/model/electronics.h), else empty. Amplitude, phase, distance and taps above are
   // what the camera makes of its digital numbers then. Of each image k, means of Electronics::frames_averaged
   // exposures; the taps' electrons and numbers only where the taps are asked for, tap B's only of two taps.
+  // The simulator leaves them to engine/electronics/electrons.h: until then they may hold an earlier frame's.
   std::vector<std::vector<float>> tap_a_e{}, tap_b_e{};   // electrons before the ADC
   std::vector<std::vector<float>> tap_a_dn{}, tap_b_dn{}; // digital numbers
   // Bit k: tap A of image k was full, or beyond the ADC's range, in some exposure; bit 16 + k: tap B.
@@ -77,7 +78,8 @@ struct Measurement {
   // The mean radiance of all diodes' light, W/(m^2 sr), noiseless; empty unless Sensor::electronics.
   std::vector<float> mean_radiance;
   // From all frequencies together, with Sensor::unwrap_range_m, else empty: the distance, NaN where some
-  // frequency has none, and 1 where the phases agree on it and on no other, else 0.
+  // frequency has none or all that fit lie beyond the range, and 1 where the phases agree on it and on no
+  // other, else 0, as where a tap is full.
   std::vector<float> unwrapped_distance_m;
   std::vector<std::uint32_t> unwrap_ok;
   // The ids at the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.

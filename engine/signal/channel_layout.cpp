@@ -1,5 +1,6 @@
 #include "engine/signal/channel_layout.h"
 
+#include "engine/model/float_below.h"
 #include "engine/vulkan/float_pair.h"
 
 #include <algorithm>
@@ -33,11 +34,6 @@ constexpr bool slots_differ() {
 
 static_assert(slots_differ());
 static_assert(row_of(&Return::taps).slot.index == channels_in(Area::frequency), "taps come last");
-
-float largest_float_below(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, 0.0f);
-}
 
 shader::Frequency record_of(double modulation_hz, double largest_intensity_w_sr,
                             std::uint32_t first_channel) {

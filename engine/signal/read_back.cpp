@@ -80,9 +80,9 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
 
 // Light has no upper bound. Values that a float is too small for are counted, not searched for, as the
 // compiler vectorizes a count.
-void check_radiance(const Row &row, const Measurement &measurement) {
+void check_radiance(const Row &row, const ChannelLayout &layout, const Measurement &measurement) {
   for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
-    if (of.row.unit != radiance_unit || values.empty())
+    if (of.row.unit != radiance_unit || !layout.holds(of.row))
       return;
     const auto of_row = std::span(values).subspan(row.in_frame, row.pixels);
     if (std::ranges::count_if(of_row, [](auto value) { return std::isinf(value); }) > 0)
@@ -146,7 +146,7 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
       store_truth(records_for_host(buffers), row, *truth, measurement);
     for (std::uint32_t channel = truth ? layout.first_channel(0) : 0; channel < to.size(); channel += 2)
       store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
-    check_radiance(row, measurement);
+    check_radiance(row, layout, measurement);
   });
   if (!measurement.sample_pixel_id.empty())
     store_sample_ids(ids_for_host(buffers), buffers.id_bytes, strip, is_tiled(sensor), measurement);
@@ -171,7 +171,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
       values.resize(pixels);
     else if (of.row.slot.area == DeviceSlot::Area::none || of.row.slot.area == DeviceSlot::Area::mean ||
              of.row.slot.area == DeviceSlot::Area::unwrapped ||
-             (of.row.slot.area == DeviceSlot::Area::electrons && !layout.mean))
+             (of.row.slot.area == DeviceSlot::Area::electrons && (!layout.mean || values.size() != pixels)))
       values.clear();
   });
   const bool keeps_ids = options.keep_sample_ids || options.keep_visibility;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tbb/parallel_for.h>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -19,11 +20,12 @@ constexpr double most_chi2 = 9.0, least_margin = 9.0;
 
 // A frequency's part of a pixel.
 struct Remainder {
-  double distance_m, ambiguity_m, weight; // 1 / variance
+  double distance_m, ambiguity_m, weight; // 1 / variance; 0 where that is not known
 };
 
 struct Candidate {
-  double distance_m = 0.0, chi2 = std::numeric_limits<double>::infinity();
+  double distance_m = std::numeric_limits<double>::quiet_NaN(),
+         chi2 = std::numeric_limits<double>::infinity();
 };
 
 using Remainders = std::array<Remainder, most_frequencies>;
@@ -72,18 +74,22 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
   frame.unwrap_ok.resize(pixels);
   tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
     Remainders remainders{};
-    bool known = true;
+    bool known = true, sure = true;
     for (std::size_t i = 0; i < count; ++i) {
       const Return &of = frame.returns[i];
       const double ambiguity_m = sensor.ambiguity_m(i), tolerance_m = tolerance_turns * ambiguity_m;
       const double noise_m =
           of.distance_noise_m.empty() ? 0.0 : static_cast<double>(of.distance_noise_m[pixel]);
+      const bool is_full = std::isnan(noise_m);
       remainders[i] = {static_cast<double>(of.distance_m[pixel]), ambiguity_m,
-                       1.0 / (noise_m * noise_m + tolerance_m * tolerance_m)};
-      known = known && std::isfinite(remainders[i].distance_m) && std::isfinite(remainders[i].weight);
+                       is_full ? 0.0 : 1.0 / (noise_m * noise_m + tolerance_m * tolerance_m)};
+      known = known && std::isfinite(remainders[i].distance_m);
+      sure = sure && !is_full;
     }
-    const Unwrapped of_pixel = known ? unwrapped(remainders, count, sensor.unwrap_range_m)
-                                     : Unwrapped{std::numeric_limits<double>::quiet_NaN(), false};
+    Unwrapped of_pixel{std::numeric_limits<double>::quiet_NaN(), false};
+    if (known)
+      of_pixel = unwrapped(remainders, count, sensor.unwrap_range_m);
+    of_pixel.ok = of_pixel.ok && sure;
     frame.unwrapped_distance_m[pixel] = static_cast<float>(of_pixel.distance_m);
     frame.unwrap_ok[pixel] = of_pixel.ok ? 1 : 0;
   });

@@ -17,6 +17,17 @@ bool names_the_reference(const std::string &device) {
                             [](unsigned char c) { return std::tolower(c); });
 }
 
+namespace {
+
+// Tells that a frame is nearly done, and lets it be stopped.
+std::function<void()> progress_at_end(const Progress &progress) {
+  if (!progress)
+    return {};
+  return [&progress] { progress(1.0); };
+}
+
+} // namespace
+
 Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
   if (names_the_reference(device)) {
     device_ = "reference";
@@ -73,7 +84,8 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
     if (!sensor_.scatter.empty())
       scatter(sensor_, measurement);
     if (sensor_.electronics)
-      count_electrons(sensor_, {.keep_taps = extras_.taps}, measurement);
+      count_electrons(sensor_, {.keep_taps = extras_.taps, .between = progress_at_end(progress)},
+                      measurement);
   }
   if (sensor_.unwrap_range_m > 0.0)
     unwrap_distances(sensor_, measurement);

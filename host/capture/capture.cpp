@@ -50,16 +50,23 @@ Setup requested_setup_without_bounces(const CaptureRequest &request) {
   return setup;
 }
 
-void leave_out_noise(Setup &setup) {
+void leave_out_electronics(Setup &setup) {
   bool any = false;
   for (Sensor &sensor : setup.start.sensors) {
-    any = any || sensor.electronics;
+    any = any || sensor.electronics || !sensor.scatter.empty() || sensor.unwrap_range_m > 0.0;
     sensor.electronics.reset();
+    sensor.scatter.clear();
+    sensor.unwrap_range_m = 0.0;
   }
-  for (auto &sensor : setup.as_used["sensors"])
+  for (auto &sensor : setup.as_used["sensors"]) {
     sensor.erase("electronics");
+    sensor.erase("unwrap_range_m");
+    sensor["scatter"] = nlohmann::ordered_json::array();
+  }
   if (any)
-    fmt::print(stderr, "pmdsim: warning: electronics are left out, as noiseless frames are compared\n");
+    fmt::print(stderr,
+               "pmdsim: warning: electronics, scatter and unwrapping are left out, as frames without noise "
+               "are compared\n");
 }
 
 Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps)

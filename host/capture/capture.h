@@ -32,8 +32,9 @@ struct CaptureRequest {
 Setup requested_setup(const CaptureRequest &request);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
-// Leaves the sensors' electronics out, for commands that compare noiseless frames, and a warning says so.
-void leave_out_noise(Setup &setup);
+// Leaves out what the camera does behind the lens (electronics, scatter, unwrapping), for commands that
+// compare frames without, and a warning says so.
+void leave_out_electronics(Setup &setup);
 
 // The frames of a setup that one command leaves in a directory, with a bar of its progress.
 class Capture {

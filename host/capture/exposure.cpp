@@ -8,6 +8,7 @@
 #include "host/capture/multipath_of_taps.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 
 namespace pmdsim {
@@ -97,6 +98,31 @@ std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &
   return channels * sizeof(float) * sensor.pixel_count();
 }
 
+namespace {
+
+// Of taps that are exposed one by one each scatters alone, and so does the mean light of each.
+void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_radiance, Measurement &frame) {
+  const auto start = std::chrono::steady_clock::now();
+  scatter_images(sensor, mean_radiance);
+  if (!mean_radiance.empty())
+    frame.mean_radiance = mean_radiance.front();
+  for (std::size_t i = 0; i < frame.returns.size(); ++i) {
+    Return &of = frame.returns[i];
+    scatter_images(sensor, of.taps);
+    Return scattered = return_from_taps(std::move(of.taps), sensor.modulation_hz[i]);
+    of.amplitude = std::move(scattered.amplitude);
+    of.phase_rad = std::move(scattered.phase_rad);
+    of.distance_m = std::move(scattered.distance_m);
+    of.taps = std::move(scattered.taps);
+  }
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  frame.passes.push_back({"scatter", ms});
+  frame.frame_ms += ms;
+}
+
+} // namespace
+
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
@@ -117,8 +143,6 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
         frame = std::move(exposure);
       }
     }
-    if (!sensor.scatter.empty())
-      scatter_images(sensor, taps);
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
     bounces.finish(returns.back(), i);
   }
@@ -127,7 +151,7 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
   // Those of the exposures; what they come to together has no bound.
   frame->accuracy.claimed_m = frame->accuracy.claimed_amplitude = std::nullopt;
   if (!sensor.scatter.empty())
-    scatter_images(sensor, electrons.mean_radiance_of_taps);
+    scatter_taps(sensor, electrons.mean_radiance_of_taps, *frame);
   if (sensor.electronics)
     count_electrons(sensor, electrons, *frame);
   if (sensor.unwrap_range_m > 0.0)

@@ -205,7 +205,7 @@ std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &
 
 void run_deform(const Options &options) {
   Setup setup = requested_setup(options.capture);
-  leave_out_noise(setup);
+  leave_out_electronics(setup);
   Capture capture(options.capture, std::move(setup), "deform", false);
   const std::deque<DeformedFrame> deformed = deform(capture);
   print(options.json ? json_text(report_json(deformed, capture.sequence())) : report_text(deformed, capture));

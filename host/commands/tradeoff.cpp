@@ -193,7 +193,7 @@ std::vector<std::string> write_files(OutputSet &files, const Tradeoff &tradeoff)
 
 void run_tradeoff(const Options &options) {
   Setup setup = requested_setup_without_bounces(options.capture);
-  leave_out_noise(setup);
+  leave_out_electronics(setup);
   OutputSet files(options.capture.output_directory); // first, so that nothing is measured in vain
   Sensor sensor = setup.start.sensors.front();
   sensor.modulation_hz.resize(1);

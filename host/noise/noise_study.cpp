@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
+#include <numeric>
 
 namespace pmdsim {
 namespace {
@@ -48,20 +48,18 @@ Sensor of_frequency(Sensor sensor, std::size_t frequency) {
   sensor.modulation_hz = {sensor.modulation_hz[frequency]};
   electronics.dsnu_e = electronics.prnu = 0.0;
   electronics.noiseless_channels = false;
+  if (const std::vector<float> &picture = electronics.background_image; !picture.empty())
+    electronics.background_radiance_w_m2_sr *=
+        std::accumulate(picture.begin(), picture.end(), 0.0) / static_cast<double>(picture.size());
   electronics.background_image.clear();
   return sensor;
-}
-
-double step_variance_e2(const Electronics &electronics) {
-  const double step_e = 1.0 / electronics.gain_dn_per_e;
-  return step_e * step_e / 12.0;
 }
 
 TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t number) {
   Sensor sensor = of;
   Electronics &electronics = *sensor.electronics;
-  electronics.background_radiance_w_m2_sr = 0.0; // no light but the level's
-  electronics.frames_averaged = 1;
+  electronics.background_radiance_w_m2_sr = 0.0;                // no light but the level's
+  electronics.frames_averaged = electronics.parts_averaged = 1; // of one reading
   sensor.waveform = {};
   const double dark_e = 0.5 * electronics.dark_current_e_per_s * electronics.integration_time_s;
   const double mean_e = signal_e + dark_e, gain = electronics.gain_dn_per_e;
@@ -85,7 +83,7 @@ TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t nu
   return point;
 }
 
-// From the read noise's own variance to twice the full well.
+// Dark, and from far below the read noise to beyond the full well.
 std::vector<TransferPoint> photon_transfer(const Sensor &sensor) {
   const double full_e = sensor.electronics->full_well_e;
   std::vector<TransferPoint> points{transfer_point(sensor, 0.0, 0)};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 
 namespace pmdsim {
 namespace {
@@ -41,16 +42,23 @@ double fullest_e(const Sensor &sensor, const reference::Frame &frame, std::size_
         fullest = std::max(fullest, a_e);
         continue;
       }
-      fullest = std::max(fullest, std::max(a_e, b_e) - std::min(electronics.sbi_e, std::min(a_e, b_e)));
+      const double over_e = std::max(std::max(a_e, b_e) - electronics.full_well_e, 0.0);
+      const double taken_e = std::min({over_e, electronics.sbi_e, std::min(a_e, b_e)});
+      fullest = std::max(fullest, std::max(a_e, b_e) - taken_e);
     }
   return fullest;
 }
 
-double strongest_background(const Electronics &electronics) {
+// At a pixel of a coarser frame.
+double background_at(const Sensor &sensor, const glm::uvec2 &coarse, std::size_t pixel) {
+  const Electronics &electronics = *sensor.electronics;
   if (electronics.background_image.empty())
     return electronics.background_radiance_w_m2_sr;
-  return electronics.background_radiance_w_m2_sr *
-         static_cast<double>(std::ranges::max(electronics.background_image));
+  const glm::dvec2 middle(static_cast<double>(pixel % coarse.x) + 0.5,
+                          static_cast<double>(pixel / coarse.x) + 0.5);
+  const glm::uvec2 at(middle / glm::dvec2(coarse) * glm::dvec2(sensor.resolution));
+  const float relative = electronics.background_image[std::size_t{at.y} * sensor.resolution.x + at.x];
+  return electronics.background_radiance_w_m2_sr * static_cast<double>(relative);
 }
 
 void take_noise(ElectronFindings &findings, double noise_m) {
@@ -69,7 +77,7 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
   const reference::Frame frame = reference::simulate(setup.start.scene, coarse, setup.start.illuminators,
                                                      setup.backscatter, {.shadows = setup.shadows});
   ElectronFindings findings;
-  findings.background_e = electrons_of(strongest_background(electronics), sensor);
+
   findings.dark_e = electronics.dark_current_e_per_s * electronics.integration_time_s;
   findings.darkest_e = std::numeric_limits<double>::infinity();
   std::size_t seen = 0, full = 0;
@@ -77,8 +85,10 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
     if (frame.coverage[pixel] == 0.0)
       continue;
     ++seen;
-    const ImageElectrons image{electrons_of(frame.mean_radiance[pixel], sensor), findings.background_e,
+    const ImageElectrons image{electrons_of(frame.mean_radiance[pixel], sensor),
+                               electrons_of(background_at(sensor, coarse.resolution, pixel), sensor),
                                findings.dark_e};
+    findings.background_e = std::max(findings.background_e, image.background_e);
     findings.brightest_e = std::max(findings.brightest_e, image.signal_e);
     findings.darkest_e = std::min(findings.darkest_e, image.signal_e);
     const double over = fullest_e(sensor, frame, pixel, image) / most_of_tap_e(electronics);
@@ -87,7 +97,7 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
     const double modulated_e = electrons_of(frame.returns[0].amplitude[pixel], sensor);
     if (modulated_e > 0.0 && over <= 1.0)
       take_noise(findings, phase_noise_rad(image, modulated_e, frame.returns[0].phase_rad[pixel], sensor) *
-                               sensor.ambiguity_m() / (2.0 * std::acos(-1.0)));
+                               sensor.ambiguity_m() / (2.0 * std::numbers::pi));
   }
   if (seen == 0)
     return std::nullopt;

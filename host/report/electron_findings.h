@@ -9,12 +9,13 @@
 
 namespace pmdsim {
 
-// Of the pixels of a coarse frame of direct light that see something, of one image.
+// Of the pixels of a coarse frame of direct light that see something, of one image, or of one reading of
+// those that are averaged.
 struct ElectronFindings {
   double brightest_e = 0.0, darkest_e = 0.0; // of the diodes' mean light, both taps
   double background_e = 0.0, dark_e = 0.0;   // of foreign light where it is strongest, and in the dark
-  double fullest_over_well =
-      0.0;                 // the fullest tap's mean over its well, or over the ADC's range if that is less
+  // The fullest tap's mean over its well, or over the ADC's range if that is less.
+  double fullest_over_well = 0.0;
   double share_full = 0.0; // of the pixels, 0 to 1: those that a tap is full of
   // The least and the largest predicted noise of the first frequency; nothing where none can be said.
   std::optional<double> least_noise_m, most_noise_m;

@@ -1,5 +1,6 @@
 // Philox4x32-10, a random number generator without a state: four words that follow from a counter and a key
-// (J. K. Salmon and others, "Parallel random numbers: as easy as 1, 2, 3", SC 2011). GLSL and C++ both read it.
+// (J. K. Salmon and others, "Parallel random numbers: as easy as 1, 2, 3", SC 2011). GLSL and C++ both read it, and both are held
+// against its known answers; electrons are counted in C++ (docs/decisions.md, "Electrons on the host").
 #ifndef PMDSIM_PHILOX_H
 #define PMDSIM_PHILOX_H
 

@@ -1,5 +1,5 @@
-// The cost of a sensor's electronics: frames of scenes/paper_ring.json with and without, in alternation, warm.
-// Not a test: times are reported, never asserted. The noise is checked against its prediction first.
+// The cost of a sensor's electronics: frames of scenes/paper_ring.json with and without, in alternation,
+// warm. Not a test: times are reported, never asserted. The noise is checked against its prediction first.
 
 #include "engine/electronics/electrons.h"
 #include "engine/simulator.h"

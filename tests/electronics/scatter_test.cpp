@@ -130,3 +130,26 @@ TEST_CASE("scatter has the same bits in every run") {
   CHECK(first.returns[0].phase_rad == second.returns[0].phase_rad);
   CHECK(first.mean_radiance == second.mean_radiance);
 }
+
+TEST_CASE("what gets next to nothing of the scattered light is nothing") {
+  Sensor sensor = scattering_sensor();
+  sensor.scatter = {{0.01, 12e-6}};
+  Measurement frame;
+  frame.resolution = sensor.resolution;
+  Return &of = frame.returns.emplace_back();
+  const std::size_t pixels = sensor.pixel_count(), bright = 3 * 37 + 3;
+  of.amplitude.assign(pixels, 0.0f);
+  of.phase_rad.assign(pixels, std::nanf(""));
+  of.distance_m.assign(pixels, std::nanf(""));
+  frame.mean_radiance.assign(pixels, 0.0f);
+  of.amplitude[bright] = frame.mean_radiance[bright] = 1.0f;
+  of.phase_rad[bright] = 1.0f;
+  scatter(sensor, frame);
+  CHECK(of.amplitude[bright + 1] > 1e-4f);
+  CHECK(of.phase_rad[bright + 1] == Approx(1.0).margin(1e-3));
+  CHECK(of.amplitude[pixels - 1] == 0.0f);
+  CHECK(std::isnan(of.phase_rad[pixels - 1]));
+  CHECK(std::isnan(of.distance_m[pixels - 1]));
+  for (const float mean : frame.mean_radiance)
+    CHECK(mean >= 0.0f);
+}

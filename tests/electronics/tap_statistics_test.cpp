@@ -212,3 +212,35 @@ TEST_CASE("parts of a pixel that are averaged have its light together, and noise
   CHECK(std::sqrt(over_pixels.variance()) == Approx(80.0 / 2.0).epsilon(0.1));
   CHECK(amplitude.mean() == Approx(1.0).epsilon(0.01));
 }
+
+TEST_CASE("the mean of very many readings is as exact as that of few") {
+  Electronics electronics = plain_electronics();
+  electronics.read_noise_e = 3.0;
+  electronics.full_well_e = 1e9;
+  electronics.gain_dn_per_e = 1.0 / 3000.0; // noise of one digital number around 3,000
+  electronics.offset_dn = 30.0;
+  electronics.frames_averaged = 10'000;
+  electronics.demodulation_contrast = {0.2};
+  const LightLevels levels = light_levels(electronics, 3, {17e6}, phase_rad, 64);
+  const Return frame = noisy_frame(levels, 1).returns[0];
+  const MeanAndVariance dn = theory_dn(theory_e(levels, 17e6, 0, false), electronics);
+  Moments found;
+  for (const float number_dn : frame.tap_a_dn[0])
+    found.add(number_dn);
+  const double error_dn = std::sqrt(dn.variance / (10'000.0 * found.count()));
+  fmt::print("10,000 readings: mean {:.5f} DN, found {:.5f}, standard error {:.5f}\n", dn.mean, found.mean(),
+             error_dn);
+  CHECK(std::abs(found.mean() - dn.mean) < 4.0 * error_dn);
+  CHECK(found.variance() == Approx(dn.variance / 10'000.0).epsilon(0.5));
+}
+
+TEST_CASE(
+    "where the ADC ends below the well, suppression of background does not help, and that is predicted") {
+  Electronics electronics = plain_electronics();
+  electronics.adc_bits = 10; // 983 DN above the offset are 12,288 e of 50,000
+  electronics.sbi_e = 1e6;
+  const LightLevels levels = light_levels(electronics, 4, {60e3}, phase_rad);
+  const Return frame = noisy_frame(levels, 0).returns[0];
+  CHECK(frame.saturated[0] != 0);
+  CHECK(std::isnan(frame.distance_noise_m[0]));
+}

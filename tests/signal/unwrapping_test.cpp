@@ -85,6 +85,21 @@ TEST_CASE("where unwrap_ok says 1, noisy phases unwrap to the distance") {
   }
 }
 
+TEST_CASE("what lies beyond the range is not known, and a full tap's frequency is left out") {
+  const Sensor near = of_frequencies({20e6, 50e6}, 0.5);
+  Measurement frame = wrapped(near, {2.0}, 0.0, 1);
+  unwrap_distances(near, frame);
+  CHECK(std::isnan(frame.unwrapped_distance_m[0]));
+  CHECK(frame.unwrap_ok[0] == 0);
+  const Sensor sensor = of_frequencies({20e6, 50e6}, 7.0);
+  frame = wrapped(sensor, {2.0}, 0.0, 1);
+  frame.returns[1].distance_m[0] = 0.4f;
+  frame.returns[1].distance_noise_m[0] = std::nanf("");
+  unwrap_distances(sensor, frame);
+  CHECK(frame.unwrapped_distance_m[0] == Approx(2.0).margin(1e-5));
+  CHECK(frame.unwrap_ok[0] == 0);
+}
+
 TEST_CASE("phases that do not agree, or are not there, are told") {
   const Sensor sensor = of_frequencies({20e6, 50e6}, 14.0);
   Measurement frame = wrapped(sensor, {2.0, 2.0, 2.0}, 0.0, 1);

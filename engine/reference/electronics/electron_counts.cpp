@@ -244,7 +244,9 @@ private:
     for (std::uint32_t k = 0; k < taps_; ++k) {
       const double a = camera_.light_e(k, pixel, 0) + camera_.dark_e();
       const double b = of_.two_tap ? camera_.light_e(k, pixel, 1) + camera_.dark_e() : 0.0;
-      const double fullest = std::max(a, b) - (of_.two_tap ? std::min(of_.sbi_e, std::min(a, b)) : 0.0);
+      const double over = std::max(std::max(a, b) - of_.full_well_e, 0.0);
+      const double fullest =
+          std::max(a, b) - (of_.two_tap ? std::min(over, std::min(of_.sbi_e, std::min(a, b))) : 0.0);
       is_full = is_full || fullest > of_.full_well_e ||
                 of_.gain_dn_per_e * fullest + of_.offset_dn > of_.largest_dn();
       const double variance = a + b + (of_.two_tap ? 2.0 : 1.0) * reading;

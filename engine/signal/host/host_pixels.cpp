@@ -49,7 +49,7 @@ private:
   std::vector<shader::Tone> tones_;
   std::vector<shader::Frequency> frequencies_; // the last one of the mean light where it is kept
   std::uint32_t frequency_count_;              // that have phases
-  std::vector<shader::LightRun> field_runs_; // these and what follows: where the field is interpolated
+  std::vector<shader::LightRun> field_runs_;   // these and what follows: where the field is interpolated
   std::vector<RunForm> field_forms_;
   std::vector<shader::Frequency> field_frequencies_;
   std::optional<float> backscatter_;
@@ -91,16 +91,16 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
       tones_(on.modulation.all_tones()),
       frequencies_(
           frequency_records(on.modulation, groups.largest_intensity_w_sr, scope.bound, groups.diode_count)),
-      frequency_count_(on.modulation.modulations()), backscatter_(on.scene.backscatter), vignetting_(on.sensor.vignetting == Vignetting::cos4),
-      lit_(on.modulation.lit), holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
+      frequency_count_(on.modulation.modulations()), backscatter_(on.scene.backscatter),
+      vignetting_(on.sensor.vignetting == Vignetting::cos4), lit_(on.modulation.lit),
+      holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
       reports_kept_(on.modulation.reports_kept), later_(scope.later),
       first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
       loops_(widest_pixel_loops(on.options.host_vector_bits)) {
-  if (frequency_count_ > most_pixel_frequencies || on.scene.paint.painted ||
-      !buffers_.channels.is_mapped())
+  if (frequency_count_ > most_pixel_frequencies || on.scene.paint.painted || !buffers_.channels.is_mapped())
     throw std::logic_error("these pixels are the device's");
   const RunForm form = form_of(on, groups, scope);
   if (scope.beforehand)

@@ -245,7 +245,7 @@ void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels
 constexpr std::uint32_t most_kept_runs = 4;
 struct Returns {
   Complex z[most_pixel_frequencies]; // relative to twice the sample's own range
-  Floats mean; // of the light at 0 Hz
+  Floats mean;                       // of the light at 0 Hz
   Terms terms;
   Ints by_field; // some run's sums are interpolated
   Wide range;

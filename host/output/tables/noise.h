@@ -29,8 +29,8 @@ std::string limiting_noise(const NoiseShares &shares);
 // A wall across the optical axis, in the pixel in the image's centre.
 struct PrecisionPoint {
   double reflectivity = 0.0, distance_m = 0.0;
-  double signal_e = 0.0;                      // of one image, both taps
-  bool is_full = false;                       // a tap is: there is no prediction then
+  double signal_e = 0.0;                          // of one image, both taps
+  bool is_full = false;                           // a tap is: there is no prediction then
   std::optional<double> predicted_m{}, found_m{}; // standard deviation of distance_m
   NoiseShares shares{};
 };

@@ -199,3 +199,29 @@ TEST_CASE("a frame knows its sensor and its number") {
     CHECK(frame.measurement.number == ExposureNumber{0, 3, 0});
   }
 }
+
+TEST_CASE("scatter and electrons of taps that are exposed one by one are those of one exposure, at rest") {
+  const auto taken = [](bool one_by_one) {
+    LoadedWall wall(one_by_one ? 1e-3 : 0.0, one_by_one);
+    Sensor &sensor = wall.setup.start.sensors[0];
+    sensor.scatter = {{0.2, 2.0 * sensor.pixel_pitch_m.x}};
+    sensor.electronics.emplace();
+    sensor.electronics->full_well_e = 1e9;
+    sensor.electronics->read_noise_e = 20.0;
+    sensor.electronics->noiseless_channels = true;
+    sensor.electronics->gain_dn_per_e = 1e-4;
+    Exposures exposures(wall.setup, "", true);
+    return exposures.take(0, 0, Light::beside_lens, no_progress).measurement;
+  };
+  const Measurement at_once = taken(false), one_by_one = taken(true);
+  for (const Measurement *frame : {&at_once, &one_by_one})
+    CHECK(std::ranges::count(frame->passes, "scatter", &PassTime::name) == 1);
+  for (std::size_t f = 0; f < 2; ++f)
+    for (std::size_t i = 0; i < at_once.coverage.size(); ++i) {
+      const Return &a = at_once.returns[f], &b = one_by_one.returns[f];
+      CHECK(b.amplitude_noiseless[i] == Approx(a.amplitude_noiseless[i]).epsilon(1e-5));
+      CHECK(b.phase_rad_noiseless[i] == Approx(a.phase_rad_noiseless[i]).margin(1e-5));
+      CHECK(b.tap_a_e[1][i] == Approx(a.tap_a_e[1][i]).epsilon(1e-5));
+      CHECK(one_by_one.mean_radiance[i] == Approx(at_once.mean_radiance[i]).epsilon(1e-5));
+    }
+}

@@ -179,12 +179,56 @@ TEST_CASE("noise writes its tables and pictures, and needs electronics") {
   CHECK(work.files("none").empty());
 }
 
+TEST_CASE("sensors of other sizes and wishes do not get each other's channels") {
+  const Workspace work;
+  json setup = with_preset("azure_kinect_like");
+  setup["sensors"][0].erase("unwrap_range_m");
+  json large = setup["sensors"][0];
+  setup["sensors"][0]["electronics"]["noiseless_channels"] = true;
+  large["name"] = "large";
+  large["resolution"] = {64, 48};
+  setup["sensors"].push_back(large);
+  setup["frames"] = {{"rate_hz", 30}, {"count", 4}};
+  render_to(work, setup, "out");
+  for (const std::string frame : {"0000", "0003"}) {
+    CHECK(std::filesystem::exists(work / ("out/pmd_" + frame + ".f0.distance_m_noiseless.npy")));
+    CHECK_FALSE(std::filesystem::exists(work / ("out/large_" + frame + ".f0.distance_m_noiseless.npy")));
+    CHECK(std::filesystem::file_size(work / ("out/large_" + frame + ".f0.saturated.npy")) > 4 * 64 * 48);
+  }
+}
+
+TEST_CASE("binning after the ADC leaves the photon transfer of one reading") {
+  const Workspace work;
+  json setup = with_preset("azure_kinect_like");
+  setup["sensors"][0]["electronics"]["binning"] = {2, 2};
+  setup["sensors"][0]["electronics"]["binning_after_adc"] = true;
+  const Run done =
+      run_pmdsim({"noise", work.write("setup.json", setup.dump()), "-o", work / "out", "--json"});
+  REQUIRE(done.exit_code == 0);
+  for (const json &point : json::parse(done.output)["noise"][0]["photon_transfer"])
+    if (point["full"] == false)
+      CHECK(point["found_variance_dn2"].get<double>() ==
+            Approx(point["variance_dn2"].get<double>()).epsilon(0.15));
+}
+
+TEST_CASE("a tradeoff does not take scatter for an error") {
+  const Workspace work;
+  json setup = with_preset("opt8241_like");
+  setup["sensors"][0]["resolution"] = {16, 12};
+  const Run done =
+      run_pmdsim({"tradeoff", work.write("setup.json", setup.dump()), "-o", work / "out", "--json"});
+  INFO(done.errors);
+  REQUIRE(done.exit_code == 0);
+  CHECK(done.errors.find("are left out") != std::string::npos);
+  CHECK(json::parse(done.output)["points"][0]["error_max_m"] < 1e-5);
+}
+
 TEST_CASE("commands that compare noiseless frames leave electronics out, and say so") {
   const Workspace work;
   const Run done = run_pmdsim({"deform", work.write("setup.json", with_preset("opt8241_like").dump()), "-o",
                                work / "out", "--format", "npy"});
   CHECK(done.exit_code == 0);
-  CHECK(done.errors.find("electronics are left out") != std::string::npos);
+  CHECK(done.errors.find("electronics, scatter and unwrapping are left out") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(work / "out/pmd_0000.mean_radiance.npy"));
 }
 
