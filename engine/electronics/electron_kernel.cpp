@@ -9,6 +9,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t usual_images = 4;
 constexpr float two_pi_float = 6.2831853f, turns_per_rad = 0.15915494f;
 
 // What the camera reads of an image: taps' electrons before the ADC, and digital numbers.
@@ -65,21 +66,21 @@ struct Correlations {
   Floats of[most_images];
 };
 
-// A vector of pixels.
-template <bool two_tap, bool merged>
+// A vector of pixels. `usual`: of one exposure and four images, so that the loops over them are unrolled.
+template <bool two_tap, bool merged, bool usual>
 class PixelElectrons {
 public:
   PixelElectrons(const ElectronWork &of, const Pixels &pixels)
       : of_(of), pixels_(pixels), pattern_(fixed_pattern(of, pixels, 0)) {
-    for (std::uint32_t k = 0; of_.exposures > 1 && k < of_.images; ++k)
+    for (std::uint32_t k = 0; exposures() > 1 && k < images(); ++k)
       images_[k] = rests_[k] = {};
   }
 
   void count() {
     find_light();
-    for (std::uint32_t exposure = 0; exposure < of_.exposures; ++exposure) {
+    for (std::uint32_t exposure = 0; exposure < exposures(); ++exposure) {
       begin_exposure(exposure);
-      for (std::uint32_t image = 0; image < of_.images; ++image)
+      for (std::uint32_t image = 0; image < images(); ++image)
         expose(exposure, image);
     }
     demodulate();
@@ -87,6 +88,9 @@ public:
   }
 
 private:
+  std::uint32_t images() const { return usual ? usual_images : of_.images; }
+  std::uint32_t exposures() const { return usual ? 1 : of_.exposures; }
+
   // The noiseless z and correlation samples.
   PMDSIM_INLINED void find_light() {
     if (of_.amplitude) {
@@ -96,7 +100,7 @@ private:
       turns -= turns > 0.5f ? all(1.0f) : all(0.0f);
       z_ = amplitude * unit_phasor(turns);
     }
-    for (std::uint32_t k = 0; k < of_.images; ++k) {
+    for (std::uint32_t k = 0; k < images(); ++k) {
       const auto &[re, im] = of_.reference[k];
       light_.of[k] = of_.amplitude ? re * z_.re + im * z_.im : pixels_.load_from(of_.taps[k]);
       if (!of_.amplitude)
@@ -105,9 +109,9 @@ private:
   }
 
   PMDSIM_INLINED void begin_exposure(std::uint32_t exposure) {
-    if (of_.parts > 1)
+    if (!usual && of_.parts > 1)
       pattern_ = fixed_pattern(of_, pixels_, exposure % of_.parts);
-    const std::uint32_t draws = taps_ * of_.images;
+    const std::uint32_t draws = taps_ * images();
     draw_normals(of_, pixels_, ChanceStream::normals, exposure, draws, normals_);
     if (!merged && of_.read_noise_e > 0.0f)
       draw_normals(of_, pixels_, ChanceStream::reads, exposure, draws, reads_);
@@ -128,7 +132,7 @@ private:
   PMDSIM_INLINED void demodulate() {
     Floats difference[most_images], mean = all(0.0f), largest = all(0.0f);
     Complex z{};
-    for (std::uint32_t k = 0; k < of_.images; ++k) {
+    for (std::uint32_t k = 0; k < images(); ++k) {
       const Reading reading = mean_reading(k);
       for (std::uint32_t tap = 0; of_.taps_out && tap < taps_; ++tap) {
         pixels_.store_to(of_.tap_e[tap][k], reading.charge_e[tap]);
@@ -146,7 +150,7 @@ private:
     store_return({is_nothing ? all(0.0f) : z.re, is_nothing ? all(0.0f) : z.im});
     if (!of_.taps_out)
       return;
-    for (std::uint32_t k = 0; k < of_.images; ++k)
+    for (std::uint32_t k = 0; k < images(); ++k)
       pixels_.store_to(of_.taps_out[k],
                        of_.radiance_per_e * (taps_ == 2 ? difference[k] : difference[k] - mean));
   }
@@ -158,7 +162,9 @@ private:
     const Floats across = 0.5f * larger(variance_ - (second_.re * cos2 + second_.im * sin2), all(0.0f));
     const Floats phase_rad =
         (of_.of_image * of_.radiance_per_e) * exact_root(of_.per_exposure * across * per_size2);
-    const Ints is_known = (size2 > 0.0f) & ~is_full_;
+    const Floats fullest_dn = of_.gain_dn_per_e * fullest_ + of_.offset_dn;
+    const Ints is_full = (fullest_ > of_.full_well_e) | (fullest_dn > of_.largest_dn);
+    const Ints is_known = (size2 > 0.0f) & ~is_full;
     pixels_.store_to(of_.distance_noise_m,
                      is_known ? (of_.ambiguity_m * turns_per_rad) * phase_rad : all(not_a_number));
   }
@@ -175,7 +181,7 @@ private:
       const Floats over = larger(fullest - of_.full_well_e, all(0.0f));
       fullest -= smaller(over, smaller(all(of_.sbi_e), smaller(means.of(0), means.of(1))));
     }
-    is_full_ |= (fullest > of_.full_well_e) | (of_.gain_dn_per_e * fullest + of_.offset_dn > of_.largest_dn);
+    fullest_ = larger(fullest_, fullest);
     const auto &[re, im] = of_.twice_reference[image];
     variance_ += variance;
     second_ = {second_.re + re * variance, second_.im + im * variance};
@@ -204,7 +210,7 @@ private:
       const Ints is_full = read_tap(of_, reading, tap);
       saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
     }
-    if (of_.exposures == 1) {
+    if (exposures() == 1) {
       images_[image] = reading;
       return;
     }
@@ -217,7 +223,7 @@ private:
   // Of all exposures.
   PMDSIM_INLINED Reading mean_reading(std::uint32_t image) const {
     Reading mean = images_[image];
-    for (std::uint32_t tap = 0; of_.exposures > 1 && tap < taps_; ++tap) {
+    for (std::uint32_t tap = 0; exposures() > 1 && tap < taps_; ++tap) {
       mean.charge_e[tap] = of_.per_exposure * (mean.charge_e[tap] + rests_[image].charge_e[tap]);
       mean.number_dn[tap] = of_.per_exposure * (mean.number_dn[tap] + rests_[image].number_dn[tap]);
     }
@@ -252,25 +258,35 @@ private:
   Correlations light_;
   Floats variance_{}; // sum over the images
   Complex second_{};  // the same times exp(2 j theta_k)
-  Ints is_full_{}, saturated_{};
+  Floats fullest_{};  // charge of all taps, in the mean
+  Ints saturated_{};
   Reading images_[most_images],
       rests_[most_images]; // sums over the exposures, and what rounding took from them
 };
 
-template <bool two_tap, bool merged>
-void count_pixels(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+template <bool two_tap, bool merged, bool usual>
+void count_vectors(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t pixel = first; pixel < last; pixel += lanes) {
     const std::uint32_t left = last - pixel;
     const Pixels pixels{pixel, left < lanes ? static_cast<int>(left) : lanes};
-    PixelElectrons<two_tap, merged>(of, pixels).count();
+    PixelElectrons<two_tap, merged, usual>(of, pixels).count();
   }
+}
+
+template <bool two_tap, bool merged>
+void count_exposures(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+  if (of.exposures == 1 && of.images == usual_images)
+    return count_vectors<two_tap, merged, true>(of, first, last);
+  count_vectors<two_tap, merged, false>(of, first, last);
 }
 
 void count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
   const bool merged = of.read_noise_e >= least_merged_noise_e;
   if (of.two_tap)
-    return merged ? count_pixels<true, true>(of, first, last) : count_pixels<true, false>(of, first, last);
-  return merged ? count_pixels<false, true>(of, first, last) : count_pixels<false, false>(of, first, last);
+    return merged ? count_exposures<true, true>(of, first, last)
+                  : count_exposures<true, false>(of, first, last);
+  return merged ? count_exposures<false, true>(of, first, last)
+                : count_exposures<false, false>(of, first, last);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 #include "engine/model/lanes.h"
 #include "engine/surfaces/scan_board.h"
 
+#include <initializer_list>
+
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 

@@ -54,8 +54,8 @@ double background_at(const Sensor &sensor, const glm::uvec2 &coarse, std::size_t
   const Electronics &electronics = *sensor.electronics;
   if (electronics.background_image.empty())
     return electronics.background_radiance_w_m2_sr;
-  const glm::dvec2 middle(static_cast<double>(pixel % coarse.x) + 0.5,
-                          static_cast<double>(pixel / coarse.x) + 0.5);
+  const std::size_t column = pixel % coarse.x, row = pixel / coarse.x;
+  const glm::dvec2 middle(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const glm::uvec2 at(middle / glm::dvec2(coarse) * glm::dvec2(sensor.resolution));
   const float relative = electronics.background_image[std::size_t{at.y} * sensor.resolution.x + at.x];
   return electronics.background_radiance_w_m2_sr * static_cast<double>(relative);
