@@ -87,7 +87,7 @@ private:
                             : frame.mean_radiance.data();
     work_.mean_radiance = mean_.data();
     // Taps that are exposed one by one are no samples of one sine.
-    if (sensor_.waveform.kind == Waveform::Kind::sine && !one_by_one) {
+    if (sensor_.waveform.kind == Waveform::Kind::sine && !one_by_one && !request.reads_taps) {
       work_.amplitude = to_.amplitude.data();
       work_.phase_rad = to_.phase_rad.data();
       return;

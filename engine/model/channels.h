@@ -188,7 +188,7 @@ inline constexpr std::array channel_rows = [] {
        Preview{"lit", Scale::share}},
       {"mean_radiance",
        radiance_unit,
-       "mean radiance of all diodes' light, noiseless; only with electronics",
+       "mean radiance of all diodes' light, other cameras' included, noiseless; only with electronics",
        &Measurement::mean_radiance,
        {Area::mean, 0}},
       {"unwrapped_distance_m",

@@ -68,4 +68,12 @@ Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_
   return result;
 }
 
+void set_from_taps(Return &to, std::vector<std::vector<float>> taps, double modulation_hz) {
+  Return set = return_from_taps(std::move(taps), modulation_hz);
+  to.amplitude = std::move(set.amplitude);
+  to.phase_rad = std::move(set.phase_rad);
+  to.distance_m = std::move(set.distance_m);
+  to.taps = std::move(set.taps);
+}
+
 } // namespace pmdsim

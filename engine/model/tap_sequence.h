@@ -28,4 +28,7 @@ void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, do
 // the taps to float can make counts as 0.
 Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz);
 
+// Sets taps, amplitude, phase and distance to those, and leaves the other channels.
+void set_from_taps(Return &to, std::vector<std::vector<float>> taps, double modulation_hz);
+
 } // namespace pmdsim

@@ -160,7 +160,7 @@ Sensor affordable(Sensor sensor, std::size_t diode_count, Shadows shadows, std::
 }
 
 std::vector<ReferenceFrame> reference_frames(const Setup &setup) {
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   std::vector<ReferenceFrame> frames;
   ProgressBar bar(static_cast<double>(sensors.size()));
   for (const Sensor &fine : sensors) {

@@ -132,7 +132,7 @@ StraightLine straight_line(std::span<const SizeAndTime> points) {
 }
 
 RandomCheck check_at_random(const Setup &setup, const Measurement &found, const std::string &device) {
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   const Sensor &sensor = sensors.front();
   const double each = static_cast<double>(diode_count(illuminators)) * sensor.samples * sensor.samples *
                       static_cast<double>(sensor.modulation_hz.size());

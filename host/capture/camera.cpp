@@ -72,19 +72,24 @@ std::vector<std::pair<std::string, std::string>> Camera::path() const {
   return simulator_ ? simulator_->path() : std::vector<std::pair<std::string, std::string>>();
 }
 
-Measurement Camera::measure(const Progress &progress, const ExposureNumber &number) {
+Measurement Camera::measure(const Progress &progress, const ExposureNumber &number, const AddLight &add) {
   Measurement measurement;
-  if (is_reference() && sensor_.electronics && sensor_.scatter.empty()) {
+  if (is_reference() && sensor_.electronics && sensor_.scatter.empty() && !add) {
     throw_if_interrupted();
     const reference::Frame frame = reference_frame_(progress);
     measurement = measurement_of(frame, number);
     reference::count_electrons(frame, sensor_, extras_.taps, measurement);
   } else {
     measurement = measure_light(progress, number);
+    if (add)
+      add(measurement);
     if (!sensor_.scatter.empty())
       scatter(sensor_, measurement);
     if (sensor_.electronics)
-      count_electrons(sensor_, {.keep_taps = extras_.taps, .between = progress_at_end(progress)},
+      count_electrons(sensor_,
+                      {.reads_taps = static_cast<bool>(add),
+                       .keep_taps = extras_.taps,
+                       .between = progress_at_end(progress)},
                       measurement);
   }
   if (sensor_.unwrap_range_m > 0.0)

@@ -45,8 +45,11 @@ public:
   void prepare(const Setup &setup, const Sensor &sensor, const Accuracy &accuracy = {});
   // As Simulator::path(); nothing of the reference.
   std::vector<std::pair<std::string, std::string>> path() const;
-  // One frame, with the noise of the sensor's electronics. Throws Error, interrupted among others.
-  Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});
+  // One frame, with the noise of the sensor's electronics. `add` adds to its light what comes from elsewhere:
+  // from then on its taps are no samples of a sine. Throws Error, interrupted among others.
+  using AddLight = std::function<void(Measurement &)>;
+  Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {},
+                      const AddLight &add = {});
   // The same before the electronics.
   Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().

@@ -109,11 +109,7 @@ void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_ra
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
     Return &of = frame.returns[i];
     scatter_images(sensor, of.taps);
-    Return scattered = return_from_taps(std::move(of.taps), sensor.modulation_hz[i]);
-    of.amplitude = std::move(scattered.amplitude);
-    of.phase_rad = std::move(scattered.phase_rad);
-    of.distance_m = std::move(scattered.distance_m);
-    of.taps = std::move(scattered.taps);
+    set_from_taps(of, std::move(of.taps), sensor.modulation_hz[i]);
   }
   const double ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -123,17 +119,21 @@ void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_ra
 
 } // namespace
 
-Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps) {
+Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps,
+                               const AddToExposure &add) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
   BouncesOfTaps bounces(sensor);
   ElectronsRequest electrons{.keep_taps = keep_taps};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
-    std::vector<std::vector<float>> taps;
+    std::vector<std::vector<float>> taps, with_added;
     for (std::size_t k = 0; k < sensor.taps; ++k) {
-      Measurement exposure = expose(i, tap_time_s(sensor, frame_s, i, k));
+      const double time_s = tap_time_s(sensor, frame_s, i, k);
+      Measurement exposure = expose(i, time_s);
       bounces.add(exposure, i, k);
       taps.push_back(std::move(exposure.returns.front().taps[k]));
+      if (add)
+        add(i, k, time_s, exposure, with_added.emplace_back(taps.back()));
       if (sensor.electronics)
         electrons.mean_radiance_of_taps.push_back(exposure.mean_radiance);
       if (frame) {
@@ -145,6 +145,8 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
     }
     returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
     bounces.finish(returns.back(), i);
+    if (add)
+      set_from_taps(returns.back(), std::move(with_added), sensor.modulation_hz[i]);
   }
   frame->bounces = bounces.report();
   frame->returns = std::move(returns);
@@ -163,7 +165,7 @@ Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_ta
                      std::uint32_t paths)
     : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
       camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup), .paths = paths}),
-      instants_(setup) {}
+      others_(setup, device, paths), instants_(setup) {}
 
 const Instant &Exposures::instant_at(double time_s) {
   if (!instants_.holds(time_s))
@@ -187,6 +189,8 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   const Shadows shadows = is_in_lens && !setup_.bounces.any() ? Shadows::off : setup_.shadows;
   camera_.prepare(instant.scene, sensor, is_in_lens ? in_lens : instant.illuminators, setup_.backscatter,
                   shadows, accuracy, setup_.bounces);
+  if (others_.reach(sensor))
+    others_.prepare(instant, sensor);
   prepared_ = view;
 }
 
@@ -200,7 +204,9 @@ TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light
     prepare({sensor, std::nullopt, time_s, light}, accuracy_);
     if (next_s)
       instants_.expect(*next_s);
-    frame.measurement = camera_.measure(progress, {static_cast<std::uint32_t>(sensor), number, 0});
+    const auto add = [&](Measurement &measured) { others_.add_to(frame.sensor, time_s, measured); };
+    frame.measurement = camera_.measure(progress, {static_cast<std::uint32_t>(sensor), number, 0},
+                                        others_.reach(frame.sensor) ? Camera::AddLight(add) : nullptr);
   }
   if (!keep_taps_)
     for (Return &of_frequency : frame.measurement.returns)
@@ -234,7 +240,12 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
     };
     return camera_.measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
   };
-  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose, keep_taps_);
+  const auto add = [&](std::size_t frequency, std::size_t tap, double exposure_s, Measurement &exposure,
+                       std::vector<float> &correlation) {
+    others_.add_to(frame.sensor, frequency, tap, exposure_s, exposure, correlation);
+  };
+  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose, keep_taps_,
+                                         others_.reach(frame.sensor) ? AddToExposure(add) : nullptr);
   return frame;
 }
 

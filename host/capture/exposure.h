@@ -3,6 +3,7 @@
 // and something moves meanwhile, in one for each frequency and tap.
 
 #include "host/capture/camera.h"
+#include "host/capture/other_cameras.h"
 
 #include <functional>
 #include <future>
@@ -67,12 +68,17 @@ void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes)
 // Measures one frequency alone at a time, its taps kept, without its electronics.
 using Exposure = std::function<Measurement(std::size_t frequency, double time_s)>;
 
+// Adds light from elsewhere to the exposure of one tap: to its mean radiance, and to its correlation samples,
+// which are apart.
+using AddToExposure = std::function<void(std::size_t frequency, std::size_t tap, double time_s,
+                                         Measurement &exposure, std::vector<float> &correlation)>;
+
 // The frame that begins at `frame_s`: tap k of frequency i is that of the exposure at tap_time_s(), and
 // phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up. Of
 // light that bounces see multipath_of_taps.h. Electronics count the electrons of each exposure's own light;
 // `keep_taps` as ElectronsRequest.
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose,
-                               bool keep_taps = true);
+                               bool keep_taps = true, const AddToExposure &add = {});
 
 // One sensor's frame.
 struct TakenFrame {
@@ -123,6 +129,7 @@ private:
   bool keep_taps_;
   Accuracy accuracy_;
   Camera camera_;
+  OtherCameras others_;
   std::optional<View> prepared_;
   Instants instants_;
 };

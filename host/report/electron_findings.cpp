@@ -61,6 +61,18 @@ double background_at(const Sensor &sensor, const glm::uvec2 &coarse, std::size_t
   return electronics.background_radiance_w_m2_sr * static_cast<double>(relative);
 }
 
+// The mean light of other cameras; empty: none. Their beat depends on when a frame is taken.
+std::vector<double> others_mean(const Setup &setup, const Sensor &coarse) {
+  std::vector<Illuminator> illuminators;
+  for (const OtherIlluminator &other : setup.start.others)
+    illuminators.push_back(other.illuminator);
+  if (illuminators.empty())
+    return {};
+  return reference::simulate(setup.start.scene, coarse, illuminators, setup.backscatter,
+                             {.shadows = setup.shadows})
+      .mean_radiance;
+}
+
 void take_noise(ElectronFindings &findings, double noise_m) {
   findings.least_noise_m = std::min(findings.least_noise_m.value_or(noise_m), noise_m);
   findings.most_noise_m = std::max(findings.most_noise_m.value_or(noise_m), noise_m);
@@ -76,8 +88,8 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
   coarse.samples = 1;
   const reference::Frame frame = reference::simulate(setup.start.scene, coarse, setup.start.illuminators,
                                                      setup.backscatter, {.shadows = setup.shadows});
+  const std::vector<double> others = others_mean(setup, coarse);
   ElectronFindings findings;
-
   findings.dark_e = electronics.dark_current_e_per_s * electronics.integration_time_s;
   findings.darkest_e = std::numeric_limits<double>::infinity();
   std::size_t seen = 0, full = 0;
@@ -85,9 +97,10 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
     if (frame.coverage[pixel] == 0.0)
       continue;
     ++seen;
+    const double foreign =
+        background_at(sensor, coarse.resolution, pixel) + (others.empty() ? 0.0 : others[pixel]);
     const ImageElectrons image{electrons_of(frame.mean_radiance[pixel], sensor),
-                               electrons_of(background_at(sensor, coarse.resolution, pixel), sensor),
-                               findings.dark_e};
+                               electrons_of(foreign, sensor), findings.dark_e};
     findings.background_e = std::max(findings.background_e, image.background_e);
     findings.brightest_e = std::max(findings.brightest_e, image.signal_e);
     findings.darkest_e = std::min(findings.darkest_e, image.signal_e);

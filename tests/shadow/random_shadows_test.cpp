@@ -46,7 +46,7 @@ void check_reached(const ReachedComparison &comparison) {
 void check_scene(const std::string &name, const Setup &setup, const Variant &variant,
                  const reference::Frame &expected) {
   INFO(name);
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   Simulator simulator = make_simulator(options_of(variant));
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, Shadows::automatic);
   const Measurement measured = simulator.measure();
@@ -112,7 +112,7 @@ std::vector<bool> not_comparable(const ReachedComparison &reached, std::vector<b
 void check_shipped(const std::vector<std::string> &names) {
   for (const std::string &name : names) {
     const Setup setup = shipped(name);
-    const auto &[scene, sensors, illuminators] = setup.start;
+    const auto &[scene, sensors, illuminators, others] = setup.start;
     const auto expected =
         reference::simulate(scene, sensors[0], illuminators, setup.backscatter, reference_options);
     for (const Variant &variant : variants)
@@ -241,7 +241,7 @@ TEST_CASE("shadows all around a fisheye agree with the reference", "[long]") {
 
 TEST_CASE("where nothing can block, shadows change no bit") {
   const Setup setup = shipped("paper_ring");
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   Simulator simulator = make_simulator(options_of(variants[0]));
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, Shadows::off);
   const Measurement off = simulator.measure();
@@ -255,7 +255,7 @@ TEST_CASE("where nothing can block, shadows change no bit") {
 
 TEST_CASE("nothing in a closed box shades it") {
   const Setup setup = shipped("closed_box");
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   Simulator simulator = make_simulator(options_of(variants[0]));
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, Shadows::automatic);
   const Measurement measured = simulator.measure();

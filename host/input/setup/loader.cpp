@@ -86,6 +86,26 @@ void warn_of_unseen_harmonics(Setup &setup) {
   }
 }
 
+// Those of other cameras apart.
+void set_illuminators(const ordered_json &illuminators, std::vector<Illuminator> all, const Place &place,
+                      Instant &instant) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (is_of_another(illuminators[i]))
+      instant.others.push_back({illuminators[i].at("modulation_hz"), std::move(all[i])});
+    else
+      instant.illuminators.push_back(std::move(all[i]));
+  if (instant.illuminators.empty())
+    throw input_error(place, "expected at least one without modulation_hz, all are of other cameras");
+}
+
+void warn_of_unused_others(Setup &setup) {
+  for (const Sensor &sensor : setup.start.sensors)
+    if (!setup.start.others.empty() && !sensor.electronics)
+      setup.warnings.push_back(fmt::format("sensor {}: illuminators with modulation_hz are left out, as only "
+                                           "electronics see light of other cameras",
+                                           sensor.name));
+}
+
 } // namespace
 
 Setup load_setup(const std::filesystem::path &file) {
@@ -106,9 +126,12 @@ Setup load_setup(const std::filesystem::path &file) {
   for (std::size_t i = 0; i < sensors.size(); ++i)
     setup.start.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
   refuse_doubled_names(setup.start.sensors, "sensor", root / "sensors");
-  setup.start.illuminators = illuminators_of(setup.as_used.at("illuminators"), root / "illuminators", scene,
-                                             setup.start.sensors, setup.warnings);
-  refuse_doubled_names(setup.start.illuminators, "illuminator", root / "illuminators");
+  const ordered_json &illuminators = setup.as_used.at("illuminators");
+  std::vector<Illuminator> all =
+      illuminators_of(illuminators, root / "illuminators", scene, setup.start.sensors, setup.warnings);
+  refuse_doubled_names(all, "illuminator", root / "illuminators");
+  set_illuminators(illuminators, std::move(all), root / "illuminators", setup.start);
+  warn_of_unused_others(setup);
 
   warn_of_unseen_harmonics(setup);
   if (scene.scene.shape_count() == 0)

@@ -44,6 +44,11 @@ struct LensProblem {
 // is towards the lens.
 std::optional<LensProblem> lens_problem(const Sensor &sensor);
 
+// Whether an element of /illuminators belongs to another camera.
+inline bool is_of_another(const nlohmann::ordered_json &illuminator) {
+  return illuminator.contains("modulation_hz");
+}
+
 // The setup's /illuminators. At most 100,000 diodes in all. Appends to `warnings`, one line each, what is odd
 // about their diagrams. Throws Error (input).
 std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,

@@ -103,15 +103,20 @@ Instant Motion::at(double time_s, const Instant &start) const {
 
 Instant Motion::placed_at(double time_s, const Instant &start) const {
   GltfScene moved = gltf_.at(time_s);
-  Instant instant{{}, start.sensors, start.illuminators};
+  Instant instant{{}, start.sensors, start.illuminators, start.others};
   const auto pose_of = [&](const char *list, std::size_t i) {
     return world_from_frame(setup_.at(list).at(i).at("pose"), root_ / list / i / "pose", moved,
                             instant.sensors);
   };
   for (std::size_t i = 0; i < instant.sensors.size(); ++i)
     instant.sensors[i].world_from_camera = pose_of("sensors", i);
-  for (std::size_t i = 0; i < instant.illuminators.size(); ++i)
-    instant.illuminators[i].world_from_illuminator = pose_of("illuminators", i);
+  std::size_t own = 0, other = 0;
+  for (std::size_t i = 0; i < setup_.at("illuminators").size(); ++i) {
+    Illuminator &illuminator = is_of_another(setup_.at("illuminators").at(i))
+                                   ? instant.others[other++].illuminator
+                                   : instant.illuminators[own++];
+    illuminator.world_from_illuminator = pose_of("illuminators", i);
+  }
   instant.scene = std::move(moved.scene);
   return instant;
 }

@@ -14,11 +14,18 @@
 
 namespace pmdsim {
 
+// An illuminator of another camera, with the frequency that it is modulated at.
+struct OtherIlluminator {
+  double modulation_hz;
+  Illuminator illuminator;
+};
+
 // The scene, sensors and illuminators at one time.
 struct Instant {
   Scene scene;
-  std::vector<Sensor> sensors;           // at least one, each with a name of its own
-  std::vector<Illuminator> illuminators; // at least one, each with a name of its own
+  std::vector<Sensor> sensors;            // at least one, each with a name of its own
+  std::vector<Illuminator> illuminators;  // at least one, each with a name of its own
+  std::vector<OtherIlluminator> others{}; // with names of their own, too
 };
 
 // When frames are taken.

@@ -17,7 +17,7 @@ namespace {
 void check_kind(const SceneKind &kind, std::uint32_t triangles, std::uint32_t columns) {
   INFO(kind.name);
   const Setup setup = setup_of_kind(kind, triangles, columns);
-  const auto &[scene, sensors, illuminators] = setup.start;
+  const auto &[scene, sensors, illuminators, others] = setup.start;
   Simulator simulator = make_simulator({.device = {}, .keep_sample_ids = true, .keep_visibility = true});
   simulator.prepare(scene, sensors[0], illuminators, setup.backscatter, setup.shadows);
   const auto expected =

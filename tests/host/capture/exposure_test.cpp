@@ -225,3 +225,41 @@ TEST_CASE("scatter and electrons of taps that are exposed one by one are those o
       CHECK(one_by_one.mean_radiance[i] == Approx(at_once.mean_radiance[i]).epsilon(1e-5));
     }
 }
+
+TEST_CASE("another camera of the same frequency is an illuminator more, at once and tap by tap") {
+  const auto taken = [](bool is_another, bool one_by_one) {
+    Workspace work;
+    work.write("wall.gltf", wall_gltf());
+    auto json = nlohmann::json::parse(small_setup());
+    auto lamp = json["illuminators"][0];
+    lamp["name"] = "other";
+    lamp["pose"] = {{"position_m", {0.3, 0.1, 0.0}}, {"look_at_m", {0.0, 0.0, -1.0}}};
+    lamp["modulation_phase_deg"] = 50;
+    if (is_another)
+      lamp["modulation_hz"] = json["sensors"][0]["modulation_hz"][0];
+    json["illuminators"].insert(json["illuminators"].begin(), lamp);
+    Setup setup = load_setup(work.write("setup.json", json.dump()));
+    Sensor &sensor = setup.start.sensors[0];
+    sensor.tap_interval_s = one_by_one ? 1e-3 : 0.0;
+    sensor.electronics.emplace();
+    sensor.electronics->full_well_e = 1e9;
+    sensor.electronics->read_noise_e = 20.0;
+    sensor.electronics->gain_dn_per_e = 1e-4;
+    if (one_by_one)
+      setup.motion = std::make_shared<const Motion>(load_gltf(work / "wall.gltf", {setup.file}),
+                                                    setup.as_used, Place{setup.file});
+    Exposures exposures(setup, "", true);
+    return exposures.take(0, 0, Light::beside_lens, no_progress).measurement;
+  };
+  const Measurement own = taken(false, false);
+  for (const bool one_by_one : {false, true}) {
+    const Measurement other = taken(true, one_by_one);
+    for (std::size_t i = 0; i < own.coverage.size(); ++i) {
+      CHECK(other.mean_radiance[i] == Approx(own.mean_radiance[i]).epsilon(1e-6));
+      for (std::size_t k = 0; k < own.returns[0].taps.size(); ++k) {
+        CHECK(other.returns[0].tap_a_e[k][i] == Approx(own.returns[0].tap_a_e[k][i]).epsilon(1e-5));
+        CHECK(other.returns[0].tap_b_e[k][i] == Approx(own.returns[0].tap_b_e[k][i]).epsilon(1e-5));
+      }
+    }
+  }
+}

@@ -201,3 +201,24 @@ TEST_CASE("Illuminators that are refused") {
   CHECK_THAT(fixture.error(),
              EndsWith("/illuminators/1/diodes: expected at most 100000 diodes in all illuminators"));
 }
+
+TEST_CASE("Illuminators with a frequency of their own are another camera's") {
+  SetupFixture fixture;
+  json lamp = {{"name", "lamp"}, {"diodes", "monostatic"}, {"modulation_hz", 31e6}};
+  fixture.setup["illuminators"].insert(fixture.setup["illuminators"].begin(), lamp);
+  const Setup setup = fixture.load();
+  REQUIRE(setup.start.illuminators.size() == 1);
+  CHECK(setup.start.illuminators[0].name == "ring");
+  REQUIRE(setup.start.others.size() == 1);
+  CHECK(setup.start.others[0].modulation_hz == 31e6);
+  CHECK(setup.start.others[0].illuminator.name == "lamp");
+  REQUIRE(setup.warnings.size() == 1);
+  CHECK_THAT(setup.warnings[0], Contains("sensor pmd: illuminators with modulation_hz are left out"));
+  fixture.illuminator()["name"] = "ring";
+  CHECK_THAT(fixture.error(), Contains("/illuminators/1/name: "));
+  fixture.setup["illuminators"] = json::array({lamp});
+  CHECK_THAT(fixture.error(), Contains("/illuminators: expected at least one without modulation_hz"));
+  lamp["modulation_hz"] = 0.5;
+  fixture.setup["illuminators"].push_back(lamp);
+  CHECK_THAT(fixture.error(), Contains("/illuminators/1/modulation_hz: "));
+}

@@ -26,6 +26,7 @@ struct With : SetupFixture {
     sensor()["pose"] = {{"position_m", {0, 0, 0}}, {"look_at_m", {0, 0, -1}}};
     illuminator()["pose"] = {{"position_m", {0, 0, 0}}, {"look_at_m", {0, 0, -1}}};
     illuminator()["pattern"] = {{"order", 2}};
+    setup["illuminators"].push_back({{"name", "other"}, {"diodes", "monostatic"}, {"modulation_hz", 1e6}});
     setup[json::json_pointer(pointer)] = value;
   }
 };
@@ -81,6 +82,7 @@ TEST_CASE("The ranges of a setup's numbers", "[smoke]") {
   check_limits({"/illuminators/0/intensity_w_sr", 0, 1e30});
   check_limits({"/illuminators/0/pattern/order", 0, 1e6});
   check_limits({"/illuminators/0/modulation_phase_deg", -3.6e6, 3.6e6});
+  check_limits({"/illuminators/1/modulation_hz", 1, 1e12});
   check_limits({"/frames/start_s", -1e9, 1e9});
   check_limits({"/frames/rate_hz", 1e-6, 1e9});
 }

@@ -1,0 +1,47 @@
+#pragma once
+// Light of other cameras in the scene, as a setup's illuminators with modulation_hz give it, in frames of a
+// sensor with electronics.
+
+#include "host/capture/camera.h"
+
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+class OtherCameras {
+public:
+  // Of a setup, which must outlive it; `device` and `paths` as Camera's and Extras'.
+  OtherCameras(const Setup &setup, const std::string &device, std::uint32_t paths);
+
+  // Whether frames of the sensor have light of theirs.
+  bool reach(const Sensor &sensor) const { return sensor.electronics && !cameras_.empty(); }
+
+  // What is added from here on is what the sensor sees of them at this instant, which must outlive it.
+  void prepare(const Instant &instant, const Sensor &sensor);
+  // As add_other_light(), of all of them. Adds the pass "other_cameras" to the frame's times. Throws Error,
+  // interrupted among others.
+  void add_to(const Sensor &sensor, double frame_s, Measurement &frame);
+  // The same of the exposure of one tap, whose correlation samples are apart.
+  void add_to(const Sensor &sensor, std::size_t frequency, std::size_t tap, double begin_s,
+              Measurement &exposure, std::vector<float> &correlation);
+
+private:
+  // One for each frequency: a camera whose sensor sees nothing but its light, and what it has seen since it
+  // was prepared.
+  struct Other {
+    double modulation_hz;
+    Camera camera;
+    std::optional<Measurement> seen{};
+  };
+
+  const Measurement &seen_by(Other &other) const;
+
+  const Setup &setup_;
+  std::list<Other> cameras_;
+};
+
+} // namespace pmdsim
