@@ -15,7 +15,7 @@ struct ElectronsRequest {
   // The mean radiance at the exposure of each tap, frequency by frequency, where they are exposed one by one;
   // empty: Measurement::mean_radiance.
   std::vector<std::vector<float>> mean_radiance_of_taps{};
-  bool reads_taps = false; // Return::taps are read of a sine, too, as they are no samples of one
+  bool reads_taps = false;              // Return::taps are read of a sine, too, as they are no samples of one
   bool keep_taps = false;               // fill Return::taps, tap_a_e and the like
   std::uint32_t host_vector_bits = 512; // at most; any gives the same bits
   std::function<void()> between = {};   // called now and then; may throw to stop
