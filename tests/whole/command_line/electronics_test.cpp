@@ -30,6 +30,7 @@ json with_preset(const std::string &name) {
 
 std::string content_of(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
+  REQUIRE(in);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -94,6 +95,30 @@ TEST_CASE("a frame alone has the bits that it has in its sequence, and every run
   check_same_files(work, "alone", "all", "pmd_0005", "pmd_0005");
   CHECK(content_of(work / "all/pmd_0004.f0.tap_a_e0.npy") !=
         content_of(work / "all/pmd_0005.f0.tap_a_e0.npy"));
+}
+
+TEST_CASE("another camera's beat is another in each frame, and costs nothing where electronics are absent") {
+  const Workspace work;
+  json setup = with_preset("opt8241_like");
+  setup["frames"] = {{"rate_hz", 30}, {"count", 4}};
+  setup["sensors"][0]["electronics"]["noiseless_channels"] = true;
+  json lamp = setup["illuminators"][0];
+  lamp["name"] = "lamp";
+  lamp["modulation_hz"] = setup["sensors"][0]["modulation_hz"][0].get<double>() + 100.0;
+  setup["illuminators"].push_back(lamp);
+  const json report = json::parse(render_to(work, setup, "all", {"--json"}).output);
+  CHECK(report["frames"][0]["passes_ms"].contains("other_cameras"));
+  render_to(work, setup, "alone", {"--frames", "2:3"});
+  check_same_files(work, "alone", "all", "pmd_0002", "pmd_0002");
+  CHECK(content_of(work / "all/pmd_0001.amplitude_noiseless.npy") !=
+        content_of(work / "all/pmd_0002.amplitude_noiseless.npy"));
+  setup["sensors"][0].erase("electronics");
+  const Run without = render_to(work, setup, "without");
+  CHECK_THAT(without.errors, Catch::Matchers::Contains("illuminators with modulation_hz are left out"));
+  setup["illuminators"].erase(1);
+  render_to(work, setup, "never");
+  CHECK(content_of(work / "without/pmd_0003.amplitude.npy") ==
+        content_of(work / "never/pmd_0003.amplitude.npy"));
 }
 
 TEST_CASE("taps that are exposed one after the other count the electrons of each exposure") {
