@@ -1,6 +1,7 @@
 #include "host/output/tables/noise.h"
 
 #include "host/output/files/manifest.h"
+#include "host/output/tables/csv.h"
 
 #include <algorithm>
 #include <array>
@@ -43,10 +44,6 @@ ordered_json precision_json(const PrecisionPoint &point) {
           {"limited_by", limiting_noise(point.shares)}};
 }
 
-std::string number_or_nothing(const std::optional<double> &value) {
-  return value ? fmt::format("{:.9g}", *value) : "";
-}
-
 std::string millimetres_text(const PrecisionPoint &point) {
   if (point.is_full)
     return "full";
@@ -78,28 +75,20 @@ ordered_json noise_json(const std::vector<NoiseStudy> &studies) {
 }
 
 std::string transfer_csv(const std::vector<NoiseStudy> &studies) {
-  std::string csv = "sensor,signal_e,mean_dn,variance_dn2,found_mean_dn,found_variance_dn2,full\n";
+  ordered_json rows = ordered_json::array();
   for (const NoiseStudy &study : studies)
     for (const TransferPoint &point : study.transfer)
-      csv += fmt::format("{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", study.sensor, point.signal_e,
-                         point.mean_dn, point.variance_dn2, point.found_mean_dn, point.found_variance_dn2,
-                         point.is_full ? 1 : 0);
-  return csv;
+      rows.emplace_back(ordered_json{{"sensor", study.sensor}}).update(transfer_json(point));
+  return csv_text(rows);
 }
 
 std::string precision_csv(const std::vector<NoiseStudy> &studies) {
-  std::string csv =
-      "sensor,modulation_hz,reflectivity,distance_m,signal_e,full,distance_noise_m,found_noise_m,"
-      "share_shot,share_background,share_dark,share_read,share_adc,limited_by\n";
+  ordered_json rows = ordered_json::array();
   for (const NoiseStudy &study : studies)
     for (const PrecisionPoint &point : study.precision)
-      csv +=
-          fmt::format("{},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
-                      study.sensor, study.modulation_hz, point.reflectivity, point.distance_m, point.signal_e,
-                      point.is_full ? 1 : 0, number_or_nothing(point.predicted_m),
-                      number_or_nothing(point.found_m), point.shares.shot, point.shares.background,
-                      point.shares.dark, point.shares.read, point.shares.adc, limiting_noise(point.shares));
-  return csv;
+      rows.emplace_back(ordered_json{{"sensor", study.sensor}, {"modulation_hz", study.modulation_hz}})
+          .update(precision_json(point));
+  return csv_text(rows);
 }
 
 std::string noise_text(const NoiseStudy &study) {

@@ -1,6 +1,7 @@
 #include "host/output/tables/tradeoff.h"
 
 #include "host/output/files/manifest.h"
+#include "host/output/tables/csv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,17 +46,6 @@ ordered_json point_json(const TradeoffPoint &point) {
           {"check_ms", null_unless(point.report.checked_pixels > 0, point.report.check_ms)},
           {"pareto", point.pareto},
           {"refused", null_unless(!measured, point.refusal)}};
-}
-
-std::string csv_field(const ordered_json &value) {
-  if (value.is_null())
-    return "";
-  if (!value.is_string())
-    return value.dump();
-  std::string text = value;
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
-    text.insert(at, 1, '"');
-  return '"' + text + '"';
 }
 
 std::string length_text(double length_m) {
@@ -187,21 +177,7 @@ ordered_json tradeoff_json(const Tradeoff &tradeoff) {
           {"points", array_of(tradeoff.points, point_json)}};
 }
 
-std::string tradeoff_csv(const Tradeoff &tradeoff) {
-  std::string text;
-  for (const TradeoffPoint &point : tradeoff.points) {
-    std::vector<std::string> keys, fields;
-    const ordered_json json = point_json(point);
-    for (const auto &[key, value] : json.items()) {
-      keys.push_back(key);
-      fields.push_back(csv_field(value));
-    }
-    if (text.empty())
-      text = fmt::format("{}\n", fmt::join(keys, ","));
-    text += fmt::format("{}\n", fmt::join(fields, ","));
-  }
-  return text;
-}
+std::string tradeoff_csv(const Tradeoff &tradeoff) { return csv_text(array_of(tradeoff.points, point_json)); }
 
 std::string tradeoff_text(const Tradeoff &tradeoff) { return tables(tradeoff, padded); }
 
