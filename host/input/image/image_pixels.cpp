@@ -164,6 +164,8 @@ std::size_t stored_number(const ImagePixels &pixels, std::size_t component) {
   return std::size_t{256} * pixels.rgba[2 * component] + pixels.rgba[2 * component + 1];
 }
 
+std::size_t largest_number(const ImagePixels &pixels) { return pixels.component_bytes == 1 ? 0xff : 0xffff; }
+
 // The linear light that each number that can be stored means.
 std::vector<float> linear_of_stored(std::size_t largest) {
   std::vector<float> linear(largest + 1);
@@ -183,18 +185,21 @@ ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_
   throw input_error(place, "expected a PNG or JPEG image, found neither");
 }
 
+double stored_share(const ImagePixels &pixels, std::size_t component) {
+  return static_cast<double>(stored_number(pixels, component)) / static_cast<double>(largest_number(pixels));
+}
+
 double linear_from_srgb(double stored) {
   return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
 }
 
 Texture linear_texture(const ImagePixels &pixels) {
-  const std::size_t largest = pixels.component_bytes == 1 ? 0xff : 0xffff;
-  const std::vector<float> linear = linear_of_stored(largest);
+  const std::vector<float> linear = linear_of_stored(largest_number(pixels));
   Texture texture{pixels.size, std::vector<glm::vec4>(std::size_t{pixels.size.x} * pixels.size.y)};
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     const auto stored = [&](std::size_t c) { return stored_number(pixels, 4 * i + c); };
-    const double alpha = static_cast<double>(stored(3)) / static_cast<double>(largest);
-    texture.texels[i] = {linear[stored(0)], linear[stored(1)], linear[stored(2)], alpha};
+    texture.texels[i] = {linear[stored(0)], linear[stored(1)], linear[stored(2)],
+                         stored_share(pixels, 4 * i + 3)};
   }
   return texture;
 }

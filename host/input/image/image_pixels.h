@@ -4,6 +4,7 @@
 #include "engine/model/scene.h"
 #include "host/input/file/input_error.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -25,6 +26,10 @@ struct ImagePixels {
 // ignored, as glTF demands. Throws Error (input) at `place`, before anything is allocated where the header
 // states more than max_image_side a side or `max_pixels`.
 ImagePixels decoded_image(std::span<const unsigned char> bytes, std::size_t max_pixels, const Place &place);
+
+// A component as a share of the largest number, 0 ... 1, before any transfer function. `component` counts
+// those of all pixels: 4 * pixel + 0 is red.
+double stored_share(const ImagePixels &pixels, std::size_t component);
 
 // The sRGB transfer function (IEC 61966-2-1), from 0 ... 1 as stored to linear 0 ... 1.
 double linear_from_srgb(double stored);

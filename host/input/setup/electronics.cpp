@@ -59,13 +59,10 @@ std::vector<float> background_image_of(const ordered_json &background, const Pla
                                   sensor.resolution.y, pixels.size.x, pixels.size.y));
   const std::string channel = background.at("channel");
   const std::size_t first = channel == "red" ? 0 : channel == "green" ? 1 : 2;
-  const std::size_t of_pixel = 4 * pixels.component_bytes;
   std::vector<float> values;
   values.reserve(sensor.pixel_count());
-  for (std::size_t at = first * pixels.component_bytes; at < pixels.rgba.size(); at += of_pixel)
-    values.push_back(pixels.component_bytes == 2
-                         ? static_cast<float>(256 * pixels.rgba[at] + pixels.rgba[at + 1]) / 65535.0f
-                         : static_cast<float>(pixels.rgba[at]) / 255.0f);
+  for (std::size_t pixel = 0; pixel < sensor.pixel_count(); ++pixel)
+    values.push_back(static_cast<float>(stored_share(pixels, 4 * pixel + first)));
   return values;
 }
 

@@ -1,5 +1,6 @@
 // A sensor's electronics, scatter and unwrapping as setups give them.
 
+#include "tests/host/input/image/image_bytes.h"
 #include "tests/host/input/setup/setup_fixture.h"
 
 #include <cmath>
@@ -104,7 +105,8 @@ TEST_CASE("Electronics that cannot be are refused in one line") {
   check_refused({{"full_well_e", 50}, {"read_noise_e", 60}}, "/full_well_e",
                 "more than the read noise of 60");
   check_refused({{"preset", "pmd_like"}}, "/preset", "pmd_like");
-  check_refused({{"offset_dn", 5000}}, "/offset_dn", "at most 4095");
+  check_refused({{"offset_dn", 5000}}, "/offset_dn", "less than 4095");
+  check_refused({{"offset_dn", 4095}}, "/offset_dn", "less than 4095");
   check_refused({{"sbi", 10}, {"two_tap", false}}, "/sbi", "one tap");
   check_refused({{"demodulation_contrast", {0.5, 0.4}}}, "/demodulation_contrast", "1 frequencies, found 2");
   check_refused({{"demodulation_contrast", 0}}, "/demodulation_contrast", "above 0");
@@ -119,6 +121,41 @@ TEST_CASE("Electronics that cannot be are refused in one line") {
     fixture.sensor()["electronics"] = odd;
     CHECK_THAT(fixture.error(), Contains("/sensors/0/electronics: "));
   }
+}
+
+TEST_CASE("A background is a channel of a picture, of either depth, or refused") {
+  SetupFixture fixture;
+  fixture.sensor()["resolution"] = {2, 2};
+  for (const std::string channel : {"red", "green", "blue"}) {
+    INFO(channel);
+    give_electronics(fixture, {{"background_radiance_w_m2_sr",
+                                {{"texture", "sky.png"}, {"channel", channel}, {"white_w_m2_sr", 0.25}}}});
+    const std::size_t shift = channel == "red" ? 0 : channel == "green" ? 1 : 2;
+    PngImage image{.width = 2, .height = 2};
+    for (int component = 0; component < 12; ++component)
+      image.rows.push_back(static_cast<std::uint8_t>(20 * component));
+    fixture.folder.write("sky.png", png_bytes(image));
+    const Electronics of = *fixture.load().start.sensors[0].electronics;
+    CHECK(of.background_radiance_w_m2_sr == 0.25);
+    REQUIRE(of.background_image.size() == 4);
+    for (std::size_t pixel = 0; pixel < 4; ++pixel)
+      CHECK(of.background_image[pixel] ==
+            Approx(20.0 * static_cast<double>(3 * pixel + shift) / 255.0).epsilon(1e-6));
+
+    PngImage deep{.width = 2, .height = 2, .bits = 16};
+    for (int component = 0; component < 12; ++component) {
+      deep.rows.push_back(static_cast<std::uint8_t>(component));
+      deep.rows.push_back(static_cast<std::uint8_t>(2 * component));
+    }
+    fixture.folder.write("sky.png", png_bytes(deep));
+    const Electronics of_deep = *fixture.load().start.sensors[0].electronics;
+    for (std::size_t pixel = 0; pixel < 4; ++pixel)
+      CHECK(of_deep.background_image[pixel] ==
+            Approx(258.0 * static_cast<double>(3 * pixel + shift) / 65535.0).epsilon(1e-6));
+  }
+  fixture.sensor()["resolution"] = {3, 2};
+  CHECK_THAT(fixture.error(),
+             Contains("sky.png") && Contains("expected the sensor's 3 x 2 pixels, found 2 x 2"));
 }
 
 TEST_CASE("Binning makes one pixel of several, before the ADC or after") {
