@@ -4,14 +4,15 @@
 #include "engine/electronics/photon_chain.h"
 #include "engine/model/float_below.h"
 #include "engine/model/instruction_sets.h"
+#include "engine/model/stopwatch.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 PMDSIM_LOOPS_OF_EACH_SET(pmdsim::ElectronLoops, electron_loops)
 
@@ -22,8 +23,8 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Multiples of the lanes of all instruction sets: a thread's work, of one exposure and of many.
 constexpr std::uint32_t pixels_at_once = 4096, pixels_of_many = 256;
 constexpr std::uint32_t many_exposures = 64;
-// Between which a frame of many exposures may be stopped.
-constexpr std::uint32_t parts_at_once = 8;
+// Of each thread, between which a frame of many exposures may be stopped.
+constexpr std::uint32_t parts_at_once = 4;
 
 using Pointers = std::array<float *, most_images>;
 using Phasors = std::array<std::array<float, 2>, most_images>;
@@ -63,7 +64,9 @@ public:
     const auto pixels = static_cast<std::uint32_t>(sensor_.pixel_count());
     const bool are_many = work_.exposures > many_exposures;
     const std::uint32_t of_part = are_many ? pixels_of_many : pixels_at_once;
-    const std::uint32_t parts = (pixels + of_part - 1) / of_part, at_once = are_many ? parts_at_once : parts;
+    const std::uint32_t parts = (pixels + of_part - 1) / of_part;
+    const auto threads = static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
+    const std::uint32_t at_once = are_many ? parts_at_once * threads : parts;
     for (std::uint32_t begin = 0; begin < parts; begin += at_once) {
       tbb::parallel_for(begin, std::min(begin + at_once, parts), [&](std::uint32_t part) {
         const std::uint32_t first = part * of_part;
@@ -86,6 +89,8 @@ private:
       mean_[k] = one_by_one ? request.mean_radiance_of_taps[frequency * sensor_.taps + k].data()
                             : frame.mean_radiance.data();
     work_.mean_radiance = mean_.data();
+    if (frame.mean_radiance.size() != sensor_.pixel_count())
+      throw std::logic_error("electrons of a frame without its mean radiance");
     // Taps that are exposed one by one are no samples of one sine.
     if (sensor_.waveform.kind == Waveform::Kind::sine && !one_by_one && !request.reads_taps) {
       work_.amplitude = to_.amplitude.data();
@@ -107,6 +112,9 @@ private:
     // One tap has half of the signal that the difference of two has.
     work_.radiance_per_e = as_float((electronics_.two_tap ? 1.0 : 2.0) / (contrast * per_radiance));
     work_.all_background_e = as_float(0.5 * electrons_of(electronics_.background_radiance_w_m2_sr, sensor_));
+    if (const std::size_t size = electronics_.background_image.size();
+        size > 0 && size != sensor_.pixel_count())
+      throw std::logic_error("a background of other pixels than the sensor's");
     for (const float relative : electronics_.background_image)
       background_e_.push_back(relative * work_.all_background_e);
     work_.background_e = background_e_.empty() ? nullptr : background_e_.data();
@@ -189,17 +197,14 @@ private:
 } // namespace
 
 void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Measurement &frame) {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   const ElectronLoops &loops = widest_electron_loops(request.host_vector_bits);
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
     FrequencyElectrons(sensor, request, i, frame).count(loops, request.between);
     if (!request.keep_taps)
       frame.returns[i].taps.clear();
   }
-  const double ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  frame.passes.push_back({"electrons", ms});
-  frame.frame_ms += ms;
+  stopwatch.add_to(frame, "electrons");
 }
 
 } // namespace pmdsim

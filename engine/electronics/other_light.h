@@ -5,16 +5,21 @@
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
 
+#include <complex>
 #include <cstddef>
 #include <vector>
 
 namespace pmdsim {
 
-// What a sensor's pixels see of another camera's light alone: a frame of it at that camera's frequency.
+// What a sensor's pixels see of another camera's light alone, at that camera's frequency.
 struct OtherLight {
   double modulation_hz;
-  const Measurement &seen; // amplitude, phase and mean radiance
+  std::vector<std::complex<float>> returns; // 0 where none comes
+  std::vector<float> mean_radiance;
 };
+
+// From a frame of it.
+OtherLight other_light_of(double modulation_hz, const Measurement &seen);
 
 // Adds its beat to the correlation samples of the sensor's image of a frequency and a tap, whose exposure
 // begins at `begin_s`. The sensor has electronics.

@@ -41,9 +41,9 @@ double reading_variance_e2(const Electronics &electronics) {
 }
 
 double phase_noise_rad(const ImageElectrons &image, double modulated_e, double phase_rad,
-                       const Sensor &sensor, std::size_t frequency) {
+                       const Sensor &sensor) {
   const Electronics &electronics = *sensor.electronics;
-  const double contrast = electronics.contrast(frequency), amplitude_e = contrast * modulated_e;
+  const double contrast = electronics.contrast(0), amplitude_e = contrast * modulated_e;
   const double reading_e2 = reading_variance_e2(electronics);
   double across = 0.0;
   for (std::uint32_t k = 0; k < sensor.taps; ++k) {

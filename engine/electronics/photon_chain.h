@@ -41,6 +41,6 @@ double reading_variance_e2(const Electronics &electronics);
 // noise (docs/theory.md, E6), `modulated_e` the electrons of the modulated light. Readings that are averaged
 // count; `phase_rad` counts with one tap alone.
 double phase_noise_rad(const ImageElectrons &image, double modulated_e, double phase_rad,
-                       const Sensor &sensor, std::size_t frequency = 0);
+                       const Sensor &sensor);
 
 } // namespace pmdsim

@@ -1,9 +1,9 @@
 #include "engine/electronics/scatter.h"
 
+#include "engine/model/stopwatch.h"
 #include "engine/model/tap_sequence.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <fftw3.h>
@@ -210,7 +210,7 @@ void scatter_return(Scattering &scattering, double ambiguity_m, Return &of) {
 } // namespace
 
 void scatter(const Sensor &sensor, Measurement &frame) {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   Scattering scattering(sensor);
   scatter_mean(scattering, frame.mean_radiance);
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
@@ -218,17 +218,22 @@ void scatter(const Sensor &sensor, Measurement &frame) {
     scatter_return(scattering, sensor.ambiguity_m(i), of);
     scatter_all(scattering, of.taps);
   }
-  const double ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  frame.passes.push_back({"scatter", ms});
-  frame.frame_ms += ms;
+  stopwatch.add_to(frame, "scatter");
 }
 
-void scatter_images(const Sensor &sensor, std::vector<std::vector<float>> &images) {
-  if (images.empty())
-    return;
+void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_radiance, Measurement &frame) {
+  Stopwatch stopwatch;
   Scattering scattering(sensor);
-  scatter_all(scattering, images);
+  for (std::vector<float> &of_tap : mean_radiance)
+    scatter_mean(scattering, of_tap);
+  if (!mean_radiance.empty())
+    frame.mean_radiance = mean_radiance.front();
+  for (std::size_t i = 0; i < frame.returns.size(); ++i) {
+    Return &of = frame.returns[i];
+    scatter_all(scattering, of.taps);
+    set_from_taps(of, std::move(of.taps), sensor.modulation_hz[i]);
+  }
+  stopwatch.add_to(frame, "scatter");
 }
 
 } // namespace pmdsim

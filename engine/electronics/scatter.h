@@ -14,7 +14,9 @@ namespace pmdsim {
 // Adds the pass "scatter" to the frame's times.
 void scatter(const Sensor &sensor, Measurement &frame);
 
-// The same of images of real numbers, pixel by pixel; empty ones stay empty.
-void scatter_images(const Sensor &sensor, std::vector<std::vector<float>> &images);
+// The same of a frame whose taps were exposed one by one, each with a mean radiance of its own, frequency by
+// frequency (none without electronics); the other channels follow from the taps, and the frame's mean
+// radiance is the first tap's.
+void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_radiance, Measurement &frame);
 
 } // namespace pmdsim

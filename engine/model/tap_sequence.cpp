@@ -51,6 +51,17 @@ void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, do
   to.distance_m[pixel] = rounded_below(ambiguity_m * (phase_rad / full_turn_rad), ambiguity_m);
 }
 
+std::vector<float> tap_of_sine(const std::vector<float> &amplitude, const std::vector<float> &phase_rad,
+                               double reference_rad) {
+  std::vector<float> tap;
+  tap.reserve(amplitude.size());
+  for (std::size_t pixel = 0; pixel < amplitude.size(); ++pixel) {
+    const auto a = static_cast<double>(amplitude[pixel]), phi = static_cast<double>(phase_rad[pixel]);
+    tap.push_back(a > 0.0 ? static_cast<float>(a * std::cos(phi - reference_rad)) : 0.0f);
+  }
+  return tap;
+}
+
 Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz) {
   const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_hz);
   const std::vector<std::complex<double>> weights = weights_of(taps.size());

@@ -23,6 +23,10 @@ inline double tap_sequence_s(const Sensor &sensor) {
 // Sets a pixel's amplitude, phase and distance to those of z, which is not 0; `ambiguity_m` is c / (2 f).
 void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, double ambiguity_m);
 
+// A sine's correlation samples A cos(phi - theta) at the reference phase theta; 0 where A is 0 or NaN.
+std::vector<float> tap_of_sine(const std::vector<float> &amplitude, const std::vector<float> &phase_rad,
+                               double reference_rad);
+
 // The camera's demodulation of a frequency's N taps, in double: z = (2/N) sum_k c_k exp(+j 2 pi k / N), and
 // the channels from z. The taps, one of each k and of one length, stay beside them. A |z| below what rounding
 // the taps to float can make counts as 0.

@@ -1,13 +1,13 @@
 #include "engine/multipath/multipath.h"
 
 #include "engine/model/error.h"
+#include "engine/model/stopwatch.h"
 #include "engine/multipath/bounced_channels.h"
 #include "engine/multipath/bounced_image.h"
 #include "engine/multipath/fineness.h"
 #include "engine/radiosity/radiosity.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -26,25 +26,6 @@ constexpr double hardly_less = 0.8, far_too_much = 1.3;
 // Together they come to it; measured over boxes and rooms.
 constexpr double of_gather = 0.7, most_of_elements = 0.65;
 constexpr double promised = 0.95; // share of the pixels that keep what is claimed
-
-class Stopwatch {
-public:
-  // Adds the time since it was made, or last read, to a frame's.
-  void add_to(Measurement &measurement, const char *pass) {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    const auto known = std::ranges::find(measurement.passes, pass, &PassTime::name);
-    if (known == measurement.passes.end())
-      measurement.passes.push_back({pass, ms});
-    else
-      known->ms += ms;
-    measurement.frame_ms += ms;
-    start_ = now;
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // The part of a pixel's light that the error of each tone may be.
 std::vector<float> parts_of(const std::vector<BounceTone> &tones, const Sensor &sensor, double error_m) {

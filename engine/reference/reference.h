@@ -72,7 +72,9 @@ double solid_angle_sr(const Pattern &pattern);
 Measurement to_measurement(const Frame &frame);
 
 // Puts the noisy channels of a frame of a sensor with electronics in place of the noiseless ones of
-// `measurement`, which has the frame's number. `keep_taps`: fill the channels of taps.
-void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, Measurement &measurement);
+// `measurement`, which has the frame's number. `keep_taps`: fill the channels of taps. `between` is called
+// now and then; may throw to stop.
+void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, Measurement &measurement,
+                     const std::function<void()> &between = {});
 
 } // namespace pmdsim::reference

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tbb/parallel_for.h>
 #include <utility>
 
@@ -70,6 +71,8 @@ Unwrapped unwrapped(const Remainders &remainders, std::size_t count, double rang
 
 void unwrap_distances(const Sensor &sensor, Measurement &frame) {
   const std::size_t pixels = frame.returns.front().distance_m.size(), count = frame.returns.size();
+  if (count > most_frequencies)
+    throw std::logic_error("more frequencies than can be unwrapped");
   frame.unwrapped_distance_m.resize(pixels);
   frame.unwrap_ok.resize(pixels);
   tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {

@@ -78,13 +78,18 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
     throw_if_interrupted();
     const reference::Frame frame = reference_frame_(progress);
     measurement = measurement_of(frame, number);
-    reference::count_electrons(frame, sensor_, extras_.taps, measurement);
+    reference::count_electrons(frame, sensor_, extras_.taps, measurement, progress_at_end(progress));
   } else {
     measurement = measure_light(progress, number);
     if (add)
       add(measurement);
-    if (!sensor_.scatter.empty())
+    const bool reads_taps = add || sensor_.waveform.kind != Waveform::Kind::sine;
+    if (!sensor_.scatter.empty()) {
+      if (sensor_.electronics && !reads_taps) // electrons make new ones
+        for (Return &of_frequency : measurement.returns)
+          of_frequency.taps.clear();
       scatter(sensor_, measurement);
+    }
     if (sensor_.electronics)
       count_electrons(sensor_,
                       {.reads_taps = static_cast<bool>(add),

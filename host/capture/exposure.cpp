@@ -6,9 +6,9 @@
 #include "engine/model/tap_sequence.h"
 #include "engine/signal/unwrapping.h"
 #include "host/capture/multipath_of_taps.h"
+#include "host/capture/progress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace pmdsim {
@@ -98,33 +98,12 @@ std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &
   return channels * sizeof(float) * sensor.pixel_count();
 }
 
-namespace {
-
-// Of taps that are exposed one by one each scatters alone, and so does the mean light of each.
-void scatter_taps(const Sensor &sensor, std::vector<std::vector<float>> &mean_radiance, Measurement &frame) {
-  const auto start = std::chrono::steady_clock::now();
-  scatter_images(sensor, mean_radiance);
-  if (!mean_radiance.empty())
-    frame.mean_radiance = mean_radiance.front();
-  for (std::size_t i = 0; i < frame.returns.size(); ++i) {
-    Return &of = frame.returns[i];
-    scatter_images(sensor, of.taps);
-    set_from_taps(of, std::move(of.taps), sensor.modulation_hz[i]);
-  }
-  const double ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  frame.passes.push_back({"scatter", ms});
-  frame.frame_ms += ms;
-}
-
-} // namespace
-
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps,
                                const AddToExposure &add) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
   BouncesOfTaps bounces(sensor);
-  ElectronsRequest electrons{.keep_taps = keep_taps};
+  ElectronsRequest electrons{.keep_taps = keep_taps, .between = throw_if_interrupted};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
     std::vector<std::vector<float>> taps, with_added;
     for (std::size_t k = 0; k < sensor.taps; ++k) {
@@ -209,8 +188,9 @@ TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light
                                         others_.reach(frame.sensor) ? Camera::AddLight(add) : nullptr);
   }
   if (!keep_taps_)
-    for (Return &of_frequency : frame.measurement.returns)
-      of_frequency.taps.clear();
+    for (Return &of : frame.measurement.returns)
+      for (auto *taps : {&of.taps, &of.tap_a_e, &of.tap_b_e, &of.tap_a_dn, &of.tap_b_dn})
+        taps->clear();
   return frame;
 }
 

@@ -14,17 +14,6 @@ namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
-std::vector<float> tap_of_sine(const std::vector<float> &amplitude, const std::vector<float> &phase_rad,
-                               double reference_rad) {
-  std::vector<float> tap;
-  tap.reserve(amplitude.size());
-  for (std::size_t pixel = 0; pixel < amplitude.size(); ++pixel) {
-    const auto a = static_cast<double>(amplitude[pixel]), phi = static_cast<double>(phase_rad[pixel]);
-    tap.push_back(a > 0.0 ? static_cast<float>(a * std::cos(phi - reference_rad)) : 0.0f);
-  }
-  return tap;
-}
-
 // Where only one has a value, that.
 void raise_to(std::vector<float> &largest, const std::vector<float> &values) {
   largest.resize(values.size(), no_value);

@@ -1,10 +1,9 @@
 #include "host/capture/other_cameras.h"
 
-#include "engine/electronics/other_light.h"
+#include "engine/model/stopwatch.h"
 #include "host/capture/progress.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace pmdsim {
 namespace {
@@ -16,24 +15,6 @@ std::vector<Illuminator> illuminators_at(double modulation_hz, const Instant &in
       illuminators.push_back(other.illuminator);
   return illuminators;
 }
-
-// Adds the pass to a frame's times when it dies.
-class PassTimer {
-public:
-  explicit PassTimer(Measurement &frame) : frame_(frame) {}
-  ~PassTimer() {
-    const double ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    frame_.passes.push_back({"other_cameras", ms});
-    frame_.frame_ms += ms;
-  }
-  PassTimer(const PassTimer &) = delete;
-  PassTimer &operator=(const PassTimer &) = delete;
-
-private:
-  Measurement &frame_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 } // namespace
 
@@ -59,24 +40,26 @@ void OtherCameras::prepare(const Instant &instant, const Sensor &sensor) {
 }
 
 void OtherCameras::add_to(const Sensor &sensor, double frame_s, Measurement &frame) {
-  const PassTimer timer(frame);
+  Stopwatch stopwatch;
   for (Other &other : cameras_)
-    add_other_light(sensor, frame_s, {other.modulation_hz, seen_by(other)}, frame);
+    add_other_light(sensor, frame_s, seen_by(other), frame);
+  stopwatch.add_to(frame, "other_cameras");
 }
 
 void OtherCameras::add_to(const Sensor &sensor, std::size_t frequency, std::size_t tap, double begin_s,
                           Measurement &exposure, std::vector<float> &correlation) {
-  const PassTimer timer(exposure);
+  Stopwatch stopwatch;
   for (Other &other : cameras_) {
-    const OtherLight light{other.modulation_hz, seen_by(other)};
-    add_beat(sensor, frequency, tap, begin_s, light, correlation);
-    add_mean(light, exposure.mean_radiance);
+    add_beat(sensor, frequency, tap, begin_s, seen_by(other), correlation);
+    add_mean(seen_by(other), exposure.mean_radiance);
   }
+  stopwatch.add_to(exposure, "other_cameras");
 }
 
-const Measurement &OtherCameras::seen_by(Other &other) const {
+const OtherLight &OtherCameras::seen_by(Other &other) {
   if (!other.seen)
-    other.seen = other.camera.measure_light([](double) { throw_if_interrupted(); });
+    other.seen = other_light_of(other.modulation_hz,
+                                other.camera.measure_light([](double) { throw_if_interrupted(); }));
   return *other.seen;
 }
 

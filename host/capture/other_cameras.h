@@ -2,6 +2,7 @@
 // Light of other cameras in the scene, as a setup's illuminators with modulation_hz give it, in frames of a
 // sensor with electronics.
 
+#include "engine/electronics/other_light.h"
 #include "host/capture/camera.h"
 
 #include <cstdint>
@@ -35,10 +36,10 @@ private:
   struct Other {
     double modulation_hz;
     Camera camera;
-    std::optional<Measurement> seen{};
+    std::optional<OtherLight> seen{};
   };
 
-  const Measurement &seen_by(Other &other) const;
+  static const OtherLight &seen_by(Other &other);
 
   const Setup &setup_;
   std::list<Other> cameras_;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <utility>
 
 namespace pmdsim {
 namespace {
@@ -19,15 +20,18 @@ constexpr int distances = 21, levels = 24;
 constexpr double nearest_m = 0.2, farthest_m = 100.0;
 constexpr std::uint32_t dots = 4096; // pixels of a frame that a dot is found from
 
+// Called now and then; may throw to stop.
+using Between = std::function<void()>;
+
 double of_range(double first, double last, int i, int count) {
   return first * std::pow(last / first, static_cast<double>(i) / (count - 1));
 }
 
 // A frame of `dots` pixels that see the same, counted.
-Measurement counted(Sensor sensor, Measurement light, std::uint32_t number) {
+Measurement counted(Sensor sensor, Measurement light, std::uint32_t number, const Between &between) {
   sensor.resolution = light.resolution = {dots, 1};
   light.number.frame = number;
-  count_electrons(sensor, {.keep_taps = true}, light);
+  count_electrons(sensor, {.keep_taps = true, .between = between}, light);
   return light;
 }
 
@@ -55,11 +59,12 @@ Sensor of_frequency(Sensor sensor, std::size_t frequency) {
   return sensor;
 }
 
-TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t number) {
+TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t number,
+                             const Between &between) {
   Sensor sensor = of;
   Electronics &electronics = *sensor.electronics;
-  electronics.background_radiance_w_m2_sr = 0.0;                // no light but the level's
-  electronics.frames_averaged = electronics.parts_averaged = 1; // of one reading
+  electronics.background_radiance_w_m2_sr = electronics.sbi_e = 0.0; // no light but the level's
+  electronics.frames_averaged = electronics.parts_averaged = 1;      // of one reading
   sensor.waveform = {};
   const double dark_e = 0.5 * electronics.dark_current_e_per_s * electronics.integration_time_s;
   const double mean_e = signal_e + dark_e, gain = electronics.gain_dn_per_e;
@@ -73,8 +78,8 @@ TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t nu
     point.variance_dn2 = 0.0;
   }
   const Measurement light = even_light(2.0 * signal_e / electrons_of(1.0, sensor));
-  const std::vector<float> first = counted(sensor, light, 2 * number).returns[0].tap_a_dn[0],
-                           second = counted(sensor, light, 2 * number + 1).returns[0].tap_a_dn[0];
+  const std::vector<float> first = counted(sensor, light, 2 * number, between).returns[0].tap_a_dn[0],
+                           second = counted(sensor, light, 2 * number + 1, between).returns[0].tap_a_dn[0];
   for (std::size_t i = 0; i < dots; ++i) {
     const auto a = static_cast<double>(first[i]), b = static_cast<double>(second[i]);
     point.found_mean_dn += 0.5 * (a + b) / dots;
@@ -84,12 +89,12 @@ TransferPoint transfer_point(const Sensor &of, double signal_e, std::uint32_t nu
 }
 
 // Dark, and from far below the read noise to beyond the full well.
-std::vector<TransferPoint> photon_transfer(const Sensor &sensor) {
+std::vector<TransferPoint> photon_transfer(const Sensor &sensor, const Between &between) {
   const double full_e = sensor.electronics->full_well_e;
-  std::vector<TransferPoint> points{transfer_point(sensor, 0.0, 0)};
+  std::vector<TransferPoint> points{transfer_point(sensor, 0.0, 0, between)};
   for (int i = 0; i < levels; ++i)
     points.push_back(transfer_point(sensor, of_range(1e-4 * full_e, 1.6 * full_e, i, levels),
-                                    static_cast<std::uint32_t>(i + 1)));
+                                    static_cast<std::uint32_t>(i + 1), between));
   return points;
 }
 
@@ -143,7 +148,7 @@ std::optional<double> found_noise_m(const std::vector<float> &distances_m, doubl
 }
 
 PrecisionPoint precision_point(const Sensor &sensor, const reference::Frame &white, double reflectivity,
-                               double distance_m, std::uint32_t number) {
+                               double distance_m, std::uint32_t number, const Between &between) {
   const reference::FrameReturn &of_white = white.returns[0];
   const auto scaled = [&](double value) { return static_cast<float>(reflectivity * value); };
   Measurement light = even_light(reflectivity * white.mean_radiance[0]);
@@ -152,7 +157,7 @@ PrecisionPoint precision_point(const Sensor &sensor, const reference::Frame &whi
   of.phase_rad.assign(dots, static_cast<float>(of_white.phase_rad[0]));
   for (const std::vector<double> &tap : of_white.taps)
     of.taps.emplace_back(dots, scaled(tap[0]));
-  const Return frame = counted(sensor, std::move(light), number).returns[0];
+  const Return frame = counted(sensor, std::move(light), number, between).returns[0];
   PrecisionPoint point{.reflectivity = reflectivity, .distance_m = distance_m};
   point.signal_e = electrons_of(reflectivity * white.mean_radiance[0], sensor);
   point.shares = shares_of(sensor, point.signal_e);
@@ -165,16 +170,19 @@ PrecisionPoint precision_point(const Sensor &sensor, const reference::Frame &whi
   return point;
 }
 
-std::vector<PrecisionPoint> precision(const Setup &setup, const Sensor &sensor) {
+std::vector<PrecisionPoint> precision(const Setup &setup, const Sensor &sensor, const Between &between) {
   const double of_sensor_m = std::max(sensor.ambiguity_m(), sensor.unwrap_range_m);
   const double last_m = std::clamp(of_sensor_m, 2.0 * nearest_m, farthest_m);
+  std::vector<std::pair<double, reference::Frame>> walls;
+  for (int i = 0; i < distances; ++i) {
+    const double distance_m = of_range(nearest_m, last_m, i, distances);
+    walls.emplace_back(distance_m, white_light(setup, sensor, distance_m));
+  }
   std::vector<PrecisionPoint> points;
   for (const double reflectivity : reflectivities)
-    for (int i = 0; i < distances; ++i) {
-      const double distance_m = of_range(nearest_m, last_m, i, distances);
-      points.push_back(precision_point(sensor, white_light(setup, sensor, distance_m), reflectivity,
-                                       distance_m, static_cast<std::uint32_t>(points.size())));
-    }
+    for (const auto &[distance_m, white] : walls)
+      points.push_back(precision_point(sensor, white, reflectivity, distance_m,
+                                       static_cast<std::uint32_t>(points.size()), between));
   return points;
 }
 
@@ -188,6 +196,7 @@ std::vector<NoiseStudy> study_noise(const Setup &setup, const std::function<void
   if (all == 0)
     throw Error(ExitCode::input,
                 fmt::format("{}: /sensors: expected at least one with \"electronics\"", setup.file.string()));
+  const Between between = [&] { progress(static_cast<double>(studies.size()) / static_cast<double>(all)); };
   for (const Sensor &sensor : setup.start.sensors)
     for (std::size_t i = 0; sensor.electronics && i < sensor.modulation_hz.size(); ++i) {
       const Sensor single = of_frequency(sensor, i);
@@ -197,10 +206,10 @@ std::vector<NoiseStudy> study_noise(const Setup &setup, const std::function<void
       if (sensor.modulation_hz.size() > 1)
         study.frequency = i;
       if (i == 0)
-        study.transfer = photon_transfer(single);
-      study.precision = precision(setup, single);
+        study.transfer = photon_transfer(single, between);
+      study.precision = precision(setup, single, between);
       studies.push_back(std::move(study));
-      progress(static_cast<double>(studies.size()) / static_cast<double>(all));
+      between();
     }
   return studies;
 }

@@ -19,7 +19,9 @@ constexpr double affordable_interactions = 2e7;
 
 // Every diode lights every pixel.
 double columns_for(const Setup &setup) {
-  const auto diodes = static_cast<double>(diode_count(setup.start.illuminators));
+  auto diodes = static_cast<double>(diode_count(setup.start.illuminators));
+  for (const OtherIlluminator &other : setup.start.others)
+    diodes += static_cast<double>(other.illuminator.diodes.size());
   return std::clamp(std::sqrt(affordable_interactions / diodes), 8.0, coarse_columns);
 }
 

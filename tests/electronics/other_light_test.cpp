@@ -62,7 +62,7 @@ TEST_CASE("what is left of another camera's beat is the mean of its product with
         double largest = 0.0, off = 0.0;
         for (std::size_t k = 0; k < images; ++k) {
           std::vector<float> correlation(3, 0.5f);
-          add_beat(levels.sensor, 0, k, begin_s, {modulation_hz + apart_hz, seen}, correlation);
+          add_beat(levels.sensor, 0, k, begin_s, other_light_of(modulation_hz + apart_hz, seen), correlation);
           CHECK(correlation[0] == 0.5f);
           const double expected =
               other_amplitude * mean_of_product(modulation_hz, modulation_hz + apart_hz,
@@ -85,7 +85,7 @@ TEST_CASE("another camera of the same frequency adds its complex return, wheneve
     const LightLevels levels = lit_pixels(images, 1e-3);
     const Measurement seen = others_frame(3);
     Measurement frame = levels.noiseless;
-    add_other_light(levels.sensor, 12.34, {levels.sensor.modulation_hz[0], seen}, frame);
+    add_other_light(levels.sensor, 12.34, other_light_of(levels.sensor.modulation_hz[0], seen), frame);
     const std::complex<double> own = std::polar<double>(levels.noiseless.returns[0].amplitude[1],
                                                         levels.noiseless.returns[0].phase_rad[1]);
     const std::complex<double> sum = own + std::polar(other_amplitude, other_phase_rad);
@@ -101,7 +101,7 @@ TEST_CASE("after whole turns of the beat another camera's light is background al
   const LightLevels levels = lit_pixels(4, 1e-3);
   const Measurement seen = others_frame(3);
   Measurement frame = levels.noiseless;
-  add_other_light(levels.sensor, 0.0, {levels.sensor.modulation_hz[0] + 3e3, seen}, frame);
+  add_other_light(levels.sensor, 0.0, other_light_of(levels.sensor.modulation_hz[0] + 3e3, seen), frame);
   CHECK(frame.returns[0].amplitude[1] == Approx(levels.noiseless.returns[0].amplitude[1]).epsilon(1e-6));
   CHECK(frame.returns[0].phase_rad[1] == Approx(1.1).epsilon(1e-6));
   // And the electrons have its mean.
@@ -117,7 +117,7 @@ TEST_CASE("taps that are taken one after the other meet the beat at other phases
   const Measurement seen = others_frame(3);
   Measurement frame = levels.noiseless;
   const double apart_hz = 250.0; // a quarter of a turn from tap to tap
-  add_other_light(levels.sensor, 0.0, {levels.sensor.modulation_hz[0] + apart_hz, seen}, frame);
+  add_other_light(levels.sensor, 0.0, other_light_of(levels.sensor.modulation_hz[0] + apart_hz, seen), frame);
   const double turned_rad = other_phase_rad - turn_rad * apart_hz * 0.5e-5;
   for (std::size_t k = 0; k < 4; ++k) {
     const double own =

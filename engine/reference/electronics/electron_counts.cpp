@@ -273,12 +273,16 @@ private:
 
 } // namespace
 
-void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, Measurement &measurement) {
+void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, Measurement &measurement,
+                     const std::function<void()> &between) {
   for (std::uint32_t i = 0; i < frame.returns.size(); ++i) {
     const PixelCamera camera(frame, sensor, measurement.number, i);
     FrequencyCamera channels(camera, frame, sensor, i, keep_taps, measurement.returns[i]);
-    for (std::uint32_t pixel = 0; pixel < sensor.pixel_count(); ++pixel)
+    for (std::uint32_t pixel = 0; pixel < sensor.pixel_count(); ++pixel) {
+      if (between && pixel % 64 == 0)
+        between();
       channels.set(pixel);
+    }
   }
 }
 

@@ -71,9 +71,9 @@ void check_together(const Electronics &electronics, const Place &place) {
     throw input_error(place / "full_well_e",
                       fmt::format("expected more than the read noise of {} e, found {}",
                                   electronics.read_noise_e, electronics.full_well_e));
-  if (electronics.offset_dn > electronics.largest_dn())
+  if (electronics.offset_dn >= electronics.largest_dn())
     throw input_error(place / "offset_dn",
-                      fmt::format("expected at most {}, the ADC's largest number, found {}",
+                      fmt::format("expected less than {}, the ADC's largest number, found {}",
                                   electronics.largest_dn(), electronics.offset_dn));
   if (electronics.sbi_e > 0.0 && !electronics.two_tap)
     throw input_error(place / "sbi", "expected 0 with one tap: it takes the same from both");

@@ -125,7 +125,6 @@ TEST_CASE("taps that are exposed one after the other count the electrons of each
   const Workspace work;
   json setup = with_preset("azure_kinect_like");
   setup["sensors"][0].erase("unwrap_range_m");
-  const std::ifstream in(PMDSIM_SCENES "/motion.json");
   json moving = json::parse(std::ifstream(PMDSIM_SCENES "/motion.json"), nullptr, true, true);
   moving["scene"] = std::string(PMDSIM_SCENES "/") + moving["scene"].get<std::string>();
   moving["sensors"] = {moving["sensors"][0]};
