@@ -4,6 +4,7 @@
 #include "engine/surfaces/surface_paint.h"
 
 #include <algorithm>
+#include <utility>
 
 PMDSIM_LOOPS_OF_EACH_SET(pmdsim::ScanLoops, scan_loops)
 
