@@ -20,7 +20,7 @@ namespace pmdsim {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
-// Multiples of the lanes of all instruction sets: a thread's work, of one exposure and of many.
+// Whole blocks of all instruction sets: a thread's work, of one exposure and of many.
 constexpr std::uint32_t pixels_at_once = 4096, pixels_of_many = 256;
 constexpr std::uint32_t many_exposures = 64;
 // Of each thread, between which a frame of many exposures may be stopped.

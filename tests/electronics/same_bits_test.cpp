@@ -84,7 +84,9 @@ TEST_CASE("electrons are the same in two runs, strips, threads and vectors of an
         Measurement frame = light;
         for (Return &of : frame.returns)
           for (std::size_t i = 0; i < of.amplitude.size(); ++i) {
-            of.amplitude[i] = static_cast<float>(i % 61) * static_cast<float>(i % 61) * 1e-5f;
+            // In the first half from dark to bright in each vector, else bright.
+            const float level = static_cast<float>(i % 61) * static_cast<float>(i % 61) * 1e-5f;
+            of.amplitude[i] = i < of.amplitude.size() / 2 ? level : 0.01f + 0.1f * level;
             of.phase_rad[i] = static_cast<float>(i % 629) * 0.01f;
           }
         count_electrons(changed, {.keep_taps = true, .host_vector_bits = bits}, frame);
