@@ -11,7 +11,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 // What is not inlined is handed over by memory, which costs more than what it does.
 #define PMDSIM_INLINED [[gnu::always_inline]] inline
 
-constexpr int block_vectors = 4; // measured: docs/decisions.md, "Electrons on the host"
+constexpr int block_vectors = 3; // measured: docs/decisions.md, "Electrons on the host"
 constexpr int block_lanes = block_vectors * lanes;
 
 template <class V>
@@ -22,13 +22,14 @@ using FloatBlock = Block<Floats>;
 using IntBlock = Block<Ints>;
 
 // step(0), step(1), ... as a block. Not by a loop: compilers keep in memory what loops go over.
+static_assert(block_vectors == 3);
 template <class F>
 PMDSIM_INLINED auto block_of(const F &step) {
-  return Block<decltype(step(0))>{{step(0), step(1), step(2), step(3)}};
+  return Block<decltype(step(0))>{{step(0), step(1), step(2)}};
 }
 template <class F>
 PMDSIM_INLINED void each_vector(const F &step) {
-  step(0), step(1), step(2), step(3);
+  step(0), step(1), step(2);
 }
 
 // The block of step(vector of each of `blocks`).
@@ -130,6 +131,13 @@ PMDSIM_INLINED bool is_any_below(const FloatBlock &a, float limit) {
   std::uint32_t any = 0;
   each_vector([&](int i) { any |= bits_of(less(a.of[i], all(limit))); });
   return any != 0;
+}
+// Whether all lanes are; a lane that is no number is not.
+PMDSIM_INLINED bool are_all_above(const FloatBlock &a, float limit) {
+  constexpr std::uint32_t all_lanes = (1u << lanes) - 1u;
+  std::uint32_t above = all_lanes;
+  each_vector([&](int i) { above &= bits_of(less(all(limit), a.of[i])); });
+  return above == all_lanes;
 }
 
 } // namespace pmdsim::PMDSIM_INSTRUCTION_SET

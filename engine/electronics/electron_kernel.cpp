@@ -62,8 +62,8 @@ PMDSIM_INLINED void add_exactly(FloatBlock &sum, FloatBlock &rest, const FloatBl
   sum = whole;
 }
 
-// A block of pixels. `usual`: all of them there, of one exposure, and none of them dark. Then nothing is
-// called across which vectors would have to be kept in memory, and little is kept there.
+// A block of pixels. `usual`: all of them there, of one exposure, and none of them dark. Then little is
+// kept in memory, as with AVX2 and AVX-512 nothing is called.
 template <bool two_tap, bool merged, bool usual>
 class PixelElectrons {
 public:
@@ -130,7 +130,7 @@ private:
     const std::uint32_t first_draw = taps_ * image;
     if (first_draw % 4 == 0)
       draw(exposure, first_draw / 4);
-    Reading reading;
+    Reading reading; // of taps_ taps: to make the other one nothing takes time
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       FloatBlock mean = means.of(tap);
       if (has_pattern())
@@ -190,11 +190,12 @@ private:
       saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
     }
     if constexpr (usual)
-      return demodulate(image, reading);
-    if (exposures() == 1) {
-      readings_[image] = reading;
-      return;
-    }
+      demodulate(image, reading);
+    else
+      keep(image, reading);
+  }
+
+  PMDSIM_INLINED void keep(std::uint32_t image, const Reading &reading) {
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       add_exactly(readings_[image].charge_e[tap], rests_[image].charge_e[tap], reading.charge_e[tap]);
       add_exactly(readings_[image].number_dn[tap], rests_[image].number_dn[tap], reading.number_dn[tap]);
@@ -287,21 +288,21 @@ private:
 };
 
 // Whether all of a block's taps are so bright that no electrons are counted one by one; no where that is
-// close.
+// close. `rounding` is more than the errors of the taps' means, relative to their terms.
 PMDSIM_INLINED bool is_bright(const ElectronWork &of, const Pixels<true> &pixels) {
-  constexpr float largest_normal = 6.7f, close = 1.001f;
+  constexpr float largest_normal = 6.7f, rounding = 1e-6f, close = 1.001f;
   const float least_response = of.prnu * largest_normal < 1.0f ? 1.0f - of.prnu * largest_normal : 0.0f;
   const FloatBlock background =
       of.background_e ? pixels.load_from(of.background_e) : filled(of.all_background_e);
-  bool is_dark = false;
+  bool are_bright = true;
   for (std::uint32_t k = 0; k < (of.amplitude ? 1 : of.images); ++k) {
+    const FloatBlock common = of.half_per_radiance * pixels.load_from(of.mean_radiance[k]) + background;
     const FloatBlock largest_part =
         of.part_per_correlation * absolute(pixels.load_from(of.amplitude ? of.amplitude : of.taps[k]));
-    const FloatBlock darkest =
-        of.half_per_radiance * pixels.load_from(of.mean_radiance[k]) - largest_part + background;
-    is_dark |= is_any_below(least_response * darkest + of.dark_e, close * largest_counted_mean);
+    const FloatBlock darkest = (1.0f - rounding) * common - (1.0f + rounding) * largest_part;
+    are_bright &= are_all_above(least_response * darkest + of.dark_e, close * largest_counted_mean);
   }
-  return !is_dark;
+  return are_bright;
 }
 
 template <bool two_tap, bool merged, bool usual>

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
 // Whole blocks of all instruction sets: a thread's work, of one exposure and of many.
-constexpr std::uint32_t pixels_at_once = 4096, pixels_of_many = 256;
+constexpr std::uint32_t pixels_at_once = 96 * 48, pixels_of_many = 6 * 48;
 constexpr std::uint32_t many_exposures = 64;
 // Of each thread, between which a frame of many exposures may be stopped.
 constexpr std::uint32_t parts_at_once = 4;

@@ -23,11 +23,13 @@ struct Pixels {
     return block_of([&](int i) { return static_cast<std::int32_t>(of_vector(i)) + lane_numbers(); });
   }
   PMDSIM_INLINED FloatBlock load_from(const float *from) const {
-    if constexpr (whole)
+    if constexpr (whole) {
       return block_of([&](int i) { return load<Floats>(from + of_vector(i)); });
-    FloatBlock values{};
-    __builtin_memcpy(&values, from + first, sizeof(float) * static_cast<std::size_t>(count));
-    return values;
+    } else {
+      FloatBlock values{};
+      __builtin_memcpy(&values, from + first, sizeof(float) * static_cast<std::size_t>(count));
+      return values;
+    }
   }
   template <class V, class T>
   PMDSIM_INLINED void store_to(T *to, const Block<V> &values) const {
@@ -113,8 +115,8 @@ PMDSIM_INLINED Normals normals_of(const ElectronWork &of, const IntBlock &pixels
   return {{pairs[0].first, pairs[0].second, pairs[1].first, pairs[1].second}};
 }
 
-// The charge where the mean is small, elsewhere `charge`. By value, so that what is not handed over stays in
-// registers.
+// The charge where the mean is small, elsewhere `charge`. By value: what has an address to hand over is kept
+// in memory throughout.
 [[gnu::noinline]] inline FloatBlock counted_charge(const ElectronWork &of, const IntBlock &pixels,
                                                    std::uint32_t exposure, std::uint32_t draw,
                                                    FloatBlock mean, FloatBlock z, FloatBlock charge) {

@@ -84,9 +84,9 @@ TEST_CASE("electrons are the same in two runs, strips, threads and vectors of an
         Measurement frame = light;
         for (Return &of : frame.returns)
           for (std::size_t i = 0; i < of.amplitude.size(); ++i) {
-            // In the first half from dark to bright in each vector, else bright.
-            const float level = static_cast<float>(i % 61) * static_cast<float>(i % 61) * 1e-5f;
-            of.amplitude[i] = i < of.amplitude.size() / 2 ? level : 0.01f + 0.1f * level;
+            // In the first half taps of each vector are bright and dark, in the second all are bright.
+            const float part = i < of.amplitude.size() / 2 ? static_cast<float>(i % 61) / 36.0f : 0.5f;
+            of.amplitude[i] = part * frame.mean_radiance[i];
             of.phase_rad[i] = static_cast<float>(i % 629) * 0.01f;
           }
         count_electrons(changed, {.keep_taps = true, .host_vector_bits = bits}, frame);
@@ -95,6 +95,41 @@ TEST_CASE("electrons are the same in two runs, strips, threads and vectors of an
         CHECK(bytes_of(frame) == of_widest);
       }
     }
+}
+
+TEST_CASE("a pixel's electrons do not depend on its neighbours, however close to dark its taps are") {
+  constexpr std::uint32_t columns = 12'800, apart = 64; // pixels from one close to dark to the next
+  for (const std::uint32_t images : {3u, 4u})
+    for (const bool two_tap : {true, false})
+      for (const double signal_e : {200.0, 5e3, 1e6, 3e6, 1e7}) {
+        INFO(images << " images, " << (two_tap ? 2 : 1) << " taps, " << signal_e << " e");
+        Electronics electronics = plain_electronics();
+        electronics.two_tap = two_tap;
+        electronics.demodulation_contrast = {1.0};
+        electronics.dark_current_e_per_s = 0.0;
+        const LightLevels levels = light_levels(electronics, images, {signal_e}, 0.0, columns);
+        Measurement bright = levels.noiseless;
+        Return &of = bright.returns[0];
+        for (std::size_t i = 0; i < columns; ++i) {
+          // About 64 electrons in the darkest tap, below which they are counted one by one.
+          const double darkest_e = 64.0 + 2.0 * (static_cast<double>(i) / columns - 0.5);
+          const double part = i % apart == 5 ? 1.0 - 2.0 * darkest_e / signal_e : 0.3;
+          of.amplitude[i] *= static_cast<float>(part);
+          const auto half_steps = static_cast<double>(i / apart % (2 * images));
+          of.phase_rad[i] = static_cast<float>(half_steps * std::acos(-1.0) / images);
+        }
+        Measurement beside_dark = bright;
+        for (std::size_t i = 6; i < columns; i += apart)
+          beside_dark.returns[0].amplitude[i] = beside_dark.mean_radiance[i] = 0.0f;
+        count_electrons(levels.sensor, {.keep_taps = true}, bright);
+        count_electrons(levels.sensor, {.keep_taps = true}, beside_dark);
+        std::size_t different = 0;
+        for (const auto taps : {&Return::tap_a_e, &Return::tap_b_e})
+          for (std::size_t k = 0; k < (bright.returns[0].*taps).size(); ++k)
+            for (std::size_t i = 5; i < columns; i += apart)
+              different += (bright.returns[0].*taps)[k][i] != (beside_dark.returns[0].*taps)[k][i] ? 1u : 0u;
+        CHECK(different == 0);
+      }
 }
 
 TEST_CASE("another seed, frame, sensor or frequency gives other noise") {
