@@ -2,6 +2,7 @@
 // Random numbers of given distributions, in blocks of vectors. Every operation is rounded as IEEE 754 says,
 // so that each instruction set gives the same bits.
 
+#include "engine/electronics/electron_work.h"
 #include "engine/electronics/philox_lanes.h"
 
 #include <limits>
@@ -49,27 +50,16 @@ PMDSIM_INLINED FloatBlock fused(float a, const FloatBlock &b, float c) {
   return fused(filled(a), b, filled(c));
 }
 
-// 1 / sqrt(v), to a relative error of 2e-7, by Newton's method alone: a division takes as long as ten
-// products. Large, but a number, for v = 0.
-PMDSIM_INLINED FloatBlock newton_inverse_root(const FloatBlock &v) {
-  const FloatBlock minus_half = -0.5f * v;
-  FloatBlock y = floats_of_bits(0x5f3759df - (bits_of_floats(v) >> 1));
-  for (int i = 0; i < 3; ++i)
-    y = y * fused(minus_half * y, y, 1.5f);
-  return y;
-}
-
-// Natural logarithm of x in [2^-32, 1], to 1e-7 of it or of x - 1, whichever is larger: the polynomial of
-// S. L. Moshier, Cephes library, logf.
-PMDSIM_INLINED FloatBlock log_of_share(const FloatBlock &x) {
-  const IntBlock exponent = (bits_of_floats(x * 1.41421356f) >> 23) - 127;
-  const FloatBlock f = floats_of_bits(bits_of_floats(x) - (exponent << 23)) - 1.0f, f2 = f * f;
-  FloatBlock p = fused(7.0376836292e-2f, f, -1.1514610310e-1f);
-  constexpr float coefficients[] = {1.1676998740e-1f, -1.2420140846e-1f, 1.4249322787e-1f, -1.6668057665e-1f,
-                                    2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f};
+// -2 ln x, x in [2^-32, 1), to a relative error of 8e-6.
+PMDSIM_INLINED FloatBlock minus_two_log(const FloatBlock &x) {
+  constexpr std::int32_t root_of_half = 0x3f3504f3; // its bits
+  const IntBlock bits = bits_of_floats(x), exponent = (bits - root_of_half) >> 23;
+  const FloatBlock f = floats_of_bits(bits - (exponent << 23)) - 1.0f;
+  FloatBlock p = fused(0.285841497f, f, -0.441118741f);
+  constexpr float coefficients[] = {0.508065384f, -0.665160469f, 0.999804351f, -2.00000912f};
   for (const float coefficient : coefficients)
     p = fused(p, f, coefficient);
-  return fused(0.693147181f, converted(exponent), f + fused(f2 * f, p, -0.5f * f2));
+  return fused(-1.38629436f, converted(exponent), p * f);
 }
 
 struct ComplexBlock {
@@ -82,48 +72,26 @@ PMDSIM_INLINED ComplexBlock unit_phasor(const FloatBlock &turns) {
           each([](const Complex &z) { return z.im; }, phasors)};
 }
 
-// (cos, sin) of a word's 2^32nd parts of a turn: the polynomials of unit_phasor().
-PMDSIM_INLINED ComplexBlock phasor_of_word(const IntBlock &word) {
-  using Unsigned = std::uint32_t __attribute__((vector_size(vector_bytes)));
-  const IntBlock quarter = each( // to the nearest, -2 to 1
-      [](const Ints &x) { return reinterpret_cast<Ints>(reinterpret_cast<Unsigned>(x) + (1u << 29)) >> 30; },
-      word);
-  const IntBlock rest = each(
-      [](const Ints &x, const Ints &q) {
-        return reinterpret_cast<Ints>(reinterpret_cast<Unsigned>(x) - (reinterpret_cast<Unsigned>(q) << 30));
-      },
-      word, quarter);
-  const FloatBlock y = converted(rest) * 0x1p-32f, u = y * y;
-  FloatBlock s = fused(41.47283324f, u, -76.69786635f), c = fused(59.22016896f, u, -85.44284467f);
-  constexpr float of_s[] = {81.60520471f, -41.34170215f, 6.283185307f},
-                  of_c[] = {64.93931614f, -19.73920865f, 1.0f};
-  for (const float coefficient : of_s)
-    s = fused(s, u, coefficient);
-  for (const float coefficient : of_c)
-    c = fused(c, u, coefficient);
-  s = s * y;
-  const IntBlock is_odd = (quarter & 1) != 0,
-                 turned = quarter << 30 & std::numeric_limits<std::int32_t>::min();
-  const FloatBlock re = chosen(is_odd, -s, c), im = chosen(is_odd, c, s);
-  return {floats_of_bits(bits_of_floats(re) ^ turned), floats_of_bits(bits_of_floats(im) ^ turned)};
-}
-
 struct NormalPair {
   FloatBlock first, second;
 };
 
-// Two independent standard normal numbers of two words: G. E. P. Box and M. E. Muller, "A note on the
-// generation of random normal deviates", Ann. Math. Stat. 29 (1958). At most 6.7 from 0.
-PMDSIM_INLINED NormalPair normal_pair(const IntBlock &radius_word, const IntBlock &angle_word) {
-  const FloatBlock share = fused(0x1p-31f, converted(shifted_right(radius_word, 1)), 0x1p-32f); // in (0, 1]
-  const FloatBlock radius = exact_root(larger(-2.0f * log_of_share(share), filled(0.0f)));
-  const ComplexBlock at = phasor_of_word(angle_word);
-  return {radius * at.re, radius * at.im};
+// Two standard normal numbers of a word: G. E. P. Box and M. E. Muller, "A note on the generation of random
+// normal deviates", Ann. Math. Stat. 29 (1958). Its upper 20 bits give the radius, at most largest_normal, the
+// other 12 the angle: 10 within a quarter of a turn, and two signs.
+PMDSIM_INLINED NormalPair normal_pair(const IntBlock &word) {
+  const IntBlock share_bits = ((shifted_right(word, 9) & 0x007ffff8) | 0x3f800004);
+  const FloatBlock radius = exact_root(minus_two_log(floats_of_bits(share_bits) - 1.0f));
+  // From the quarter's middle, in 2048ths of half a turn.
+  const FloatBlock y = floats_of_bits((word & 0x7fe) | 0x4a800000) - 4194815.5f, u = y * y;
+  const FloatBlock sine = y * fused(fused(4.89491581e-17f, u, -4.25286756e-10f), u, 0.00108468658f);
+  const FloatBlock cosine = fused(fused(fused(-1.25108045e-20f, u, 1.63089413e-13f), u, -8.31942821e-07f), u, 0.707106758f);
+  const auto turned = [](const FloatBlock &value, const IntBlock &sign) {
+    return floats_of_bits(bits_of_floats(value) ^ (sign & std::numeric_limits<std::int32_t>::min()));
+  };
+  return {turned(radius * (cosine - sine), word << 20), turned(radius * (cosine + sine), word << 31)};
 }
-
-// The largest mean of which Poisson's numbers are found one by one.
-constexpr float largest_counted_mean = 64.0f;
-constexpr int most_counts = 256; // of such a mean: beyond it lies less than 1e-70
+constexpr int most_counts = 256; // of largest_counted_mean: beyond it lies less than 1e-70
 
 // e^-x, x in [0, 64]: of a 64th by its series, then squared.
 inline Doubles exp_of_negative(const Doubles &x) {

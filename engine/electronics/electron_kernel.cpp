@@ -26,32 +26,32 @@ PMDSIM_INLINED void suppress_background(const ElectronWork &of, Reading &reading
   reading.charge_e[1] -= taken;
 }
 
+PMDSIM_INLINED FloatBlock voltage_dn(const ElectronWork &of, const FloatBlock &charge_e) {
+  return fused(filled(of.gain_dn_per_e), charge_e, of.offset_dn);
+}
+
 // The lanes where the tap is full, or beyond the ADC's range.
 PMDSIM_INLINED IntBlock read_tap(const ElectronWork &of, Reading &reading, std::uint32_t tap) {
   FloatBlock &charge = reading.charge_e[tap];
   const IntBlock is_full = charge > of.full_well_e;
   charge = smaller(charge, filled(of.full_well_e));
-  const FloatBlock voltage_dn = fused(filled(of.gain_dn_per_e), charge, of.offset_dn);
-  reading.number_dn[tap] = rounded(smaller(larger(voltage_dn, filled(0.0f)), filled(of.largest_dn)));
-  return is_full | (voltage_dn > of.largest_dn + 0.5f);
+  const FloatBlock voltage = voltage_dn(of, charge);
+  reading.number_dn[tap] = rounded(smaller(larger(voltage, filled(0.0f)), filled(of.largest_dn)));
+  return is_full | (voltage > of.largest_dn + 0.5f);
 }
 
-// The angle of z in turns, in [0, 1), to 1e-7: more than noise leaves of it. Twice as fast as angle_turns().
+// The angle of z in turns, in [0, 1], to 1e-7: more than noise leaves of it. Twice as fast as angle_turns().
 PMDSIM_INLINED FloatBlock phase_turns(const ComplexBlock &z) {
-  const FloatBlock x = absolute(z.re), y = absolute(z.im), longer = larger(x, y), shorter = smaller(x, y);
-  const IntBlock near_diagonal = shorter > 0.41421356f * longer;
-  const FloatBlock t =
-      chosen(near_diagonal, shorter - longer, shorter) / chosen(near_diagonal, shorter + longer, longer);
-  const FloatBlock u = t * t;
-  FloatBlock angle = fused(-0.009591162656f, u, 0.01682240502f);
-  constexpr float coefficients[] = {-0.02266292012f, 0.03182809684f, -0.05305160562f, 0.159154943f};
+  const FloatBlock x = absolute(z.re), y = absolute(z.im), t = smaller(x, y) / larger(x, y), u = t * t;
+  FloatBlock p = fused(0.00125149532f, u, -0.00589080225f);
+  constexpr float coefficients[] = {0.0133485148f, -0.0214655319f, 0.0316423621f, -0.0530407959f,
+                                    0.159154839f};
   for (const float coefficient : coefficients)
-    angle = fused(angle, u, coefficient);
-  angle = fused(angle, t, chosen(near_diagonal, filled(0.125f), filled(0.0f)));
+    p = fused(p, u, coefficient);
+  FloatBlock angle = p * t;
   angle = chosen(y > x, 0.25f - angle, angle);
   angle = chosen(z.re < 0.0f, 0.5f - angle, angle);
-  const FloatBlock turns = chosen(z.im < 0.0f, 1.0f - angle, angle);
-  return chosen(turns < 1.0f, turns, filled(0.0f));
+  return chosen(z.im < 0.0f, 1.0f - angle, angle);
 }
 
 // A sum of many readings is as exact as one of few: W. Kahan, "Further remarks on reducing truncation
@@ -62,150 +62,151 @@ PMDSIM_INLINED void add_exactly(FloatBlock &sum, FloatBlock &rest, const FloatBl
   sum = whole;
 }
 
-// A block of pixels. `usual`: all of them there, of one exposure, and none of them dark. Then little is
-// kept in memory, as with AVX2 and AVX-512 nothing is called.
-template <bool two_tap, bool merged, bool usual>
+// A block of pixels. `clear`: all of them there, of one exposure, and neither dark nor near the ends of what the
+// camera reads. Then little is kept in memory, as with AVX2 and AVX-512 nothing is called.
+template <bool two_tap, bool merged, bool clear>
 class PixelElectrons {
 public:
-  PMDSIM_INLINED PixelElectrons(const ElectronWork &of, const Pixels<usual> &pixels)
+  PMDSIM_INLINED PixelElectrons(const ElectronWork &of, const Pixels<clear> &pixels)
       : of_(of), pixels_(pixels) {
-    find_pattern(0);
-    if constexpr (!usual)
+    if constexpr (!clear)
       for (std::uint32_t k = 0; k < of_.images; ++k)
         readings_[k] = rests_[k] = {};
+    find_light();
   }
 
-  PMDSIM_INLINED void count() {
-    find_light();
-    for (std::uint32_t exposure = 0; exposure < exposures(); ++exposure) {
-      if (!usual && of_.parts > 1)
-        find_pattern(exposure % of_.parts);
-      for (std::uint32_t image = 0; image < of_.images; ++image)
-        expose(exposure, image);
-    }
-    if constexpr (!usual)
+  // With a normal number of each tap, and where shot noise and read noise are apart one more of each.
+  PMDSIM_INLINED void expose(std::uint32_t exposure, const Draws &counts, const Draws &reads) {
+    if (has_pattern() && (exposure == 0 || of_.parts > 1))
+      pattern_ = fixed_pattern(of_, pixels_.numbers(), exposure % of_.parts);
+    for (std::uint32_t image = 0; image < of_.images; ++image)
+      expose_image(exposure, image, counts, reads);
+  }
+
+  PMDSIM_INLINED void store() {
+    if constexpr (!clear)
       for (std::uint32_t image = 0; image < of_.images; ++image)
         demodulate(image, mean_reading(image));
     store_return();
     store_noise();
+    pixels_.store_to(of_.saturated, saturated_);
+    if (!two_tap && of_.taps_out)
+      take_common_off();
   }
 
 private:
-  std::uint32_t exposures() const { return usual ? 1 : of_.exposures; }
+  static constexpr std::uint32_t taps_ = two_tap ? 2 : 1;
 
   bool has_pattern() const { return of_.dsnu_e > 0.0f || of_.prnu > 0.0f; }
-  PMDSIM_INLINED void find_pattern(std::uint32_t part) {
-    if (has_pattern())
-      pattern_ = fixed_pattern(of_, pixels_.numbers(), part);
-  }
+  bool is_sine() const { return clear || of_.amplitude; }
 
-  // The noiseless z.
+  // What a tap has of the noiseless z, electrons.
   PMDSIM_INLINED void find_light() {
-    if (of_.amplitude) {
-      const FloatBlock amplitude = pixels_.load_from(of_.amplitude),
-                       phase_rad = pixels_.load_from(of_.phase_rad);
-      FloatBlock turns = turns_per_rad * chosen(amplitude > 0.0f, phase_rad, filled(0.0f));
-      turns -= chosen(turns > 0.5f, filled(1.0f), filled(0.0f));
-      const ComplexBlock phasor = unit_phasor(turns);
-      z_ = {amplitude * phasor.re, amplitude * phasor.im};
+    common_e_ = common_light(of_, pixels_, 0);
+    if (is_sine()) {
+      amplitude_ = pixels_.load_from(of_.amplitude);
+      const FloatBlock phase_rad = pixels_.load_from(of_.phase_rad);
+      const ComplexBlock phasor =
+          unit_phasor(turns_per_rad * chosen(amplitude_ > 0.0f, phase_rad, filled(0.0f)));
+      const FloatBlock size_e = of_.part_per_correlation * amplitude_;
+      z_e_ = {size_e * phasor.re, size_e * phasor.im};
       return;
     }
     for (std::uint32_t k = 0; k < of_.images; ++k) {
-      const FloatBlock light = correlation(k);
-      z_.re += (of_.of_image * of_.reference[k][0]) * light;
-      z_.im += (of_.of_image * of_.reference[k][1]) * light;
+      z_e_.re += (of_.of_image * of_.reference[k][0]) * part_e(k);
+      z_e_.im += (of_.of_image * of_.reference[k][1]) * part_e(k);
     }
+    amplitude_ = exact_root(fused(z_e_.re, z_e_.re, z_e_.im * z_e_.im)) / of_.part_per_correlation;
   }
 
-  PMDSIM_INLINED FloatBlock correlation(std::uint32_t image) const {
-    if (!of_.amplitude)
-      return pixels_.load_from(of_.taps[image]);
-    return of_.reference[image][0] * z_.re + of_.reference[image][1] * z_.im;
+  // What the image's correlation sample adds to tap A and takes from B.
+  PMDSIM_INLINED FloatBlock part_e(std::uint32_t image) const {
+    if (is_sine())
+      return fused(filled(of_.reference[image][0]), z_e_.re, of_.reference[image][1] * z_e_.im);
+    return of_.part_per_correlation * pixels_.load_from(of_.taps[image]);
   }
 
-  PMDSIM_INLINED void expose(std::uint32_t exposure, std::uint32_t image) {
-    const TapMeans means = tap_means(of_, pixels_, image, correlation(image));
-    if (exposure == 0)
-      predict(image, means);
-    const std::uint32_t first_draw = taps_ * image;
-    if (first_draw % 4 == 0)
-      draw(exposure, first_draw / 4);
+  PMDSIM_INLINED void expose_image(std::uint32_t exposure, std::uint32_t image, const Draws &counts,
+                                   const Draws &reads) {
+    const FloatBlock part = part_e(image);
+    if (!is_sine())
+      common_e_ = common_light(of_, pixels_, image);
+    const FloatBlock lights[2] = {common_e_ + part, common_e_ - part}, dark = filled(of_.dark_e),
+                     with_dark = common_e_ + of_.dark_e;
+    // The taps' means but for the fixed pattern.
+    FloatBlock means[2] = {with_dark + part, with_dark - part};
+    if constexpr (!clear) {
+      for (FloatBlock &mean : means)
+        mean = larger(mean, dark);
+      if (exposure == 0)
+        predict(image, means);
+    }
     Reading reading; // of taps_ taps: to make the other one nothing takes time
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
-      FloatBlock mean = means.of(tap);
+      const std::uint32_t draw = taps_ * image + tap;
       if (has_pattern())
-        mean = fused(pattern_.response[tap], means.light[tap], filled(means.dark_e));
-      reading.charge_e[tap] = charge(exposure, first_draw + tap, mean);
+        means[tap] = fused(pattern_.response[tap], larger(lights[tap], filled(0.0f)), dark);
+      reading.charge_e[tap] = charge(exposure, draw, means[tap], counts.of[draw], reads.of[draw]);
       if (has_pattern())
         reading.charge_e[tap] += pattern_.offset_e[tap];
     }
     read(image, reading);
   }
 
-  PMDSIM_INLINED void draw(std::uint32_t exposure, std::uint32_t call) {
-    normals_ = normals_of(of_, pixels_.numbers(), ChanceStream::normals, exposure, call);
-    if (!merged && of_.read_noise_e > 0.0f)
-      reads_ = normals_of(of_, pixels_.numbers(), ChanceStream::reads, exposure, call);
-  }
-
-  // The variance of the image's reading, and whether its taps are to be full.
-  PMDSIM_INLINED void predict(std::uint32_t image, const TapMeans &means) {
-    FloatBlock variance = filled(0.0f), fullest = means.of(0);
-    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
-      variance += means.of(tap) + of_.reading_variance_e2;
-      fullest = larger(fullest, means.of(tap));
-    }
-    if (taps_ == 2 && of_.sbi_e > 0.0f) {
+  // Whether the image's taps are to be full; of light that is no sine, the variance of its reading, too.
+  PMDSIM_INLINED void predict(std::uint32_t image, const FloatBlock (&means)[2]) {
+    FloatBlock fullest = two_tap ? larger(means[0], means[1]) : means[0];
+    if (two_tap && of_.sbi_e > 0.0f) {
       const FloatBlock over = larger(fullest - of_.full_well_e, filled(0.0f));
-      fullest -= smaller(over, smaller(filled(of_.sbi_e), smaller(means.of(0), means.of(1))));
+      fullest -= smaller(over, smaller(filled(of_.sbi_e), smaller(means[0], means[1])));
     }
     fullest_ = larger(fullest_, fullest);
+    if (is_sine())
+      return;
+    const FloatBlock variance = (two_tap ? means[0] + means[1] : means[0]) + taps_ * of_.reading_variance_e2;
     variance_ += variance;
     second_.re += of_.twice_reference[image][0] * variance;
     second_.im += of_.twice_reference[image][1] * variance;
   }
 
   // The electrons of a tap of that mean, with its read noise. `merged`: both are drawn as one.
-  PMDSIM_INLINED FloatBlock charge(std::uint32_t exposure, std::uint32_t draw, const FloatBlock &mean) {
-    const FloatBlock &z = normals_.of[draw % 4];
+  PMDSIM_INLINED FloatBlock charge(std::uint32_t exposure, std::uint32_t draw, const FloatBlock &mean,
+                                   const FloatBlock &count, const FloatBlock &read) {
     FloatBlock charge;
     if constexpr (merged) {
-      charge = merged_charge(mean, of_.read_noise_e * of_.read_noise_e, z);
+      charge = merged_charge(mean, of_.read_noise_e * of_.read_noise_e, count);
     } else {
-      charge = whole_count(merged_charge(larger(mean, filled(1.0f)), 0.0f, z));
+      charge = whole_count(merged_charge(larger(mean, filled(1.0f)), 0.0f, count));
       if (of_.read_noise_e > 0.0f)
-        charge += of_.read_noise_e * reads_.of[draw % 4];
+        charge += of_.read_noise_e * read;
     }
-    if constexpr (!usual)
+    if constexpr (!clear)
       if (is_any_below(mean, largest_counted_mean))
-        return counted_charge(of_, pixels_.numbers(), exposure, draw, mean, z, charge);
+        return counted_charge(of_, pixels_.numbers(), exposure, draw, mean, count, charge);
     return charge;
   }
 
   PMDSIM_INLINED void read(std::uint32_t image, Reading &reading) {
-    if (two_tap && of_.sbi_e > 0.0f)
-      suppress_background(of_, reading);
-    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
-      const IntBlock is_full = read_tap(of_, reading, tap);
-      saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
-    }
-    if constexpr (usual)
+    if constexpr (clear) {
+      for (std::uint32_t tap = 0; tap < taps_; ++tap)
+        reading.number_dn[tap] = rounded(voltage_dn(of_, reading.charge_e[tap]));
       demodulate(image, reading);
-    else
-      keep(image, reading);
-  }
-
-  PMDSIM_INLINED void keep(std::uint32_t image, const Reading &reading) {
-    for (std::uint32_t tap = 0; tap < taps_; ++tap) {
-      add_exactly(readings_[image].charge_e[tap], rests_[image].charge_e[tap], reading.charge_e[tap]);
-      add_exactly(readings_[image].number_dn[tap], rests_[image].number_dn[tap], reading.number_dn[tap]);
+    } else {
+      if (two_tap && of_.sbi_e > 0.0f)
+        suppress_background(of_, reading);
+      for (std::uint32_t tap = 0; tap < taps_; ++tap) {
+        const IntBlock is_full = read_tap(of_, reading, tap);
+        saturated_ |= is_full & static_cast<std::int32_t>(1u << (16 * tap + image));
+        add_exactly(readings_[image].charge_e[tap], rests_[image].charge_e[tap], reading.charge_e[tap]);
+        add_exactly(readings_[image].number_dn[tap], rests_[image].number_dn[tap], reading.number_dn[tap]);
+      }
     }
   }
 
   // Of all exposures.
   PMDSIM_INLINED Reading mean_reading(std::uint32_t image) const {
     Reading mean = readings_[image];
-    for (std::uint32_t tap = 0; exposures() > 1 && tap < taps_; ++tap) {
+    for (std::uint32_t tap = 0; of_.exposures > 1 && tap < taps_; ++tap) {
       mean.charge_e[tap] = of_.per_exposure * (mean.charge_e[tap] + rests_[image].charge_e[tap]);
       mean.number_dn[tap] = of_.per_exposure * (mean.number_dn[tap] + rests_[image].number_dn[tap]);
     }
@@ -213,17 +214,15 @@ private:
   }
 
   PMDSIM_INLINED void demodulate(std::uint32_t image, const Reading &reading) {
-    // What the camera takes for the image's correlation sample, in electrons; of one tap with all that is
-    // common.
-    const FloatBlock difference_e =
-        of_.e_per_dn * (reading.number_dn[0] - (taps_ == 2 ? reading.number_dn[1] : filled(of_.offset_dn)));
-    largest_ = larger(largest_, absolute(difference_e));
-    read_z_ = {fused(of_.of_image * of_.reference[image][0], difference_e, read_z_.re),
-               fused(of_.of_image * of_.reference[image][1], difference_e, read_z_.im)};
+    // What the camera takes for the image's correlation sample; of one tap with all that is common.
+    const FloatBlock difference_dn =
+        reading.number_dn[0] - (two_tap ? reading.number_dn[1] : filled(of_.offset_dn));
+    largest_dn_ = larger(largest_dn_, absolute(difference_dn));
+    read_dn_ = {fused(of_.reference[image][0], difference_dn, read_dn_.re),
+                fused(of_.reference[image][1], difference_dn, read_dn_.im)};
     if (!of_.taps_out)
       return;
-    common_ += (0.5f * of_.of_image) * difference_e;
-    differences_[image] = difference_e;
+    pixels_.store_to(of_.taps_out[image], of_.radiance_per_dn * difference_dn);
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       pixels_.store_to(of_.tap_e[tap][image], reading.charge_e[tap]);
       pixels_.store_to(of_.tap_dn[tap][image], reading.number_dn[tap]);
@@ -232,90 +231,103 @@ private:
 
   PMDSIM_INLINED void store_return() {
     // Less than that is rounding: all numbers are alike.
-    const FloatBlock least = 0x1p-20f * largest_;
-    const IntBlock is_nothing = (absolute(read_z_.re) <= least) & (absolute(read_z_.im) <= least);
-    const ComplexBlock z = {chosen(is_nothing, filled(0.0f), read_z_.re),
-                            chosen(is_nothing, filled(0.0f), read_z_.im)};
-    const FloatBlock size = exact_root(fused(z.re, z.re, z.im * z.im));
-    const IntBlock is_known = size > 0.0f;
-    const FloatBlock turns = phase_turns({chosen(is_known, z.re, filled(1.0f)), z.im});
-    const FloatBlock nan = filled(not_a_number);
-    pixels_.store_to(of_.amplitude_out, of_.radiance_per_e * size);
+    const FloatBlock least_dn = (0x1p-21f * static_cast<float>(of_.images)) * largest_dn_;
+    const IntBlock is_known = (absolute(read_dn_.re) > least_dn) | (absolute(read_dn_.im) > least_dn);
+    const FloatBlock size_dn = exact_root(fused(read_dn_.re, read_dn_.re, read_dn_.im * read_dn_.im));
+    size_dn_ = chosen(is_known, size_dn, filled(0.0f));
+    const FloatBlock turns = phase_turns(read_dn_), nan = filled(not_a_number);
+    pixels_.store_to(of_.amplitude_out, (of_.radiance_per_dn * of_.of_image) * size_dn_);
     pixels_.store_to(of_.phase_rad_out,
                      chosen(is_known, smaller(two_pi_float * turns, filled(of_.below_turn)), nan));
     pixels_.store_to(of_.distance_m_out,
                      chosen(is_known, smaller(of_.ambiguity_m * turns, filled(of_.below_m)), nan));
-    const FloatBlock of_part2 = (0.5f * of_.of_image * of_.of_image * of_.per_exposure) * variance_;
-    pixels_.store_to(of_.confidence, size * newton_inverse_root(of_part2));
-    pixels_.store_to(of_.saturated, saturated_);
-    if (of_.taps_out)
-      for (std::uint32_t image = 0; image < of_.images; ++image) {
-        const FloatBlock tap = two_tap ? differences_[image] : differences_[image] - common_;
-        pixels_.store_to(of_.taps_out[image], of_.radiance_per_e * tap);
-      }
   }
 
   // sigma_phi^2 = (2 / (N a))^2 sum_k variance_k sin^2(phi - theta_k), a the amplitude in electrons.
   PMDSIM_INLINED void store_noise() {
-    const FloatBlock re2 = z_.re * z_.re, im2 = z_.im * z_.im, size2 = re2 + im2, per_size2 = 1.0f / size2;
-    const FloatBlock cos2 = (re2 - im2) * per_size2, sin2 = 2.0f * z_.re * z_.im * per_size2;
-    const FloatBlock across =
-        0.5f * larger(variance_ - (second_.re * cos2 + second_.im * sin2), filled(0.0f));
-    const FloatBlock phase_rad =
-        (of_.of_image * of_.radiance_per_e) * exact_root(of_.per_exposure * across * per_size2);
-    const FloatBlock fullest_dn = of_.gain_dn_per_e * fullest_ + of_.offset_dn;
-    const IntBlock is_full = (fullest_ > of_.full_well_e) | (fullest_dn > of_.largest_dn);
-    const IntBlock is_known = (size2 > 0.0f) & ~is_full;
+    if (is_sine())
+      variance_ = static_cast<float>(taps_ * of_.images) * (common_e_ + (of_.dark_e + of_.reading_variance_e2));
+    const FloatBlock deviation = exact_root(variance_);
+    pixels_.store_to(of_.confidence, of_.confidence_scale * size_dn_ / deviation);
+    constexpr float root_of_half = 0.70710678f;
+    const FloatBlock across = two_tap && is_sine() ? root_of_half * deviation
+                                                   : exact_root(larger(0.5f * (variance_ - along()), filled(0.0f)));
+    IntBlock is_known = amplitude_ > 0.0f;
+    if constexpr (!clear) {
+      const FloatBlock fullest_dn = voltage_dn(of_, fullest_);
+      is_known = is_known & ~((fullest_ > of_.full_well_e) | (fullest_dn > of_.largest_dn));
+    }
     pixels_.store_to(of_.distance_noise_m,
-                     chosen(is_known, (of_.ambiguity_m * turns_per_rad) * phase_rad, filled(not_a_number)));
+                     chosen(is_known, of_.noise_scale * across / amplitude_, filled(not_a_number)));
   }
 
-  static constexpr std::uint32_t taps_ = two_tap ? 2 : 1;
+  // sum_k variance_k cos(2 (phi - theta_k)). Of a sine that is read by one tap: of three images alone any is left.
+  PMDSIM_INLINED FloatBlock along() const {
+    const FloatBlock re2 = z_e_.re * z_e_.re, im2 = z_e_.im * z_e_.im, per_size2 = 1.0f / (re2 + im2);
+    if (!is_sine()) {
+      const FloatBlock cos2 = (re2 - im2) * per_size2, sin2 = 2.0f * z_e_.re * z_e_.im * per_size2;
+      return second_.re * cos2 + second_.im * sin2;
+    }
+    if (of_.images != 3)
+      return filled(0.0f);
+    return 1.5f * (z_e_.re * (re2 - 3.0f * im2) * per_size2);
+  }
+
+  // Of one tap the mean of all images is none of the correlation samples'.
+  PMDSIM_INLINED void take_common_off() {
+    FloatBlock mean{};
+    for (std::uint32_t image = 0; image < of_.images; ++image)
+      mean += (0.5f * of_.of_image) * pixels_.load_from(of_.taps_out[image]);
+    for (std::uint32_t image = 0; image < of_.images; ++image)
+      pixels_.store_to(of_.taps_out[image], pixels_.load_from(of_.taps_out[image]) - mean);
+  }
+
   const ElectronWork &of_;
-  const Pixels<usual> pixels_;
+  const Pixels<clear> pixels_;
   FixedPattern pattern_;
-  Normals normals_, reads_;
-  ComplexBlock z_{};
+  ComplexBlock z_e_{};
+  FloatBlock amplitude_, common_e_;
   FloatBlock variance_{}; // sum over the images
   ComplexBlock second_{}; // the same times exp(2 j theta_k)
   FloatBlock fullest_{};  // charge of all taps, in the mean
   IntBlock saturated_{};
   // Sums over the exposures, and what rounding took from them.
-  Reading readings_[usual ? 1 : most_images], rests_[usual ? 1 : most_images];
-  ComplexBlock read_z_{};           // what the camera makes of its numbers, electrons
-  FloatBlock largest_{}, common_{}; // of the differences: the largest of them, and half of their mean
-  FloatBlock differences_[most_images];
+  Reading readings_[clear ? 1 : most_images], rests_[clear ? 1 : most_images];
+  ComplexBlock read_dn_{};             // N/2 times what the camera makes of its numbers
+  FloatBlock largest_dn_{}, size_dn_; // of the differences the largest, and of read_dn_
 };
 
-// Whether all of a block's taps are so bright that no electrons are counted one by one; no where that is
-// close. `rounding` is more than the errors of the taps' means, relative to their terms.
-PMDSIM_INLINED bool is_bright(const ElectronWork &of, const Pixels<true> &pixels) {
-  constexpr float largest_normal = 6.7f, rounding = 1e-6f, close = 1.001f;
-  const float least_response = of.prnu * largest_normal < 1.0f ? 1.0f - of.prnu * largest_normal : 0.0f;
-  const FloatBlock background =
-      of.background_e ? pixels.load_from(of.background_e) : filled(of.all_background_e);
-  bool are_bright = true;
-  for (std::uint32_t k = 0; k < (of.amplitude ? 1 : of.images); ++k) {
-    const FloatBlock common = of.half_per_radiance * pixels.load_from(of.mean_radiance[k]) + background;
-    const FloatBlock largest_part =
-        of.part_per_correlation * absolute(pixels.load_from(of.amplitude ? of.amplitude : of.taps[k]));
-    const FloatBlock darkest = (1.0f - rounding) * common - (1.0f + rounding) * largest_part;
-    are_bright &= are_all_above(least_response * darkest + of.dark_e, close * largest_counted_mean);
-  }
-  return are_bright;
+// Whether all of a block's pixels are clear; no where that is close. `rounding` is more than the errors of the taps'
+// means, relative to their terms.
+PMDSIM_INLINED bool is_clear(const ElectronWork &of, const Pixels<true> &pixels) {
+  constexpr float rounding = 1e-6f;
+  const FloatBlock common = common_light(of, pixels, 0),
+                   part = of.part_per_correlation * pixels.load_from(of.amplitude);
+  const FloatBlock darkest = (1.0f - rounding) * common - (1.0f + rounding) * part,
+                   brightest = (1.0f + rounding) * (common + part);
+  return are_all_above(darkest, of.clear_from_e) && are_all_above(of.clear_to_e - brightest, 0.0f);
 }
 
-template <bool two_tap, bool merged, bool usual>
-[[gnu::noinline]] void count_block(const ElectronWork &of, const Pixels<usual> &pixels) {
-  PixelElectrons<two_tap, merged, usual>(of, pixels).count();
+template <bool two_tap, bool merged, bool clear>
+[[gnu::noinline]] void count_block(const ElectronWork &of, const Pixels<clear> &pixels) {
+  const std::uint32_t draws = of.images * (two_tap ? 2 : 1);
+  PixelElectrons<two_tap, merged, clear> electrons(of, pixels);
+  Draws counts, reads;
+  for (std::uint32_t exposure = 0; exposure < (clear ? 1 : of.exposures); ++exposure) {
+    draw_normals(of, pixels.numbers(), ChanceStream::normals, exposure, draws, counts);
+    if (!merged && of.read_noise_e > 0.0f)
+      draw_normals(of, pixels.numbers(), ChanceStream::reads, exposure, draws, reads);
+    electrons.expose(exposure, counts, reads);
+  }
+  electrons.store();
 }
 
 template <bool two_tap, bool merged>
 void count_blocks(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
-  const bool are_usual = of.exposures == 1;
+  const bool may_be_clear = of.exposures == 1 && of.amplitude;
   for (std::uint32_t pixel = first; pixel < last; pixel += block_lanes) {
     const std::uint32_t left = last - pixel;
-    if (are_usual && left >= block_lanes && is_bright(of, {pixel}))
+    if (may_be_clear && left >= block_lanes && is_clear(of, {pixel}))
       count_block<two_tap, merged, true>(of, {pixel});
     else
       count_block<two_tap, merged, false>(of,

@@ -8,6 +8,13 @@ namespace pmdsim {
 
 constexpr std::uint32_t most_images = 16;
 
+// The largest mean of which Poisson's numbers are found one by one.
+constexpr float largest_counted_mean = 64.0f;
+// At this read noise and above the steps of single electrons are gone: 3e-9 of them is left.
+constexpr float least_merged_noise_e = 1.0f;
+// Normal numbers are no farther from 0.
+constexpr float largest_normal = 5.4f;
+
 // The streams of random numbers of a pixel, which the counter's words tell apart.
 enum class ChanceStream : std::uint32_t { normals, counts, reads, pattern };
 
@@ -26,9 +33,10 @@ struct ElectronWork {
   // to tap A and takes from B, and in the dark.
   float half_per_radiance, part_per_correlation, dark_e;
   float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
-  float gain_dn_per_e, e_per_dn, offset_dn, largest_dn;
-  float reading_variance_e2; // of the reading of one tap
-  float radiance_per_e;      // of the difference that the camera takes for a correlation sample
+  float gain_dn_per_e, offset_dn, largest_dn;
+  float clear_from_e, clear_to_e; // a tap's light in the mean of which no reading is dark, less than 0 or too much
+  float reading_variance_e2;      // of the reading of one tap
+  float radiance_per_dn;          // of the difference that the camera takes for a correlation sample
   bool two_tap;
   std::uint32_t exposures; // that are averaged, of all parts of a pixel in turn
   std::uint32_t parts;     // each has a fixed pattern of its own
@@ -36,6 +44,9 @@ struct ElectronWork {
   // frequency.
   std::uint32_t key[2], frame, sensor, frequency;
   float of_image, per_exposure; // 2 / N, 1 / exposures
+  // distance_noise_m over sqrt(sum_k variance_k sin^2) / amplitude, confidence over (N/2 |z| in digital numbers) /
+  // sqrt(sum_k variance_k).
+  float noise_scale, confidence_scale;
   float ambiguity_m;
   float below_turn, below_m; // the largest floats below 2 pi and below the ambiguity
   // Out: what the camera makes of it, and of its noise. Arrays of taps' pointers are nullptr where not kept.

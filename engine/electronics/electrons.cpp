@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <tbb/parallel_for.h>
@@ -46,6 +47,34 @@ void set_taps(bool keep, std::uint32_t images, std::size_t pixels, std::vector<s
     channel[k].resize(pixels);
     pointers[k] = channel[k].data();
   }
+}
+
+// Where no reading of a tap is counted one by one, or beyond what the camera has numbers for: the tap's mean light,
+// electrons.
+struct ClearLight {
+  double from_e, to_e;
+};
+
+ClearLight clear_light(const Electronics &of) {
+  constexpr double largest = largest_normal, rounding = 1e-5;
+  // What is added to a mean beyond its deviation times a normal number: the expansion's other terms, at most 6, and
+  // read noise below least_merged_noise_e.
+  const double apart_e = 12.0 + largest * of.dsnu_e, variance_e2 = of.read_noise_e * of.read_noise_e;
+  // The mean m of which m + side * largest * sqrt(m + variance) is `charge_e`.
+  const auto mean_e = [&](double charge_e, double side) {
+    const double half = 0.5 * largest, squared = half * half + charge_e + variance_e2;
+    const double deviation = std::sqrt(std::max(squared, 0.0)) - side * half;
+    return deviation * deviation - variance_e2;
+  };
+  const double empty_e = -of.offset_dn / of.gain_dn_per_e,
+               full_e = std::min(of.full_well_e, (of.largest_dn() - of.offset_dn) / of.gain_dn_per_e);
+  const double dimmest_e = std::max(mean_e(empty_e + apart_e, -1.0), double{largest_counted_mean}),
+               brightest_e = mean_e(full_e - apart_e, 1.0);
+  const double dark_e = 0.5 * of.dark_current_e_per_s * of.integration_time_s, spread = largest * of.prnu;
+  if (spread >= 1.0)
+    return {std::numeric_limits<double>::infinity(), 0.0};
+  return {(1.0 + rounding) * (dimmest_e - dark_e) / (1.0 - spread),
+          (1.0 - rounding) * (brightest_e - dark_e) / (1.0 + spread)};
 }
 
 // One frequency of a frame.
@@ -110,7 +139,8 @@ private:
     work_.half_per_radiance = as_float(0.5 * per_radiance);
     work_.part_per_correlation = as_float(0.5 * contrast * per_radiance);
     // One tap has half of the signal that the difference of two has.
-    work_.radiance_per_e = as_float((electronics_.two_tap ? 1.0 : 2.0) / (contrast * per_radiance));
+    const double radiance_per_e = (electronics_.two_tap ? 1.0 : 2.0) / (contrast * per_radiance);
+    const double exposures = electronics_.readings(), per_image = 2.0 / sensor_.taps;
     work_.all_background_e = as_float(0.5 * electrons_of(electronics_.background_radiance_w_m2_sr, sensor_));
     if (const std::size_t size = electronics_.background_image.size();
         size > 0 && size != sensor_.pixel_count())
@@ -126,14 +156,20 @@ private:
     work_.prnu = as_float(electronics_.prnu);
     work_.reading_variance_e2 = as_float(reading_variance_e2(electronics_));
     work_.gain_dn_per_e = as_float(electronics_.gain_dn_per_e);
-    work_.e_per_dn = as_float(1.0 / electronics_.gain_dn_per_e);
+    work_.radiance_per_dn = as_float(radiance_per_e / electronics_.gain_dn_per_e);
+    work_.confidence_scale = as_float(std::sqrt(2.0 * exposures) / electronics_.gain_dn_per_e);
+    const double distance_m_per_rad = sensor_.ambiguity_m(frequency) / turn_rad;
+    work_.noise_scale = as_float(distance_m_per_rad * per_image * radiance_per_e / std::sqrt(exposures));
     work_.offset_dn = as_float(electronics_.offset_dn);
     work_.largest_dn = as_float(electronics_.largest_dn());
     work_.two_tap = electronics_.two_tap;
     work_.exposures = electronics_.readings();
     work_.parts = electronics_.parts_averaged;
-    work_.per_exposure = as_float(1.0 / electronics_.readings());
-    work_.of_image = as_float(2.0 / sensor_.taps);
+    work_.per_exposure = as_float(1.0 / exposures);
+    work_.of_image = as_float(per_image);
+    const ClearLight clear = clear_light(electronics_);
+    work_.clear_from_e = as_float(clear.from_e);
+    work_.clear_to_e = as_float(clear.to_e);
   }
 
   void set_counter(std::size_t frequency, const ExposureNumber &number) {

@@ -49,20 +49,35 @@ PMDSIM_INLINED PhiloxHalf philox_round(const PhiloxHalf &from, std::uint32_t key
   return {upper(of_z) ^ from.y ^ std::int64_t{key_x}, of_z, upper(of_x) ^ from.w ^ std::int64_t{key_y}, of_x};
 }
 
+// The first two rounds of counters that differ in their first word alone, with products of words that all
+// lanes share made once.
+PMDSIM_INLINED PhiloxHalf first_philox_rounds(const LongBlock &pixels, const std::uint32_t (&shared)[3],
+                                              const std::uint32_t (&key)[2]) {
+  const auto high = [](std::uint64_t of) { return static_cast<std::uint32_t>(of >> 32); };
+  const std::uint64_t of_z = std::uint64_t{shader::philox_factor_z} * shared[1];
+  const std::uint32_t x = high(of_z) ^ shared[0] ^ key[0], y = static_cast<std::uint32_t>(of_z);
+  const LongBlock w = product(pixels, shader::philox_factor_x),
+                  z = upper(w) ^ std::int64_t{shared[2] ^ key[1]};
+  const std::uint64_t of_x = std::uint64_t{shader::philox_factor_x} * x;
+  const LongBlock second_of_z = product(z, shader::philox_factor_z);
+  return {upper(second_of_z) ^ std::int64_t{y ^ (key[0] + shader::philox_key_step_x)}, second_of_z,
+          w ^ std::int64_t{high(of_x) ^ (key[1] + shader::philox_key_step_y)},
+          LongBlock{} + std::int64_t{static_cast<std::uint32_t>(of_x)}};
+}
+
 // `counter` of each lane: its pixel, and the three words that all lanes share.
 PMDSIM_INLINED Words4 philox(const IntBlock &pixel, const std::uint32_t (&shared)[3],
                              const std::uint32_t (&key)[2]) {
-  const auto all_longs = [](std::uint32_t word) { return LongBlock{} + std::int64_t{word}; };
-  const LongBlock y = all_longs(shared[0]), z = all_longs(shared[1]), w = all_longs(shared[2]),
-                  pixels = each([](const Ints &v) { return reinterpret_cast<Longs>(v); }, pixel);
-  PhiloxHalf even{pixels, y, z, w}, odd{upper(pixels), y, z, w};
+  const LongBlock pixels = each([](const Ints &v) { return reinterpret_cast<Longs>(v); }, pixel);
+  PhiloxHalf even = first_philox_rounds(pixels, shared, key),
+             odd = first_philox_rounds(upper(pixels), shared, key);
   std::uint32_t key_x = key[0], key_y = key[1];
-#pragma GCC unroll 10
-  for (std::uint32_t i = 0; i < shader::philox_rounds; ++i) {
-    even = philox_round(even, key_x, key_y);
-    odd = philox_round(odd, key_x, key_y);
+#pragma GCC unroll 8
+  for (std::uint32_t i = 2; i < shader::philox_rounds; ++i) {
     key_x += shader::philox_key_step_x;
     key_y += shader::philox_key_step_y;
+    even = philox_round(even, key_x + shader::philox_key_step_x, key_y + shader::philox_key_step_y);
+    odd = philox_round(odd, key_x + shader::philox_key_step_x, key_y + shader::philox_key_step_y);
   }
   const auto joined = [](const LongBlock &of_even, const LongBlock &of_odd) {
     return each(

@@ -30,14 +30,15 @@ public:
         sensor_(number.sensor), frequency_(frequency), pixel_(pixel), exposure_(exposure),
         part_(exposure % parts) {}
 
+  // A word makes two draws: its upper 20 bits the radius, the next one and the last the signs, and those between the
+  // angle within a quarter of a turn.
   double normal(Stream stream, std::uint32_t draw) const {
-    const std::uint32_t first = draw / 2 * 2;
-    const std::uint32_t radius_word = word(stream, first), angle_word = word(stream, first + 1);
-    const double share = (static_cast<double>(radius_word >> 1) + 0.5) / 2147483648.0;
-    const double angle_rad =
-        turn_rad * static_cast<double>(static_cast<std::int32_t>(angle_word)) / 4294967296.0;
+    const std::uint32_t bits = word(stream, draw / 2), of_angle = bits >> 1 & 1023u;
+    const double share = (static_cast<double>(bits >> 12) + 0.5) / 1048576.0;
+    const double angle_rad = (of_angle + 0.5) / 1024.0 * turn_rad / 4.0;
     const double radius = std::sqrt(-2.0 * std::log(share));
-    return radius * (draw % 2 == 0 ? std::cos(angle_rad) : std::sin(angle_rad));
+    return draw % 2 == 0 ? std::copysign(radius * std::cos(angle_rad), bits >> 11 & 1u ? -1.0 : 1.0)
+                         : std::copysign(radius * std::sin(angle_rad), bits & 1u ? -1.0 : 1.0);
   }
 
   // By inversion.
@@ -54,13 +55,13 @@ public:
   }
 
 private:
-  std::uint32_t word(Stream stream, std::uint32_t draw) const {
+  std::uint32_t word(Stream stream, std::uint32_t number) const {
     const bool fixed = stream == Stream::pattern;
     const PhiloxCounter counter{pixel_, fixed ? 0 : frame_,
                                 (fixed ? 0 : frequency_ << 16) | static_cast<std::uint32_t>(stream) << 8 |
-                                    draw / 4,
+                                    number / 4,
                                 sensor_ << 16 | (fixed ? part_ : exposure_)};
-    return philox4x32(counter, key_)[draw % 4];
+    return philox4x32(counter, key_)[number % 4];
   }
 
   PhiloxKey key_;
