@@ -77,10 +77,15 @@ public:
 
   // With a normal number of each tap, and where shot noise and read noise are apart one more of each.
   PMDSIM_INLINED void expose(std::uint32_t exposure, const Draws &counts, const Draws &reads) {
-    if (has_pattern() && (exposure == 0 || of_.parts > 1))
+    if (of_.dsnu_e == 0.0f && of_.prnu == 0.0f) {
+      for (std::uint32_t image = 0; image < of_.images; ++image)
+        expose_image<false>(exposure, image, counts, reads);
+      return;
+    }
+    if (exposure == 0 || of_.parts > 1)
       pattern_ = fixed_pattern(of_, pixels_.numbers(), exposure % of_.parts);
     for (std::uint32_t image = 0; image < of_.images; ++image)
-      expose_image(exposure, image, counts, reads);
+      expose_image<true>(exposure, image, counts, reads);
   }
 
   PMDSIM_INLINED void store() {
@@ -97,7 +102,6 @@ public:
 private:
   static constexpr std::uint32_t taps_ = two_tap ? 2 : 1;
 
-  bool has_pattern() const { return of_.dsnu_e > 0.0f || of_.prnu > 0.0f; }
   bool is_sine() const { return clear || of_.amplitude; }
 
   // What a tap has of the noiseless z, electrons.
@@ -126,6 +130,7 @@ private:
     return of_.part_per_correlation * pixels_.load_from(of_.taps[image]);
   }
 
+  template <bool patterned>
   PMDSIM_INLINED void expose_image(std::uint32_t exposure, std::uint32_t image, const Draws &counts,
                                    const Draws &reads) {
     const FloatBlock part = part_e(image);
@@ -144,10 +149,10 @@ private:
     Reading reading; // of taps_ taps: to make the other one nothing takes time
     for (std::uint32_t tap = 0; tap < taps_; ++tap) {
       const std::uint32_t draw = taps_ * image + tap;
-      if (has_pattern())
+      if constexpr (patterned)
         means[tap] = fused(pattern_.response[tap], larger(lights[tap], filled(0.0f)), dark);
       reading.charge_e[tap] = charge(exposure, draw, means[tap], counts.of[draw], reads.of[draw]);
-      if (has_pattern())
+      if constexpr (patterned)
         reading.charge_e[tap] += pattern_.offset_e[tap];
     }
     read(image, reading);
