@@ -30,7 +30,7 @@ bool is_mostly_beyond(const Measurement &measured) {
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), wants_error_bound(wanted.keep_error_bound), wants_sample_ids(wanted.keep_sample_ids),
-        wants_taps(wanted.keep_taps), instance(wanted.validate), info(choose_device(instance, wanted.device)),
+        wants_taps(wanted.keep_taps), wants_electrons(wanted.count_electrons), instance(wanted.validate), info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
@@ -39,7 +39,7 @@ struct Simulator::State {
   Measurement spare_memory();
 
   SimulatorOptions options; // keeps bounds also where a frame turned out to need them
-  bool wants_error_bound, wants_sample_ids, wants_taps;
+  bool wants_error_bound, wants_sample_ids, wants_taps, wants_electrons;
   vulkan::Instance instance;
   DeviceInfo info;
   vulkan::Device device;
@@ -136,6 +136,7 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
   // Electrons are counted from the samples of any waveform but a sine.
   state_->options.keep_taps =
       state_->wants_taps || (sensor.electronics && sensor.waveform.kind != Waveform::Kind::sine);
+  state_->options.count_electrons = state_->wants_electrons && !bounces.any();
   state_->options.keep_sample_ids = state_->wants_sample_ids || (bounces.any() && sensor.samples > 1);
   if (bounces.any())
     state_->multipath.prepare({scene, sensor, illuminators, shadows, bounces});

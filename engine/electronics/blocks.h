@@ -126,10 +126,26 @@ PMDSIM_INLINED IntBlock shifted_right(const IntBlock &a, int bits) {
               a);
 }
 
+struct FloatBlockPair {
+  FloatBlock first, second;
+};
+
+// The first and the second values of pairs that lie one behind the other.
+PMDSIM_INLINED FloatBlockPair pairs_apart(const float *pairs) {
+  FloatBlockPair apart;
+  each_vector([&](int i) { pairs_apart(pairs + 2 * lanes * i, apart.first.of[i], apart.second.of[i]); });
+  return apart;
+}
+
 // Whether any lane is.
 PMDSIM_INLINED bool is_any_below(const FloatBlock &a, float limit) {
   std::uint32_t any = 0;
   each_vector([&](int i) { any |= bits_of(less(a.of[i], all(limit))); });
+  return any != 0;
+}
+PMDSIM_INLINED bool is_any_above(const FloatBlock &a, float limit) {
+  std::uint32_t any = 0;
+  each_vector([&](int i) { any |= bits_of(less(all(limit), a.of[i])); });
   return any != 0;
 }
 // Whether all lanes are; a lane that is no number is not.

@@ -72,14 +72,10 @@ PMDSIM_INLINED ComplexBlock unit_phasor(const FloatBlock &turns) {
           each([](const Complex &z) { return z.im; }, phasors)};
 }
 
-struct NormalPair {
-  FloatBlock first, second;
-};
-
 // Two standard normal numbers of a word: G. E. P. Box and M. E. Muller, "A note on the generation of random
 // normal deviates", Ann. Math. Stat. 29 (1958). Its upper 20 bits give the radius, at most largest_normal, the
 // other 12 the angle: 10 within a quarter of a turn, and two signs.
-PMDSIM_INLINED NormalPair normal_pair(const IntBlock &word) {
+PMDSIM_INLINED FloatBlockPair normal_pair(const IntBlock &word) {
   const IntBlock share_bits = ((shifted_right(word, 9) & 0x007ffff8) | 0x3f800004);
   const FloatBlock radius = exact_root(minus_two_log(floats_of_bits(share_bits) - 1.0f));
   // From the quarter's middle, in 2048ths of half a turn.

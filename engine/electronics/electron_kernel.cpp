@@ -102,16 +102,18 @@ public:
 private:
   static constexpr std::uint32_t taps_ = two_tap ? 2 : 1;
 
-  bool is_sine() const { return clear || of_.amplitude; }
+  bool is_sine() const { return clear || of_.is_sine; }
 
   // What a tap has of the noiseless z, electrons.
   PMDSIM_INLINED void find_light() {
-    common_e_ = common_light(of_, pixels_, 0);
     if (is_sine()) {
-      amplitude_ = pixels_.load_from(of_.amplitude);
-      const FloatBlock phase_rad = pixels_.load_from(of_.phase_rad);
+      const SineLight light = sine_light(of_, pixels_);
+      if (of_.mean_radiance_out)
+        pixels_.store_to(of_.mean_radiance_out, light.mean_radiance);
+      common_e_ = common_light(of_, pixels_, light.mean_radiance);
+      amplitude_ = light.amplitude;
       const ComplexBlock phasor =
-          unit_phasor(turns_per_rad * chosen(amplitude_ > 0.0f, phase_rad, filled(0.0f)));
+          unit_phasor(turns_per_rad * chosen(amplitude_ > 0.0f, light.phase_rad, filled(0.0f)));
       const FloatBlock size_e = of_.part_per_correlation * amplitude_;
       z_e_ = {size_e * phasor.re, size_e * phasor.im};
       return;
@@ -135,7 +137,7 @@ private:
                                    const Draws &reads) {
     const FloatBlock part = part_e(image);
     if (!is_sine())
-      common_e_ = common_light(of_, pixels_, image);
+      common_e_ = common_light(of_, pixels_, pixels_.load_from(of_.mean_radiance[image]));
     const FloatBlock lights[2] = {common_e_ + part, common_e_ - part}, dark = filled(of_.dark_e),
                      with_dark = common_e_ + of_.dark_e;
     // The taps' means but for the fixed pattern.
@@ -306,8 +308,9 @@ private:
 // means, relative to their terms.
 PMDSIM_INLINED bool is_clear(const ElectronWork &of, const Pixels<true> &pixels) {
   constexpr float rounding = 1e-6f;
-  const FloatBlock common = common_light(of, pixels, 0),
-                   part = of.part_per_correlation * pixels.load_from(of.amplitude);
+  const SineLight light = sine_light(of, pixels);
+  const FloatBlock common = common_light(of, pixels, light.mean_radiance),
+                   part = of.part_per_correlation * light.amplitude;
   const FloatBlock darkest = (1.0f - rounding) * common - (1.0f + rounding) * part,
                    brightest = (1.0f + rounding) * (common + part);
   return are_all_above(darkest, of.clear_from_e) && are_all_above(of.clear_to_e - brightest, 0.0f);
@@ -327,20 +330,33 @@ template <bool two_tap, bool merged, bool clear>
   electrons.store();
 }
 
-template <bool two_tap, bool merged>
-void count_blocks(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
-  const bool may_be_clear = of.exposures == 1 && of.amplitude;
-  for (std::uint32_t pixel = first; pixel < last; pixel += block_lanes) {
-    const std::uint32_t left = last - pixel;
-    if (may_be_clear && left >= block_lanes && is_clear(of, {pixel}))
-      count_block<two_tap, merged, true>(of, {pixel});
-    else
-      count_block<two_tap, merged, false>(of,
-                                          {pixel, left < block_lanes ? static_cast<int>(left) : block_lanes});
-  }
+template <bool whole>
+bool has_finite_light(const ElectronWork &of, const Pixels<whole> &pixels) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  if (!of.is_sine)
+    return true; // whoever has it on the host has looked at it
+  const SineLight light = sine_light(of, pixels);
+  return !is_any_above(light.amplitude, largest) && !is_any_above(light.mean_radiance, largest);
 }
 
-void count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+template <bool two_tap, bool merged>
+bool count_blocks(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+  const bool may_be_clear = of.exposures == 1 && of.is_sine;
+  bool are_finite = true;
+  for (std::uint32_t pixel = first; pixel < last; pixel += block_lanes) {
+    const std::uint32_t left = last - pixel;
+    if (may_be_clear && left >= block_lanes && is_clear(of, {pixel})) {
+      count_block<two_tap, merged, true>(of, {pixel});
+      continue;
+    }
+    const Pixels<false> pixels{pixel, left < block_lanes ? static_cast<int>(left) : block_lanes};
+    are_finite = are_finite && has_finite_light(of, pixels);
+    count_block<two_tap, merged, false>(of, pixels);
+  }
+  return are_finite;
+}
+
+bool count_electrons(const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
   const bool merged = of.read_noise_e >= least_merged_noise_e;
   if (of.two_tap)
     return merged ? count_blocks<true, true>(of, first, last) : count_blocks<true, false>(of, first, last);

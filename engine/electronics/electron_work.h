@@ -23,12 +23,18 @@ struct ElectronWork {
   std::uint32_t images;              // N, most_images at most
   const float (*reference)[2];       // exp(j 2 pi k / N) of each
   const float (*twice_reference)[2]; // exp(j 4 pi k / N)
-  // The noiseless correlation samples: of a sine by amplitude and phase, else (nullptr) by the taps.
+  // The noiseless correlation samples: of a sine by amplitude and phase, else by the taps.
+  bool is_sine;
   const float *amplitude, *phase_rad;
   const float *const *taps;
   const float *const *mean_radiance; // of each image
-  const float *background_e;         // of each pixel and tap; nullptr: of all alike
-  float all_background_e;
+  // Of a sine as a strip of the device has it (else nullptr): pairs of amplitude and phase, and of mean radiance and
+  // nothing, from pixel first_of_pairs on. Then the mean radiance goes to mean_radiance_out.
+  const float *return_pairs, *mean_pairs;
+  std::uint32_t first_of_pairs;
+  float *mean_radiance_out;
+  const float *background; // of each pixel, relative to that of all; nullptr: all alike
+  float all_background_e;  // of a tap
   // Electrons of each tap: half of what the mean light makes of a radiance, what its correlation sample adds
   // to tap A and takes from B, and in the dark.
   float half_per_radiance, part_per_correlation, dark_e;
@@ -59,8 +65,8 @@ struct ElectronWork {
 
 // One for each instruction set.
 struct ElectronLoops {
-  // The pixels from `first` to `last` - 1.
-  void (*count)(const ElectronWork &of, std::uint32_t first, std::uint32_t last);
+  // The pixels from `first` to `last` - 1. Returns whether none has more light than a float can hold.
+  bool (*count)(const ElectronWork &of, std::uint32_t first, std::uint32_t last);
 };
 
 } // namespace pmdsim

@@ -27,4 +27,20 @@ struct ElectronsRequest {
 // pass "electrons" to the frame's times.
 void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Measurement &frame);
 
+// The noiseless light of a strip of a frame, row by row as a device leaves it: of a sine.
+struct StripLight {
+  std::uint32_t column, row, columns, rows; // its place in the frame
+  std::vector<const float *> returns;       // of each frequency: of each pixel amplitude and phase
+  const float *mean_radiance;               // of each pixel, and beside it something else
+};
+
+// Whether a sensor's electrons can be counted strip by strip: of a sine and of few exposures, with neither scatter nor
+// noiseless channels.
+bool counts_by_strips(const Sensor &sensor);
+
+// The same of a strip's pixels: their channels in `frame`, which has room for all, and no others' are written. Of the
+// request all but the light of single taps counts. Throws Error: input where there is more light than a float can hold.
+void count_electrons(const Sensor &sensor, const ElectronsRequest &request, const StripLight &light,
+                     Measurement &frame);
+
 } // namespace pmdsim

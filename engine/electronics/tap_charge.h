@@ -29,6 +29,17 @@ struct Pixels {
       return values;
     }
   }
+  // `from`: pairs of pixel `first_there` and the next ones.
+  PMDSIM_INLINED FloatBlockPair load_pairs_from(const float *from, std::uint32_t first_there) const {
+    from += std::size_t{2} * (first - first_there);
+    if constexpr (whole) {
+      return pairs_apart(from);
+    } else {
+      alignas(vector_bytes) float pairs[2 * block_lanes]{};
+      __builtin_memcpy(pairs, from, 2 * sizeof(float) * static_cast<std::size_t>(count));
+      return pairs_apart(pairs);
+    }
+  }
   template <class V, class T>
   PMDSIM_INLINED void store_to(T *to, const Block<V> &values) const {
     if constexpr (whole)
@@ -55,18 +66,33 @@ inline FixedPattern fixed_pattern(const ElectronWork &of, const IntBlock &pixels
   const std::uint32_t shared[3] = {0, static_cast<std::uint32_t>(ChanceStream::pattern) << 8,
                                    of.sensor << 16 | part};
   const Words4 words = philox(pixels, shared, of.key);
-  const NormalPair responses = normal_pair(words.of[0]), offsets = normal_pair(words.of[1]);
+  const FloatBlockPair responses = normal_pair(words.of[0]), offsets = normal_pair(words.of[1]);
   const FloatBlock none = filled(0.0f);
   return {{larger(1.0f + of.prnu * responses.first, none), larger(1.0f + of.prnu * responses.second, none)},
           {of.dsnu_e * offsets.first, of.dsnu_e * offsets.second}};
 }
 
+// The noiseless light of a sine.
+struct SineLight {
+  FloatBlock amplitude, phase_rad, mean_radiance;
+};
+
+template <bool whole>
+PMDSIM_INLINED SineLight sine_light(const ElectronWork &of, const Pixels<whole> &pixels) {
+  if (!of.return_pairs)
+    return {pixels.load_from(of.amplitude), pixels.load_from(of.phase_rad),
+            pixels.load_from(of.mean_radiance[0])};
+  const FloatBlockPair of_return = pixels.load_pairs_from(of.return_pairs, of.first_of_pairs);
+  return {of_return.first, of_return.second, pixels.load_pairs_from(of.mean_pairs, of.first_of_pairs).first};
+}
+
 // What both taps have of the mean light's electrons and of the background's.
 template <bool whole>
-PMDSIM_INLINED FloatBlock common_light(const ElectronWork &of, const Pixels<whole> &pixels, std::uint32_t image) {
-  const FloatBlock background =
-      of.background_e ? pixels.load_from(of.background_e) : filled(of.all_background_e);
-  return fused(of.half_per_radiance, pixels.load_from(of.mean_radiance[image]), background);
+PMDSIM_INLINED FloatBlock common_light(const ElectronWork &of, const Pixels<whole> &pixels,
+                                       const FloatBlock &mean_radiance) {
+  const FloatBlock background = of.background ? of.all_background_e * pixels.load_from(of.background)
+                                              : filled(of.all_background_e);
+  return fused(of.half_per_radiance, mean_radiance, background);
 }
 
 // A number with the first four cumulants of Poisson's of that mean, plus a normal one of that variance, from
@@ -97,7 +123,7 @@ struct Draws {
   for (std::uint32_t first = 0; first < draws; first += 8) {
     const Words4 words = words_of(of, pixels, stream, first / 8, exposure);
     for (std::uint32_t i = 0; i < 4 && first + 2 * i < draws; ++i) {
-      const NormalPair pair = normal_pair(words.of[i]);
+      const FloatBlockPair pair = normal_pair(words.of[i]);
       to.of[first + 2 * i] = pair.first;
       to.of[first + 2 * i + 1] = pair.second;
     }

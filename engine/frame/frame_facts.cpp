@@ -1,5 +1,6 @@
 #include "engine/frame/frame_facts.h"
 
+#include "engine/electronics/electrons.h"
 #include "engine/sampling/strip_memory.h"
 #include "engine/signal/channel_layout.h"
 #include "engine/view/id_raster_pass.h"
@@ -37,6 +38,11 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   if (shaded)
     facts.occluders = find_occluders(facts.camera, request.scene, facts.lights);
   facts.modulation = modulation_of(request.sensor, options);
+  // A spot check compares frames of the light alone.
+  facts.counts_electrons =
+      options.count_electrons && counts_by_strips(request.sensor) && request.accuracy.mode == Mode::exact;
+  if (facts.counts_electrons)
+    facts.modulation.keep_taps = false; // the electrons make them
   facts.modulation.lit = shaded && (!facts.occluders.empty() || !facing);
   facts.modulation.keeps_terms = request.accuracy.mode != Mode::exact || request.sensor.adaptive_samples;
   facts.model = sum_model(facts.lights, request.backscatter, facing);

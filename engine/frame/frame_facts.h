@@ -36,6 +36,7 @@ struct FrameFacts {
   std::uint32_t largest_strip; // samples
   bool has_doubles;            // the work done once a sample is done in them
   bool host_is_device;         // the device is the processor that the program runs on
+  bool counts_electrons;       // strip by strip
   std::uint32_t window_bundles = shader::bundles_per_window; // of visibility bits that are there together
 };
 

@@ -64,7 +64,7 @@ void FrameGraph::run_parts(const Pass &pass, std::size_t window, Parts parts, Ru
   }
 }
 
-void FrameGraph::run_pass(const Pass &pass, std::size_t window, Run &run) const {
+void FrameGraph::record_pass(const Pass &pass, std::size_t window, Run &run) const {
   if (!run.open)
     run.recorder.begin();
   run.open = true;
@@ -84,9 +84,15 @@ void FrameGraph::run_pass(const Pass &pass, std::size_t window, Run &run) const 
     pass.record({run.recorder.commands(), run.planned, run.strip, window, {}});
     run.recorder.end_pass(pass.name);
   }
+}
+
+void FrameGraph::run_pass(const Pass &pass, std::size_t window, Run &run) const {
+  if (pass.record)
+    record_pass(pass, window, run);
   if (!pass.store || !run.to)
     return;
-  run.recorder.finish();
+  if (run.open)
+    run.recorder.finish();
   run.open = false;
   const auto start = std::chrono::steady_clock::now();
   pass.store({run.recorder.commands(), run.planned, run.strip, window, {}}, *run.to);

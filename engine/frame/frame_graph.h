@@ -42,6 +42,7 @@ private:
   };
 
   void check(const Pass &pass);
+  void record_pass(const Pass &pass, std::size_t window, Run &run) const;
   void run_pass(const Pass &pass, std::size_t window, Run &run) const;
   void run_parts(const Pass &pass, std::size_t window, Parts parts, Run &run) const;
 

@@ -1,6 +1,7 @@
 #include "engine/frame/frame_passes.h"
 
 #include "engine/error_budget/planned_bounds.h"
+#include "engine/frame/electrons_pass.h"
 #include "engine/frame/shadow_passes.h"
 #include "engine/frame/uniform_pixels_pass.h"
 #include "engine/light/host/host_sum.h"
@@ -381,7 +382,10 @@ FramePasses make_passes(const FrameBasis &on, std::unique_ptr<FrameMemory> memor
   if (shadow && on.options.keep_visibility)
     graph.add_to_window(visibility_read_back_pass(on, sources));
   list_classes(on, shadow.blocks.get(), graph);
-  graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth));
+  graph.add_after(read_back_pass(on.sensor, on.modulation, on.buffers, truth,
+                                 on.facts.counts_electrons ? LightBy::electrons : LightBy::read_back));
+  if (on.facts.counts_electrons)
+    graph.add_after(electrons_pass(on.sensor, on.modulation, on.options, on.buffers));
   if (on.path.check) {
     made.check.emplace(on, on.strips);
     list_check(on, *made.check, shadow, made.check_graph);

@@ -31,4 +31,9 @@ private:
   ExitCode code_;
 };
 
+inline Error too_much_light() {
+  return {ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
+                           "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene"};
+}
+
 } // namespace pmdsim

@@ -36,6 +36,29 @@ inline void store(T *to, const V &values) {
   std::memcpy(to, &values, sizeof(values));
 }
 
+// The first and the second values of pairs that lie one behind the other.
+inline void pairs_apart(const float *pairs, Floats &first, Floats &second) {
+#if defined(__AVX512F__)
+  const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0),
+                odd = _mm512_or_si512(even, _mm512_set1_epi32(1));
+  const auto low = load<__m512>(pairs), high = load<__m512>(pairs + lanes);
+  first = reinterpret_cast<Floats>(_mm512_permutex2var_ps(low, even, high));
+  second = reinterpret_cast<Floats>(_mm512_permutex2var_ps(low, odd, high));
+#elif defined(__AVX2__)
+  const auto low = load<__m256>(pairs), high = load<__m256>(pairs + lanes);
+  const auto in_order = [](const __m256 &v) {
+    return reinterpret_cast<Floats>(_mm256_permute4x64_pd(reinterpret_cast<__m256d>(v), 0xd8));
+  };
+  first = in_order(_mm256_shuffle_ps(low, high, 0x88));
+  second = in_order(_mm256_shuffle_ps(low, high, 0xdd));
+#else
+  for (int lane = 0; lane < lanes; ++lane) {
+    first[lane] = pairs[2 * lane];
+    second[lane] = pairs[2 * lane + 1];
+  }
+#endif
+}
+
 inline Floats all(float value) { return value - Floats{}; }
 inline Ints all(std::int32_t value) { return value - Ints{}; }
 

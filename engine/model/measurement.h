@@ -77,6 +77,7 @@ struct Measurement {
   std::vector<float> lit;
   // The mean radiance of all diodes' light, W/(m^2 sr), noiseless; empty unless Sensor::electronics.
   std::vector<float> mean_radiance;
+  bool has_electrons = false; // the sensor's electronics have read the frame; else it is of the light alone
   // From all frequencies together, with Sensor::unwrap_range_m, else empty: the distance, NaN where some
   // frequency has none or all that fit lie beyond the range, and 1 where the phases agree on it and on no
   // other, else 0, as where a tap is full.

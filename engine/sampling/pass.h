@@ -47,7 +47,7 @@ struct Recording {
 struct Pass {
   std::string name; // the key of its time in Measurement::passes
   Resources reads, writes;
-  std::function<void(const Recording &)> record;
+  std::function<void(const Recording &)> record; // nothing: all of it is the host's
   // For a pass that may be cut into several submissions: its parts in a window, their number in all windows,
   // and the interactions (samples times sources) of one.
   std::function<Parts(std::size_t window)> parts = {};

@@ -49,11 +49,20 @@ void store_pair(std::span<const shader::uvec2> pair, const Row &row, const Desti
   std::visit(store, even, odd);
 }
 
+bool is_read_back(const ChannelRow &row, const ChannelLayout &layout, LightBy light) {
+  if (!layout.holds(row))
+    return false;
+  const auto is = [&](const ChannelRow &other) { return row.name == other.name; };
+  const bool is_light = is(row_of(&Return::amplitude)) || is(row_of(&Return::phase_rad)) ||
+                        is(row_of(&Return::distance_m)) || is(row_of(&Measurement::mean_radiance));
+  return !is_light || light == LightBy::read_back;
+}
+
 // The destination of each channel on the device.
-std::vector<Destination> destinations(const ChannelLayout &layout, Measurement &to) {
+std::vector<Destination> destinations(const ChannelLayout &layout, LightBy light, Measurement &to) {
   std::vector<Destination> result(layout.channels());
   for_each_channel(to, [&](const ChannelIndex &of, auto &values) {
-    if (layout.holds(of.row))
+    if (is_read_back(of.row, layout, light))
       result[layout.number(of)] = values.data();
   });
   return result;
@@ -80,14 +89,14 @@ void store_truth(std::span<const shader::uvec4> records, const Row &row, const T
 
 // Light has no upper bound. Values that a float is too small for are counted, not searched for, as the
 // compiler vectorizes a count.
-void check_radiance(const Row &row, const ChannelLayout &layout, const Measurement &measurement) {
+void check_radiance(const Row &row, const ChannelLayout &layout, LightBy light,
+                    const Measurement &measurement) {
   for_each_channel(measurement, [&](const ChannelIndex &of, const auto &values) {
-    if (of.row.unit != radiance_unit || !layout.holds(of.row))
+    if (of.row.unit != radiance_unit || !is_read_back(of.row, layout, light))
       return;
     const auto of_row = std::span(values).subspan(row.in_frame, row.pixels);
     if (std::ranges::count_if(of_row, [](auto value) { return std::isinf(value); }) > 0)
-      throw Error(ExitCode::input, "a pixel receives more light than a float can hold: expected less than "
-                                   "3.4e38 W/(m^2 sr), by weaker diodes or farther from the scene");
+      throw too_much_light();
   });
 }
 
@@ -136,17 +145,21 @@ void record_read_back(const vk::raii::CommandBuffer &commands, const shader::Str
 }
 
 void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const Sensor &sensor,
-                 const Modulation &modulation, const std::optional<TruthOfRecords> &truth,
+                 const Modulation &modulation, const std::optional<TruthOfRecords> &truth, LightBy light,
                  Measurement &measurement) {
   const ChannelLayout layout(modulation);
-  const std::vector<Destination> to = destinations(layout, measurement);
+  const std::vector<Destination> to = destinations(layout, light, measurement);
+  const auto goes_nowhere = [&](std::uint32_t channel) {
+    return std::holds_alternative<std::monostate>(to[channel]);
+  };
   tbb::parallel_for(0u, strip.rows, [&](std::uint32_t index) {
     const Row row = row_of(strip, index);
     if (truth)
       store_truth(records_for_host(buffers), row, *truth, measurement);
     for (std::uint32_t channel = truth ? layout.first_channel(0) : 0; channel < to.size(); channel += 2)
-      store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
-    check_radiance(row, layout, measurement);
+      if (!goes_nowhere(channel) || !goes_nowhere(channel + 1))
+        store_pair(pair_for_host(buffers, strip, channel), row, to[channel], to[channel + 1]);
+    check_radiance(row, layout, light, measurement);
   });
   if (!measurement.sample_pixel_id.empty())
     store_sample_ids(ids_for_host(buffers), buffers.id_bytes, strip, is_tiled(sensor), measurement);
@@ -158,11 +171,12 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
                              const SimulatorOptions &options, Measurement &&memory) {
   Measurement measurement = std::move(memory);
   measurement.resolution = sensor.resolution;
+  measurement.has_electrons = false;
   const std::size_t pixels = sensor.pixel_count();
   const ChannelLayout layout(modulation);
   measurement.returns.resize(layout.frequencies);
   for (Return &of_frequency : measurement.returns) {
-    of_frequency.taps.resize(layout.taps);
+    of_frequency.taps.resize(options.keep_taps ? sensor.taps : layout.taps);
     if (!layout.bounds)
       of_frequency.error_bound_m.clear();
   }
@@ -182,7 +196,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
 }
 
 Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,
-                    const std::optional<TruthOfRecords> &truth) {
+                    const std::optional<TruthOfRecords> &truth, LightBy light) {
   return {.name = "read_back",
           .reads = ids | channels,
           .writes = no_resource,
@@ -192,7 +206,7 @@ Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const St
               },
           .store =
               [=, &buffers](const Recording &at, Measurement &to) {
-                store_strip(at.of_strip(), buffers, sensor, modulation, truth, to);
+                store_strip(at.of_strip(), buffers, sensor, modulation, truth, light, to);
               }};
 }
 

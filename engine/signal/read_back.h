@@ -24,11 +24,14 @@ struct TruthOfRecords {
 Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
                              const SimulatorOptions &options, Measurement &&memory);
 
+// Who writes the light to its place in the frame: amplitude, phase, distance and mean radiance.
+enum class LightBy { read_back, electrons };
+
 // Copies what the demodulation (and, where the host reads them, the ID raster) left to memory that the
 // host can read, and then to its place in the frame. Storing throws Error: input where light is beyond what a
 // float holds.
 Pass read_back_pass(const Sensor &sensor, const Modulation &modulation, const StripBuffers &buffers,
-                    const std::optional<TruthOfRecords> &truth);
+                    const std::optional<TruthOfRecords> &truth, LightBy light = LightBy::read_back);
 
 // The violations of all strips since they were cleared, as last read; only where Modulation::keeps_terms.
 shader::BudgetViolations budget_violations(const StripBuffers &buffers);

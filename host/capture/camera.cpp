@@ -39,6 +39,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.keep_sample_ids = extras.sample_triangles;
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
+  options.count_electrons = extras.electrons_at_once;
   if (extras.diodes_in_a_loop)
     options.allowed.point_polynomials = options.allowed.direct_pixels = false;
   // The program never changes its environment any more.
@@ -90,7 +91,7 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
           of_frequency.taps.clear();
       scatter(sensor_, measurement);
     }
-    if (sensor_.electronics)
+    if (sensor_.electronics && !measurement.has_electrons)
       count_electrons(sensor_,
                       {.reads_taps = static_cast<bool>(add),
                        .keep_taps = extras_.taps,

@@ -143,7 +143,9 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
                      std::uint32_t paths)
     : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
-      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup), .paths = paths}),
+      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup),
+                       .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
+                       .paths = paths}),
       others_(setup, device, paths), instants_(setup) {}
 
 const Instant &Exposures::instant_at(double time_s) {

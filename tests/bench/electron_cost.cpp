@@ -35,7 +35,7 @@ class Variant {
 public:
   Variant(std::string name, const Setup &setup, const Sensor &sensor, bool keep_taps)
       : name_(std::move(name)), sensor_(sensor), keep_taps_(keep_taps),
-        simulator_(SimulatorOptions{.device = {}, .keep_taps = keep_taps}) {
+        simulator_(SimulatorOptions{.device = {}, .keep_taps = keep_taps, .count_electrons = true}) {
     std::vector<Illuminator> lights = setup.start.illuminators;
     for (Illuminator &light : lights)
       for (Diode &diode : light.diodes)
@@ -46,10 +46,7 @@ public:
   const std::string &name() const { return name_; }
 
   Measurement measure(std::uint32_t number) {
-    Measurement frame = simulator_.measure({}, {0, number, 0});
-    if (sensor_.electronics)
-      count_electrons(sensor_, {.keep_taps = keep_taps_}, frame);
-    return frame;
+    return simulator_.measure({}, {0, number, 0});
   }
 
   void take(std::uint32_t number) {
