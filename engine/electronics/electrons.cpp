@@ -72,6 +72,7 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Meas
     if (!request.keep_taps)
       frame.returns[i].taps.clear();
   }
+  frame.has_electrons = true;
   stopwatch.add_to(frame, "electrons");
 }
 
@@ -89,6 +90,7 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, cons
     electrons.set_light(light);
     count_strip(loops, electrons.work(), light, sensor.resolution.x);
   }
+  frame.has_electrons = true;
 }
 
 } // namespace pmdsim

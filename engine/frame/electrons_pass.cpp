@@ -30,7 +30,6 @@ Pass electrons_pass(const Sensor &sensor, const Modulation &modulation, const Si
           .store =
               [=, layout = ChannelLayout(modulation), &buffers](const Recording &at, Measurement &to) {
                 count_electrons(sensor, request, light_of(at.of_strip(), layout, buffers), to);
-                to.has_electrons = true;
               }};
 }
 

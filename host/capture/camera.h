@@ -51,7 +51,7 @@ public:
   using AddLight = std::function<void(Measurement &)>;
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {},
                       const AddLight &add = {});
-  // The same before the electronics.
+  // The same before the electronics; not of a camera with Extras::electrons_at_once.
   Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().
   void reuse(Measurement &&frame);

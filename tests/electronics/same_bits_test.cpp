@@ -1,6 +1,7 @@
 // The same seed gives the same bits: whatever vectors, strips, threads and order of frames, and, but for the
 // last bit of a mean, those of the judge.
 
+#include "engine/model/error.h"
 #include "engine/reference/reference.h"
 #include "tests/comparison/frame_bytes.h"
 #include "tests/electronics/fixture.h"
@@ -8,8 +9,11 @@
 #include "tests/support/simulator.h"
 
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <tbb/global_control.h>
+#include <utility>
 
 using namespace pmdsim;
 using namespace pmdsim::test;
@@ -57,9 +61,35 @@ Measurement measured(const Sensor &sensor, const SimulatorOptions &options = {},
   Simulator simulator = make_simulator(options);
   simulator.prepare(two_walls(), sensor, two_lights(sensor), Backscatter::lambert, Shadows::automatic);
   Measurement measurement = simulator.measure({}, {2, frame, 0});
-  count_electrons(sensor, {.keep_taps = true, .host_vector_bits = options.host_vector_bits}, measurement);
+  CHECK(measurement.has_electrons == (options.count_electrons && counts_by_strips(sensor)));
+  if (!measurement.has_electrons)
+    count_electrons(sensor, {.keep_taps = true, .host_vector_bits = options.host_vector_bits}, measurement);
   return measurement;
 }
+
+// A frame's light as a device would leave that of some of its pixels.
+struct Tile {
+  Tile(const Measurement &frame, StripLight at) : light(std::move(at)) {
+    mean.reserve(std::size_t{2} * light.columns * light.rows);
+    for (const Return &of : frame.returns) {
+      std::vector<float> &pairs = returns.emplace_back();
+      for (std::uint32_t row = light.row; row < light.row + light.rows; ++row)
+        for (std::uint32_t column = light.column; column < light.column + light.columns; ++column) {
+          const std::size_t pixel = std::size_t{row} * frame.resolution.x + column;
+          pairs.insert(pairs.end(), {of.amplitude[pixel], of.phase_rad[pixel]});
+          if (&of == frame.returns.data())
+            mean.insert(mean.end(), {frame.mean_radiance[pixel], -1.0f});
+        }
+    }
+    for (const std::vector<float> &pairs : returns)
+      light.returns.push_back(pairs.data());
+    light.mean_radiance = mean.data();
+  }
+
+  std::vector<std::vector<float>> returns;
+  std::vector<float> mean;
+  StripLight light;
+};
 
 } // namespace
 
@@ -97,6 +127,68 @@ TEST_CASE("electrons are the same in two runs, strips, threads and vectors of an
     }
 }
 
+TEST_CASE("electrons strip by strip are those of the whole frame") {
+  for (const bool two_tap : {true, false})
+    for (const bool has_picture : {false, true}) {
+      Sensor sensor = noisy_sensor();
+      sensor.electronics->two_tap = two_tap;
+      if (has_picture)
+        give_uneven_background(*sensor.electronics, sensor.pixel_count());
+      const std::string expected = bytes_of(measured(sensor, {.device = {}, .keep_taps = true}));
+      SimulatorOptions options{.device = {}, .keep_taps = true, .count_electrons = true};
+      CHECK(bytes_of(measured(sensor, options)) == expected);
+      options.max_strip_samples = 700;
+      CHECK(bytes_of(measured(sensor, options)) == expected);
+      options.keep_taps = false;
+      const Return without = measured(sensor, options).returns[1];
+      CHECK(without.taps.empty());
+      CHECK(without.tap_a_e.empty());
+      CHECK(without.phase_rad == measured(sensor).returns[1].phase_rad);
+      sensor.electronics->noiseless_channels = true; // they are taken from the whole frame
+      const Return both = measured(sensor, options).returns[1];
+      CHECK(both.phase_rad == without.phase_rad);
+      CHECK(both.phase_rad_noiseless != without.phase_rad);
+    }
+}
+
+TEST_CASE("electrons of parts of rows are those of the whole frame") {
+  const Sensor sensor = noisy_sensor();
+  Simulator simulator = make_simulator({});
+  simulator.prepare(two_walls(), sensor, two_lights(sensor), Backscatter::lambert, Shadows::automatic);
+  const Measurement light = simulator.measure({}, {2, 7, 0});
+  Measurement whole = light, in_tiles = light;
+  count_electrons(sensor, {.keep_taps = true}, whole);
+  for (const std::uint32_t column : {0u, 1u, 60u})
+    for (const std::uint32_t row : {0u, 30u}) {
+      const std::uint32_t end = column == 0 ? 1 : column == 1 ? 60 : 67;
+      const Tile tile(light, {column, row, end - column, row == 0 ? 30u : 15u, {}, nullptr});
+      count_electrons(sensor, {.keep_taps = true}, tile.light, in_tiles);
+    }
+  CHECK(bytes_of(in_tiles) == bytes_of(whole));
+}
+
+TEST_CASE("light that no float holds is refused strip by strip, too") {
+  const Sensor sensor = noisy_sensor();
+  Measurement frame;
+  frame.returns.resize(2);
+  frame.resolution = sensor.resolution;
+  for (Return &of : frame.returns)
+    for (auto *channel : {&of.amplitude, &of.phase_rad, &of.distance_m})
+      channel->assign(sensor.pixel_count(), 1.0f);
+  frame.mean_radiance.assign(sensor.pixel_count(), 2.0f);
+  const auto count = [&] {
+    Measurement counted = frame;
+    const Tile tile(frame, {0, 0, sensor.resolution.x, sensor.resolution.y, {}, nullptr});
+    count_electrons(sensor, {}, tile.light, counted);
+  };
+  CHECK_NOTHROW(count());
+  for (float *const value : {&frame.mean_radiance[999], &frame.returns[1].amplitude.back()}) {
+    const float finite = std::exchange(*value, std::numeric_limits<float>::infinity());
+    CHECK_THROWS_AS(count(), Error);
+    *value = finite;
+  }
+}
+
 TEST_CASE("a pixel's electrons do not depend on its neighbours, however close to dark its taps are") {
   constexpr std::uint32_t columns = 12'800, apart = 64; // pixels from one close to dark to the next
   for (const std::uint32_t images : {3u, 4u})
@@ -129,6 +221,73 @@ TEST_CASE("a pixel's electrons do not depend on its neighbours, however close to
             for (std::size_t i = 5; i < columns; i += apart)
               different += (bright.returns[0].*taps)[k][i] != (beside_dark.returns[0].*taps)[k][i] ? 1u : 0u;
         CHECK(different == 0);
+      }
+}
+
+namespace {
+
+// A row of even light, from `from_e` electrons of a tap's mean to `to_e`.
+Measurement rising_light(const LightLevels &levels, double from_e, double to_e) {
+  Measurement rising = levels.noiseless;
+  const std::size_t pixels = rising.mean_radiance.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double mean_e = from_e + (to_e - from_e) * static_cast<double>(i) / static_cast<double>(pixels);
+    rising.mean_radiance[i] = static_cast<float>(2.0 * mean_e / electrons_of(1.0, levels.sensor));
+    rising.returns[0].amplitude[i] = 0.01f * rising.mean_radiance[i];
+  }
+  return rising;
+}
+
+// The same with a dark pixel in every 16, and of those between the number whose channels differ.
+std::size_t pixels_that_dark_ones_change(const LightLevels &levels, const Measurement &light) {
+  constexpr std::size_t apart = 16;
+  Measurement alone = light, beside_dark = light;
+  for (std::size_t i = 0; i < light.mean_radiance.size(); i += apart)
+    beside_dark.returns[0].amplitude[i] = beside_dark.mean_radiance[i] = 0.0f;
+  count_electrons(levels.sensor, {.keep_taps = true}, alone);
+  count_electrons(levels.sensor, {.keep_taps = true}, beside_dark);
+  std::size_t different = 0;
+  const auto compare = [&](const auto &a, const auto &b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+      different += i % apart != 0 && std::memcmp(&a[i], &b[i], sizeof(a[i])) != 0 ? 1u : 0u;
+  };
+  const Return &a = alone.returns[0], &b = beside_dark.returns[0];
+  for (const auto channel : {&Return::amplitude, &Return::phase_rad, &Return::distance_m,
+                             &Return::distance_noise_m, &Return::confidence})
+    compare(a.*channel, b.*channel);
+  compare(a.saturated, b.saturated);
+  for (const auto taps : {&Return::taps, &Return::tap_a_e, &Return::tap_b_e, &Return::tap_a_dn,
+                          &Return::tap_b_dn})
+    for (std::size_t k = 0; k < (a.*taps).size(); ++k)
+      compare((a.*taps)[k], (b.*taps)[k]);
+  return different;
+}
+
+} // namespace
+
+TEST_CASE("nor however close to the ends of what the camera reads") {
+  constexpr std::uint32_t columns = 48'000;
+  struct Ends {
+    double from_e, to_e, offset_dn, full_well_e, read_noise_e, pattern;
+  };
+  for (const Ends &ends : {Ends{64.0, 700.0, 0.0, 50e3, 25.0, 0.0}, Ends{64.0, 700.0, 0.0, 50e3, 25.0, 1.0},
+                           Ends{64.0, 300.0, 0.0, 50e3, 0.5, 0.0}, Ends{44e3, 51e3, 40.0, 50e3, 25.0, 0.0},
+                           Ends{40e3, 52e3, 40.0, 50e3, 25.0, 1.0}, Ends{46e3, 52e3, 40.0, 1e6, 25.0, 0.0},
+                           Ends{44e3, 51e3, 40.0, 50e3, 0.5, 0.0}})
+    for (const std::uint32_t images : {3u, 4u})
+      for (const bool two_tap : {true, false}) {
+        INFO(images << " images, " << (two_tap ? 2 : 1) << " taps, from " << ends.from_e << " e, read noise "
+                    << ends.read_noise_e << " e, pattern " << ends.pattern);
+        Electronics electronics = plain_electronics();
+        electronics.two_tap = two_tap;
+        electronics.dark_current_e_per_s = 0.0;
+        electronics.offset_dn = ends.offset_dn;
+        electronics.full_well_e = ends.full_well_e;
+        electronics.read_noise_e = ends.read_noise_e;
+        electronics.prnu = 0.01 * ends.pattern;
+        electronics.dsnu_e = 10.0 * ends.pattern;
+        const LightLevels levels = light_levels(electronics, images, {1.0}, 1.1, columns);
+        CHECK(pixels_that_dark_ones_change(levels, rising_light(levels, ends.from_e, ends.to_e)) == 0);
       }
 }
 

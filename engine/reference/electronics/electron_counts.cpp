@@ -285,6 +285,7 @@ void count_electrons(const Frame &frame, const Sensor &sensor, bool keep_taps, M
       channels.set(pixel);
     }
   }
+  measurement.has_electrons = true;
 }
 
 } // namespace pmdsim::reference
