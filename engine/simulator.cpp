@@ -30,7 +30,8 @@ bool is_mostly_beyond(const Measurement &measured) {
 struct Simulator::State {
   explicit State(const SimulatorOptions &wanted)
       : options(wanted), wants_error_bound(wanted.keep_error_bound), wants_sample_ids(wanted.keep_sample_ids),
-        wants_taps(wanted.keep_taps), wants_electrons(wanted.count_electrons), instance(wanted.validate), info(choose_device(instance, wanted.device)),
+        wants_taps(wanted.keep_taps), wants_electrons(wanted.count_electrons), instance(wanted.validate),
+        info(choose_device(instance, wanted.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();

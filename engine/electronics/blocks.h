@@ -4,6 +4,7 @@
 
 #include "engine/model/elementary_lanes.h"
 
+#include <cstddef>
 #include <type_traits>
 
 namespace pmdsim::PMDSIM_INSTRUCTION_SET {
@@ -63,8 +64,6 @@ PMDSIM_OF_BLOCKS(<<)
 PMDSIM_OF_BLOCKS(>>)
 PMDSIM_OF_BLOCKS(<)
 PMDSIM_OF_BLOCKS(>)
-PMDSIM_OF_BLOCKS(<=)
-PMDSIM_OF_BLOCKS(!=)
 #undef PMDSIM_OF_BLOCKS
 
 template <class V>
@@ -133,7 +132,9 @@ struct FloatBlockPair {
 // The first and the second values of pairs that lie one behind the other.
 PMDSIM_INLINED FloatBlockPair pairs_apart(const float *pairs) {
   FloatBlockPair apart;
-  each_vector([&](int i) { pairs_apart(pairs + 2 * lanes * i, apart.first.of[i], apart.second.of[i]); });
+  each_vector([&](int i) {
+    pairs_apart(pairs + std::ptrdiff_t{2} * lanes * i, apart.first.of[i], apart.second.of[i]);
+  });
   return apart;
 }
 

@@ -62,8 +62,8 @@ PMDSIM_INLINED void add_exactly(FloatBlock &sum, FloatBlock &rest, const FloatBl
   sum = whole;
 }
 
-// A block of pixels. `clear`: all of them there, of one exposure, and neither dark nor near the ends of what the
-// camera reads. Then little is kept in memory, as with AVX2 and AVX-512 nothing is called.
+// A block of pixels. `clear`: all of them there, of one exposure, and neither dark nor near the ends of what
+// the camera reads. Then little is kept in memory, as with AVX2 and AVX-512 nothing is called.
 template <bool two_tap, bool merged, bool clear>
 class PixelElectrons {
 public:
@@ -253,12 +253,14 @@ private:
   // sigma_phi^2 = (2 / (N a))^2 sum_k variance_k sin^2(phi - theta_k), a the amplitude in electrons.
   PMDSIM_INLINED void store_noise() {
     if (is_sine())
-      variance_ = static_cast<float>(taps_ * of_.images) * (common_e_ + (of_.dark_e + of_.reading_variance_e2));
+      variance_ =
+          static_cast<float>(taps_ * of_.images) * (common_e_ + (of_.dark_e + of_.reading_variance_e2));
     const FloatBlock deviation = exact_root(variance_);
     pixels_.store_to(of_.confidence, of_.confidence_scale * size_dn_ / deviation);
     constexpr float root_of_half = 0.70710678f;
-    const FloatBlock across = two_tap && is_sine() ? root_of_half * deviation
-                                                   : exact_root(larger(0.5f * (variance_ - along()), filled(0.0f)));
+    const FloatBlock across = two_tap && is_sine()
+                                  ? root_of_half * deviation
+                                  : exact_root(larger(0.5f * (variance_ - along()), filled(0.0f)));
     IntBlock is_known = amplitude_ > 0.0f;
     if constexpr (!clear) {
       const FloatBlock fullest_dn = voltage_dn(of_, fullest_);
@@ -268,7 +270,8 @@ private:
                      chosen(is_known, of_.noise_scale * across / amplitude_, filled(not_a_number)));
   }
 
-  // sum_k variance_k cos(2 (phi - theta_k)). Of a sine that is read by one tap: of three images alone any is left.
+  // sum_k variance_k cos(2 (phi - theta_k)). Of a sine that is read by one tap: of three images alone any is
+  // left.
   PMDSIM_INLINED FloatBlock along() const {
     const FloatBlock re2 = z_e_.re * z_e_.re, im2 = z_e_.im * z_e_.im, per_size2 = 1.0f / (re2 + im2);
     if (!is_sine()) {
@@ -300,12 +303,12 @@ private:
   IntBlock saturated_{};
   // Sums over the exposures, and what rounding took from them.
   Reading readings_[clear ? 1 : most_images], rests_[clear ? 1 : most_images];
-  ComplexBlock read_dn_{};             // N/2 times what the camera makes of its numbers
+  ComplexBlock read_dn_{};            // N/2 times what the camera makes of its numbers
   FloatBlock largest_dn_{}, size_dn_; // of the differences the largest, and of read_dn_
 };
 
-// Whether all of a block's pixels are clear; no where that is close. `rounding` is more than the errors of the taps'
-// means, relative to their terms.
+// Whether all of a block's pixels are clear; no where that is close. `rounding` is more than the errors of
+// the taps' means, relative to their terms.
 PMDSIM_INLINED bool is_clear(const ElectronWork &of, const Pixels<true> &pixels) {
   constexpr float rounding = 1e-6f;
   const SineLight light = sine_light(of, pixels);

@@ -28,8 +28,8 @@ struct ElectronWork {
   const float *amplitude, *phase_rad;
   const float *const *taps;
   const float *const *mean_radiance; // of each image
-  // Of a sine as a strip of the device has it (else nullptr): pairs of amplitude and phase, and of mean radiance and
-  // nothing, from pixel first_of_pairs on. Then the mean radiance goes to mean_radiance_out.
+  // Of a sine as a strip of the device has it (else nullptr): pairs of amplitude and phase, and of mean
+  // radiance and nothing, from pixel first_of_pairs on. Then the mean radiance goes to mean_radiance_out.
   const float *return_pairs, *mean_pairs;
   std::uint32_t first_of_pairs;
   float *mean_radiance_out;
@@ -40,9 +40,10 @@ struct ElectronWork {
   float half_per_radiance, part_per_correlation, dark_e;
   float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
   float gain_dn_per_e, offset_dn, largest_dn;
-  float clear_from_e, clear_to_e; // a tap's light in the mean of which no reading is dark, less than 0 or too much
-  float reading_variance_e2;      // of the reading of one tap
-  float radiance_per_dn;          // of the difference that the camera takes for a correlation sample
+  float clear_from_e,
+      clear_to_e;            // a tap's light in the mean of which no reading is dark, less than 0 or too much
+  float reading_variance_e2; // of the reading of one tap
+  float radiance_per_dn;     // of the difference that the camera takes for a correlation sample
   bool two_tap;
   std::uint32_t exposures; // that are averaged, of all parts of a pixel in turn
   std::uint32_t parts;     // each has a fixed pattern of its own
@@ -50,8 +51,8 @@ struct ElectronWork {
   // frequency.
   std::uint32_t key[2], frame, sensor, frequency;
   float of_image, per_exposure; // 2 / N, 1 / exposures
-  // distance_noise_m over sqrt(sum_k variance_k sin^2) / amplitude, confidence over (N/2 |z| in digital numbers) /
-  // sqrt(sum_k variance_k).
+  // distance_noise_m over sqrt(sum_k variance_k sin^2) / amplitude, confidence over (N/2 |z| in digital
+  // numbers) / sqrt(sum_k variance_k).
   float noise_scale, confidence_scale;
   float ambiguity_m;
   float below_turn, below_m; // the largest floats below 2 pi and below the ambiguity

@@ -21,8 +21,8 @@ constexpr std::uint32_t many_exposures = 64;
 // Of each thread, between which a frame of many exposures may be stopped.
 constexpr std::uint32_t parts_at_once = 4;
 
-// Pixels from `first` to `last` - 1 in parts, all threads at once. Throws Error: input where some have more light than a
-// float can hold.
+// Pixels from `first` to `last` - 1 in parts, all threads at once. Throws Error: input where some have more
+// light than a float can hold.
 void count_parts(const ElectronLoops &loops, const ElectronWork &work, std::uint32_t first,
                  std::uint32_t last, std::uint32_t of_part) {
   std::atomic<bool> are_finite = true;

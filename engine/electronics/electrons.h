@@ -34,12 +34,13 @@ struct StripLight {
   const float *mean_radiance;               // of each pixel, and beside it something else
 };
 
-// Whether a sensor's electrons can be counted strip by strip: of a sine and of few exposures, with neither scatter nor
-// noiseless channels.
+// Whether a sensor's electrons can be counted strip by strip: of a sine and of few exposures, with neither
+// scatter nor noiseless channels.
 bool counts_by_strips(const Sensor &sensor);
 
-// The same of a strip's pixels: their channels in `frame`, which has room for all, and no others' are written. Of the
-// request all but the light of single taps counts. Throws Error: input where there is more light than a float can hold.
+// The same of a strip's pixels: their channels in `frame`, which has room for all, and no others' are
+// written. Of the request all but the light of single taps counts. Throws Error: input where there is more
+// light than a float can hold.
 void count_electrons(const Sensor &sensor, const ElectronsRequest &request, const StripLight &light,
                      Measurement &frame);
 

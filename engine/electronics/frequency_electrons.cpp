@@ -16,16 +16,16 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 
 float as_float(double value) { return static_cast<float>(value); }
 
-// Where no reading of a tap is counted one by one, or beyond what the camera has numbers for: the tap's mean light,
-// electrons.
+// Where no reading of a tap is counted one by one, or beyond what the camera has numbers for: the tap's mean
+// light, electrons.
 struct ClearLight {
   double from_e, to_e;
 };
 
 ClearLight clear_light(const Electronics &of) {
   constexpr double largest = largest_normal, rounding = 1e-5;
-  // What is added to a mean beyond its deviation times a normal number: the expansion's other terms, at most 6, and
-  // read noise below least_merged_noise_e.
+  // What is added to a mean beyond its deviation times a normal number: the expansion's other terms, at most
+  // 6, and read noise below least_merged_noise_e.
   const double apart_e = 12.0 + largest * of.dsnu_e, variance_e2 = of.read_noise_e * of.read_noise_e;
   // The mean m of which m + side * largest * sqrt(m + variance) is `charge_e`.
   const auto mean_e = [&](double charge_e, double side) {
@@ -48,8 +48,8 @@ ClearLight clear_light(const Electronics &of) {
 
 FrequencyElectrons::FrequencyElectrons(const Sensor &sensor, bool keep_taps, std::size_t frequency,
                                        Measurement &frame)
-    : sensor_(sensor), electronics_(*sensor.electronics), keep_taps_(keep_taps), frequency_(frequency), frame_(frame),
-      to_(frame.returns[frequency]) {
+    : sensor_(sensor), electronics_(*sensor.electronics), keep_taps_(keep_taps), frequency_(frequency),
+      frame_(frame), to_(frame.returns[frequency]) {
   set_images();
   set_electronics();
   set_camera();

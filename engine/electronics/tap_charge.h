@@ -90,8 +90,8 @@ PMDSIM_INLINED SineLight sine_light(const ElectronWork &of, const Pixels<whole> 
 template <bool whole>
 PMDSIM_INLINED FloatBlock common_light(const ElectronWork &of, const Pixels<whole> &pixels,
                                        const FloatBlock &mean_radiance) {
-  const FloatBlock background = of.background ? of.all_background_e * pixels.load_from(of.background)
-                                              : filled(of.all_background_e);
+  const FloatBlock background =
+      of.background ? of.all_background_e * pixels.load_from(of.background) : filled(of.all_background_e);
   return fused(of.half_per_radiance, mean_radiance, background);
 }
 
@@ -116,10 +116,11 @@ struct Draws {
   FloatBlock of[2 * most_images];
 };
 
-// Two draws of a word. In a loop of its own, so that the processor has the next words' steps to make while one
-// waits for its last.
-[[gnu::noinline]] inline void draw_normals(const ElectronWork &of, const IntBlock &pixels, ChanceStream stream,
-                                           std::uint32_t exposure, std::uint32_t draws, Draws &to) {
+// Two draws of a word. In a loop of its own, so that the processor has the next words' steps to make while
+// one waits for its last.
+[[gnu::noinline]] inline void draw_normals(const ElectronWork &of, const IntBlock &pixels,
+                                           ChanceStream stream, std::uint32_t exposure, std::uint32_t draws,
+                                           Draws &to) {
   for (std::uint32_t first = 0; first < draws; first += 8) {
     const Words4 words = words_of(of, pixels, stream, first / 8, exposure);
     for (std::uint32_t i = 0; i < 4 && first + 2 * i < draws; ++i) {

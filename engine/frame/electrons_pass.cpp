@@ -22,15 +22,15 @@ StripLight light_of(const shader::Strip &strip, const ChannelLayout &layout, con
 
 Pass electrons_pass(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
                     const StripBuffers &buffers) {
-  const ElectronsRequest request{.keep_taps = options.keep_taps, .host_vector_bits = options.host_vector_bits};
+  const ElectronsRequest request{.keep_taps = options.keep_taps,
+                                 .host_vector_bits = options.host_vector_bits};
   return {.name = "electrons",
           .reads = channels,
           .writes = no_resource,
           .record = {},
-          .store =
-              [=, layout = ChannelLayout(modulation), &buffers](const Recording &at, Measurement &to) {
-                count_electrons(sensor, request, light_of(at.of_strip(), layout, buffers), to);
-              }};
+          .store = [=, layout = ChannelLayout(modulation), &buffers](const Recording &at, Measurement &to) {
+            count_electrons(sensor, request, light_of(at.of_strip(), layout, buffers), to);
+          }};
 }
 
 } // namespace pmdsim

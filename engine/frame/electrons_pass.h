@@ -9,8 +9,8 @@
 
 namespace pmdsim {
 
-// Counts them on the host, on any device; behind the read-back, which leaves the light to it. Storing throws Error: input
-// where light is beyond what a float holds.
+// Counts them on the host, on any device; behind the read-back, which leaves the light to it. Storing throws
+// Error: input where light is beyond what a float holds.
 Pass electrons_pass(const Sensor &sensor, const Modulation &modulation, const SimulatorOptions &options,
                     const StripBuffers &buffers);
 

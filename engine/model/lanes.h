@@ -53,8 +53,8 @@ inline void pairs_apart(const float *pairs, Floats &first, Floats &second) {
   second = in_order(_mm256_shuffle_ps(low, high, 0xdd));
 #else
   for (int lane = 0; lane < lanes; ++lane) {
-    first[lane] = pairs[2 * lane];
-    second[lane] = pairs[2 * lane + 1];
+    first[lane] = *pairs++;
+    second[lane] = *pairs++;
   }
 #endif
 }

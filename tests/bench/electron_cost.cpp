@@ -45,9 +45,7 @@ public:
 
   const std::string &name() const { return name_; }
 
-  Measurement measure(std::uint32_t number) {
-    return simulator_.measure({}, {0, number, 0});
-  }
+  Measurement measure(std::uint32_t number) { return simulator_.measure({}, {0, number, 0}); }
 
   void take(std::uint32_t number) {
     Measurement frame = measure(number);

@@ -57,7 +57,8 @@ TEST_CASE("normal numbers have the moments, the tails and the distribution of no
   for (std::vector<double> *const of : {&numbers.of_a, &numbers.of_b}) {
     const double expected[] = {0.0, 1.0, 0.0, 3.0, 0.0, 15.0, 0.0, 105.0};
     for (int power = 1; power <= 8; ++power) {
-      const double errors = errors_from(*of, expected[power - 1], [&](double z) { return std::pow(z, power); });
+      const double errors =
+          errors_from(*of, expected[power - 1], [&](double z) { return std::pow(z, power); });
       fmt::print("normal numbers to the power of {}: {:.2f} standard errors\n", power, errors);
       CHECK(std::abs(errors) < 4.0);
     }
@@ -80,7 +81,8 @@ TEST_CASE("normal numbers have the moments, the tails and the distribution of no
 
 TEST_CASE("the two normal numbers of a word know nothing of each other") {
   const Numbers numbers = normal_numbers();
-  for (const auto &[power_a, power_b] : {std::pair(1, 1), std::pair(2, 2), std::pair(1, 2), std::pair(3, 3)}) {
+  for (const auto &[power_a, power_b] :
+       {std::pair(1, 1), std::pair(2, 2), std::pair(1, 2), std::pair(3, 3)}) {
     Moments products;
     for (std::size_t i = 0; i < numbers.of_a.size(); ++i) {
       const auto centred = [](double z, int power) { return std::pow(z, power) - (power == 2 ? 1.0 : 0.0); };

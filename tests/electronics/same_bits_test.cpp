@@ -256,8 +256,8 @@ std::size_t pixels_that_dark_ones_change(const LightLevels &levels, const Measur
                              &Return::distance_noise_m, &Return::confidence})
     compare(a.*channel, b.*channel);
   compare(a.saturated, b.saturated);
-  for (const auto taps : {&Return::taps, &Return::tap_a_e, &Return::tap_b_e, &Return::tap_a_dn,
-                          &Return::tap_b_dn})
+  for (const auto taps :
+       {&Return::taps, &Return::tap_a_e, &Return::tap_b_e, &Return::tap_a_dn, &Return::tap_b_dn})
     for (std::size_t k = 0; k < (a.*taps).size(); ++k)
       compare((a.*taps)[k], (b.*taps)[k]);
   return different;

@@ -30,8 +30,8 @@ public:
         sensor_(number.sensor), frequency_(frequency), pixel_(pixel), exposure_(exposure),
         part_(exposure % parts) {}
 
-  // A word makes two draws: its upper 20 bits the radius, the next one and the last the signs, and those between the
-  // angle within a quarter of a turn.
+  // A word makes two draws: its upper 20 bits the radius, the next one and the last the signs, and those
+  // between the angle within a quarter of a turn.
   double normal(Stream stream, std::uint32_t draw) const {
     const std::uint32_t bits = word(stream, draw / 2), of_angle = bits >> 1 & 1023u;
     const double share = (static_cast<double>(bits >> 12) + 0.5) / 1048576.0;

@@ -124,7 +124,8 @@ Complex tone_return(const RunForm &form, const Light &light, const PointView &vi
 
 // Of two values a pixel, beside each other: neighbouring pixels at once. The compiler would call it, and hand
 // over the vectors through memory, which costs an eighth of the pass.
-[[gnu::always_inline]] inline void store_pairs(float *pairs, const VectorSamples &samples, const Floats &first, const Floats &second) {
+[[gnu::always_inline]] inline void store_pairs(float *pairs, const VectorSamples &samples,
+                                               const Floats &first, const Floats &second) {
   constexpr int stretch = std::min<int>(lanes, shader::block_samples);
   alignas(vector_bytes) float both[lanes][2];
   for (int lane = 0; lane < lanes; ++lane) {
@@ -146,8 +147,9 @@ Complex tone_return(const RunForm &form, const Light &light, const PointView &vi
 }
 
 // To `channel`, which is even, and the next.
-[[gnu::always_inline]] inline void store_channels(const PixelWork &of, std::uint32_t channel, const VectorSamples &samples,
-                    const Floats &first, const Floats &second) {
+[[gnu::always_inline]] inline void store_channels(const PixelWork &of, std::uint32_t channel,
+                                                  const VectorSamples &samples, const Floats &first,
+                                                  const Floats &second) {
   store_pairs(of.channels + std::size_t{channel} * of.plane, samples, first, second);
 }
 
