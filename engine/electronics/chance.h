@@ -66,6 +66,10 @@ struct ComplexBlock {
   FloatBlock re, im;
 };
 
+PMDSIM_INLINED FloatBlock magnitude(const ComplexBlock &z) {
+  return exact_root(fused(z.re, z.re, z.im * z.im));
+}
+
 PMDSIM_INLINED ComplexBlock unit_phasor(const FloatBlock &turns) {
   const Block<Complex> phasors = each([](const Floats &x) { return unit_phasor(x); }, turns);
   return {each([](const Complex &z) { return z.re; }, phasors),

@@ -9,7 +9,7 @@ namespace pmdsim::PMDSIM_INSTRUCTION_SET {
 namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float two_pi_float = 6.2831853f, turns_per_rad = 0.15915494f;
+constexpr float two_pi_float = 6.2831853f;
 
 // What the camera reads of an image: taps' electrons before the ADC, and digital numbers.
 struct Reading {
@@ -112,17 +112,14 @@ private:
         pixels_.store_to(of_.mean_radiance_out, light.mean_radiance);
       common_e_ = common_light(of_, pixels_, light.mean_radiance);
       amplitude_ = light.amplitude;
-      const ComplexBlock phasor =
-          unit_phasor(turns_per_rad * chosen(amplitude_ > 0.0f, light.phase_rad, filled(0.0f)));
-      const FloatBlock size_e = of_.part_per_correlation * amplitude_;
-      z_e_ = {size_e * phasor.re, size_e * phasor.im};
+      z_e_ = {of_.part_per_correlation * light.z.re, of_.part_per_correlation * light.z.im};
       return;
     }
     for (std::uint32_t k = 0; k < of_.images; ++k) {
       z_e_.re += (of_.of_image * of_.reference[k][0]) * part_e(k);
       z_e_.im += (of_.of_image * of_.reference[k][1]) * part_e(k);
     }
-    amplitude_ = exact_root(fused(z_e_.re, z_e_.re, z_e_.im * z_e_.im)) / of_.part_per_correlation;
+    amplitude_ = magnitude(z_e_) / of_.part_per_correlation;
   }
 
   // What the image's correlation sample adds to tap A and takes from B.
@@ -240,8 +237,7 @@ private:
     // Less than that is rounding: all numbers are alike.
     const FloatBlock least_dn = (0x1p-21f * static_cast<float>(of_.images)) * largest_dn_;
     const IntBlock is_known = (absolute(read_dn_.re) > least_dn) | (absolute(read_dn_.im) > least_dn);
-    const FloatBlock size_dn = exact_root(fused(read_dn_.re, read_dn_.re, read_dn_.im * read_dn_.im));
-    size_dn_ = chosen(is_known, size_dn, filled(0.0f));
+    size_dn_ = chosen(is_known, magnitude(read_dn_), filled(0.0f));
     const FloatBlock turns = phase_turns(read_dn_), nan = filled(not_a_number);
     pixels_.store_to(of_.amplitude_out, (of_.radiance_per_dn * of_.of_image) * size_dn_);
     pixels_.store_to(of_.phase_rad_out,
@@ -339,7 +335,10 @@ bool has_finite_light(const ElectronWork &of, const Pixels<whole> &pixels) {
   if (!of.is_sine)
     return true; // whoever has it on the host has looked at it
   const SineLight light = sine_light(of, pixels);
-  return !is_any_above(light.amplitude, largest) && !is_any_above(light.mean_radiance, largest);
+  // Of numbers whose squares are beyond it |z| is, too.
+  const FloatBlock size =
+      of.complex_returns ? larger(absolute(light.z.re), absolute(light.z.im)) : light.amplitude;
+  return !is_any_above(size, largest) && !is_any_above(light.mean_radiance, largest);
 }
 
 template <bool two_tap, bool merged>

@@ -28,8 +28,10 @@ struct ElectronWork {
   const float *amplitude, *phase_rad;
   const float *const *taps;
   const float *const *mean_radiance; // of each image
-  // Of a sine as a strip of the device has it (else nullptr): pairs of amplitude and phase, and of mean
-  // radiance and nothing, from pixel first_of_pairs on. Then the mean radiance goes to mean_radiance_out.
+  // Of a sine as a strip of the device has it (else nullptr): pairs of amplitude and phase, or of the
+  // return's real and imaginary part, and of mean radiance and nothing, from pixel first_of_pairs on. Then
+  // the mean radiance goes to mean_radiance_out.
+  bool complex_returns;
   const float *return_pairs, *mean_pairs;
   std::uint32_t first_of_pairs;
   float *mean_radiance_out;

@@ -30,8 +30,10 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Meas
 // The noiseless light of a strip of a frame, row by row as a device leaves it: of a sine.
 struct StripLight {
   std::uint32_t column, row, columns, rows; // its place in the frame
-  std::vector<const float *> returns;       // of each frequency: of each pixel amplitude and phase
-  const float *mean_radiance;               // of each pixel, and beside it something else
+  bool is_complex;                          // which stand for:
+  std::vector<const float *> returns; // of each frequency: of each pixel amplitude and phase, or real and
+                                      // imaginary part
+  const float *mean_radiance;         // of each pixel, and beside it something else
 };
 
 // Whether a sensor's electrons can be counted strip by strip: of a sine and of few exposures, with neither

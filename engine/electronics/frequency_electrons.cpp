@@ -100,6 +100,7 @@ void FrequencyElectrons::set_light(const ElectronsRequest &request) {
 
 void FrequencyElectrons::set_light(const StripLight &light) {
   work_.is_sine = true;
+  work_.complex_returns = light.is_complex;
   work_.return_pairs = light.returns[frequency_];
   work_.mean_pairs = light.mean_radiance;
   work_.mean_radiance_out = frequency_ == 0 ? frame_.mean_radiance.data() : nullptr;

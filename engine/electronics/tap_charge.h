@@ -74,16 +74,29 @@ inline FixedPattern fixed_pattern(const ElectronWork &of, const IntBlock &pixels
 
 // The noiseless light of a sine.
 struct SineLight {
-  FloatBlock amplitude, phase_rad, mean_radiance;
+  FloatBlock amplitude; // |z|
+  ComplexBlock z;
+  FloatBlock mean_radiance;
 };
+
+PMDSIM_INLINED SineLight polar_light(const FloatBlock &amplitude, const FloatBlock &phase_rad,
+                                     const FloatBlock &mean_radiance) {
+  constexpr float turns_per_rad = 0.15915494f;
+  const ComplexBlock phasor = unit_phasor(turns_per_rad * chosen(amplitude > 0.0f, phase_rad, filled(0.0f)));
+  return {amplitude, {amplitude * phasor.re, amplitude * phasor.im}, mean_radiance};
+}
 
 template <bool whole>
 PMDSIM_INLINED SineLight sine_light(const ElectronWork &of, const Pixels<whole> &pixels) {
   if (!of.return_pairs)
-    return {pixels.load_from(of.amplitude), pixels.load_from(of.phase_rad),
-            pixels.load_from(of.mean_radiance[0])};
+    return polar_light(pixels.load_from(of.amplitude), pixels.load_from(of.phase_rad),
+                       pixels.load_from(of.mean_radiance[0]));
   const FloatBlockPair of_return = pixels.load_pairs_from(of.return_pairs, of.first_of_pairs);
-  return {of_return.first, of_return.second, pixels.load_pairs_from(of.mean_pairs, of.first_of_pairs).first};
+  const FloatBlock mean_radiance = pixels.load_pairs_from(of.mean_pairs, of.first_of_pairs).first;
+  if (!of.complex_returns)
+    return polar_light(of_return.first, of_return.second, mean_radiance);
+  const ComplexBlock z{of_return.first, of_return.second};
+  return {magnitude(z), z, mean_radiance};
 }
 
 // What both taps have of the mean light's electrons and of the background's.

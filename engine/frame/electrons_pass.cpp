@@ -8,11 +8,18 @@
 namespace pmdsim {
 namespace {
 
-StripLight light_of(const shader::Strip &strip, const ChannelLayout &layout, const StripBuffers &buffers) {
+StripLight light_of(const shader::Strip &strip, const Modulation &modulation, const StripBuffers &buffers) {
+  const ChannelLayout layout(modulation);
   const auto pairs = [&](std::uint32_t channel) {
     return reinterpret_cast<const float *>(pair_for_host(buffers, strip, channel).data());
   };
-  StripLight light{strip.column, strip.row, strip.columns, strip.rows, {}, pairs(layout.mean_channel())};
+  StripLight light{strip.column,
+                   strip.row,
+                   strip.columns,
+                   strip.rows,
+                   modulation.complex_returns,
+                   {},
+                   pairs(layout.mean_channel())};
   for (std::uint32_t f = 0; f < layout.frequencies; ++f)
     light.returns.push_back(pairs(layout.first_channel(f)));
   return light;
@@ -28,8 +35,8 @@ Pass electrons_pass(const Sensor &sensor, const Modulation &modulation, const Si
           .reads = channels,
           .writes = no_resource,
           .record = {},
-          .store = [=, layout = ChannelLayout(modulation), &buffers](const Recording &at, Measurement &to) {
-            count_electrons(sensor, request, light_of(at.of_strip(), layout, buffers), to);
+          .store = [=, &buffers](const Recording &at, Measurement &to) {
+            count_electrons(sensor, request, light_of(at.of_strip(), modulation, buffers), to);
           }};
 }
 

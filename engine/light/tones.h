@@ -24,7 +24,10 @@ struct Modulation {
   bool reports_kept = false;         // and the largest bound of the pixels that keep theirs
   bool keeps_bounds = false;         // each pixel's bound is a channel, too
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
-  bool keeps_mean = false;           // the mean radiance is a channel, too: the last frequency, 0 Hz
+  // Returns are there as real and imaginary part, in place of amplitude and phase and without a distance: for
+  // a camera that makes its own of them.
+  bool complex_returns = false;
+  bool keeps_mean = false; // the mean radiance is a channel, too: the last frequency, 0 Hz
 
   // Those that are summed, the last one 0 Hz where the mean is kept.
   std::uint32_t frequencies() const { return modulations() + (keeps_mean ? 1 : 0); }

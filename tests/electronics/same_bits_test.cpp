@@ -9,6 +9,7 @@
 #include "tests/support/simulator.h"
 
 #include <catch2/catch.hpp>
+#include <complex>
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
@@ -76,7 +77,12 @@ struct Tile {
       for (std::uint32_t row = light.row; row < light.row + light.rows; ++row)
         for (std::uint32_t column = light.column; column < light.column + light.columns; ++column) {
           const std::size_t pixel = std::size_t{row} * frame.resolution.x + column;
-          pairs.insert(pairs.end(), {of.amplitude[pixel], of.phase_rad[pixel]});
+          if (light.is_complex) {
+            const std::complex<float> z = std::polar(of.amplitude[pixel], of.phase_rad[pixel]);
+            pairs.insert(pairs.end(), {z.real(), z.imag()});
+          } else {
+            pairs.insert(pairs.end(), {of.amplitude[pixel], of.phase_rad[pixel]});
+          }
           if (&of == frame.returns.data())
             mean.insert(mean.end(), {frame.mean_radiance[pixel], -1.0f});
         }
@@ -134,21 +140,51 @@ TEST_CASE("electrons strip by strip are those of the whole frame") {
       sensor.electronics->two_tap = two_tap;
       if (has_picture)
         give_uneven_background(*sensor.electronics, sensor.pixel_count());
-      const std::string expected = bytes_of(measured(sensor, {.device = {}, .keep_taps = true}));
-      SimulatorOptions options{.device = {}, .keep_taps = true, .count_electrons = true};
-      CHECK(bytes_of(measured(sensor, options)) == expected);
+      SimulatorOptions options{.device = {}, .keep_taps = true};
+      const std::string of_host = bytes_of(measured(sensor, options));
+      options.allowed.host_pixels = false;
+      const std::string of_device = bytes_of(measured(sensor, options));
+      options.count_electrons = true;
       options.max_strip_samples = 700;
-      CHECK(bytes_of(measured(sensor, options)) == expected);
-      options.keep_taps = false;
-      const Return without = measured(sensor, options).returns[1];
-      CHECK(without.taps.empty());
-      CHECK(without.tap_a_e.empty());
-      CHECK(without.phase_rad == measured(sensor).returns[1].phase_rad);
+      CHECK(bytes_of(measured(sensor, options)) == of_device);
       sensor.electronics->noiseless_channels = true; // they are taken from the whole frame
-      const Return both = measured(sensor, options).returns[1];
-      CHECK(both.phase_rad == without.phase_rad);
-      CHECK(both.phase_rad_noiseless != without.phase_rad);
+      options.allowed.host_pixels = true;
+      Measurement both = measured(sensor, options);
+      for (Return &of : both.returns) {
+        CHECK(of.phase_rad_noiseless != of.phase_rad);
+        for (auto *channel : {&of.amplitude_noiseless, &of.phase_rad_noiseless, &of.distance_m_noiseless})
+          channel->clear();
+      }
+      CHECK(bytes_of(both) == of_host);
     }
+}
+
+TEST_CASE("electrons of complex returns are those of amplitude and phase, but for the light's last bits") {
+  for (const bool two_tap : {true, false}) {
+    Sensor sensor = noisy_sensor();
+    sensor.electronics->two_tap = two_tap;
+    SimulatorOptions options{.device = {}, .keep_taps = true};
+    const Measurement polar = measured(sensor, options);
+    options.count_electrons = true;
+    const Measurement complex = measured(sensor, options);
+    options.max_strip_samples = 700;
+    CHECK(bytes_of(measured(sensor, options)) == bytes_of(complex));
+    options.keep_taps = false;
+    const Return without = measured(sensor, options).returns[1];
+    CHECK(without.taps.empty());
+    CHECK(without.tap_a_e.empty());
+    CHECK(without.phase_rad == complex.returns[1].phase_rad);
+    CHECK(complex.mean_radiance == polar.mean_radiance);
+    CHECK(std::memcmp(complex.range_m.data(), polar.range_m.data(), sizeof(float) * polar.range_m.size()) ==
+          0);
+    std::size_t different = 0, all = 0;
+    for (std::size_t f = 0; f < 2; ++f)
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < sensor.pixel_count(); ++i, ++all)
+          different += complex.returns[f].tap_a_dn[k][i] != polar.returns[f].tap_a_dn[k][i] ? 1u : 0u;
+    fmt::print("complex returns, {} taps: {} of {} numbers differ\n", two_tap ? 2 : 1, different, all);
+    CHECK(static_cast<double>(different) < 1e-3 * static_cast<double>(all));
+  }
 }
 
 TEST_CASE("electrons of parts of rows are those of the whole frame") {
@@ -161,7 +197,7 @@ TEST_CASE("electrons of parts of rows are those of the whole frame") {
   for (const std::uint32_t column : {0u, 1u, 60u})
     for (const std::uint32_t row : {0u, 30u}) {
       const std::uint32_t end = column == 0 ? 1 : column == 1 ? 60 : 67;
-      const Tile tile(light, {column, row, end - column, row == 0 ? 30u : 15u, {}, nullptr});
+      const Tile tile(light, {column, row, end - column, row == 0 ? 30u : 15u, false, {}, nullptr});
       count_electrons(sensor, {.keep_taps = true}, tile.light, in_tiles);
     }
   CHECK(bytes_of(in_tiles) == bytes_of(whole));
@@ -176,16 +212,18 @@ TEST_CASE("light that no float holds is refused strip by strip, too") {
     for (auto *channel : {&of.amplitude, &of.phase_rad, &of.distance_m})
       channel->assign(sensor.pixel_count(), 1.0f);
   frame.mean_radiance.assign(sensor.pixel_count(), 2.0f);
-  const auto count = [&] {
-    Measurement counted = frame;
-    const Tile tile(frame, {0, 0, sensor.resolution.x, sensor.resolution.y, {}, nullptr});
-    count_electrons(sensor, {}, tile.light, counted);
-  };
-  CHECK_NOTHROW(count());
-  for (float *const value : {&frame.mean_radiance[999], &frame.returns[1].amplitude.back()}) {
-    const float finite = std::exchange(*value, std::numeric_limits<float>::infinity());
-    CHECK_THROWS_AS(count(), Error);
-    *value = finite;
+  for (const bool is_complex : {false, true}) {
+    const auto count = [&] {
+      Measurement counted = frame;
+      const Tile tile(frame, {0, 0, sensor.resolution.x, sensor.resolution.y, is_complex, {}, nullptr});
+      count_electrons(sensor, {}, tile.light, counted);
+    };
+    CHECK_NOTHROW(count());
+    for (float *const value : {&frame.mean_radiance[999], &frame.returns[1].amplitude.back()}) {
+      const float finite = std::exchange(*value, std::numeric_limits<float>::infinity());
+      CHECK_THROWS_AS(count(), Error);
+      *value = finite;
+    }
   }
 }
 
@@ -317,7 +355,7 @@ TEST_CASE("the judge counts the same electrons, but for means that differ in the
       sensor.electronics->two_tap = two_tap;
       sensor.electronics->read_noise_e = read_noise_e;
       give_uneven_background(*sensor.electronics, sensor.pixel_count());
-      const Measurement found = measured(sensor);
+      const Measurement found = measured(sensor, {.device = {}, .keep_taps = true, .count_electrons = true});
       const reference::Frame light = reference::simulate(two_walls(), sensor, two_lights(sensor),
                                                          Backscatter::lambert, {Shadows::automatic});
       Measurement judged = reference::to_measurement(light);

@@ -53,7 +53,7 @@ private:
   std::vector<RunForm> field_forms_;
   std::vector<shader::Frequency> field_frequencies_;
   std::optional<float> backscatter_;
-  bool vignetting_, lit_, holds_, keeps_bounds_, reports_kept_;
+  bool vignetting_, lit_, holds_, keeps_bounds_, reports_kept_, complex_returns_;
   const vulkan::Buffer *later_;
   std::uint32_t first_tap_, bound_;
   std::vector<std::array<float, 2>> tap_phasors_; // of those that are kept
@@ -94,8 +94,8 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
       frequency_count_(on.modulation.modulations()), backscatter_(on.scene.backscatter),
       vignetting_(on.sensor.vignetting == Vignetting::cos4), lit_(on.modulation.lit),
       holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
-      reports_kept_(on.modulation.reports_kept), later_(scope.later),
-      first_tap_(row_of(&Return::taps).slot.index),
+      reports_kept_(on.modulation.reports_kept), complex_returns_(on.modulation.complex_returns),
+      later_(scope.later), first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
@@ -182,6 +182,7 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
                        .keeps_bounds = keeps_bounds_,
                        .first_tap = first_tap_,
                        .bound = bound_,
+                       .complex_returns = complex_returns_,
                        .kept_taps = static_cast<std::uint32_t>(tap_phasors_.size()),
                        .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data()),
                        .cells_across = sums_.cells_across(strip),

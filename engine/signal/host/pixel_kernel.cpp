@@ -169,6 +169,13 @@ void store_taps(const PixelWork &of, const shader::Frequency &frequency, const V
     store_channels(of, frequency.first_channel + of.first_tap + k, samples, tap(k), tap(k + 1));
 }
 
+// The return with all of its phase, and the range.
+void store_complex(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+                   const Complex &whole, const Floats &range_m) {
+  store_channels(of, frequency.first_channel, samples, whole.re, whole.im);
+  store_channels(of, frequency.first_channel + 2, samples, all(0.0f), range_m);
+}
+
 // As store_phase of shaders/signal/demodulation.glsl; `turns` in [-1, 1]. Returns the distance, or 0.
 Floats store_phase(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
                    const Floats &amplitude, const Wide &turns, const Floats &range_m) {
@@ -233,6 +240,10 @@ void store_lit(const PixelWork &of, const VectorSamples &samples) {
 void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels &held) {
   const Floats none = all(0.0f), nan = all(std::numeric_limits<float>::quiet_NaN());
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
+    if (of.complex_returns) {
+      store_complex(of, of.frequencies[f], samples, Complex(), nan);
+      continue;
+    }
     store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
     store_taps(of, of.frequencies[f], samples, Complex());
     if (of.holds)
@@ -345,12 +356,18 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
     const shader::Frequency &frequency = of.frequencies[f];
     Complex z = backscatter * returns.z[f];
     z = {shines ? z.re : none, shines ? z.im : none};
-    const Floats size = magnitude(z);
     // The phase stays relative to the range, which makes it exact to the last bit of the output.
     const Wide whole = returns.range * of_pair(frequency.turns_per_m), of_range = whole - rounded(whole);
+    const auto with_all_phase = [&] {
+      return all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range)));
+    };
+    if (of.complex_returns) {
+      store_complex(of, frequency, samples, with_all_phase(), range_m);
+      continue;
+    }
+    const Floats size = magnitude(z);
     if (of.kept_taps > 0)
-      store_taps(of, frequency, samples,
-                 all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range))));
+      store_taps(of, frequency, samples, with_all_phase());
     const Floats distance_m = store_phase(of, frequency, samples, frequency.amplitude_scale * size,
                                           of_range + wide(angle_turns(z)), range_m);
     if (of.holds)

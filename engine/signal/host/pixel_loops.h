@@ -30,6 +30,7 @@ struct PixelWork {
   bool keeps_bounds;
   // Of each frequency's channels, the pairs in which taps and bounds begin.
   std::uint32_t first_tap, bound;
+  bool complex_returns;          // Modulation::complex_returns; then no taps are kept, and nothing is held
   std::uint32_t kept_taps;       // 0: none are
   const float (*tap_phasors)[2]; // exp(j 2 pi k / N)
   // Where the field is interpolated: its cells over a row of the strip, and in place of the forms and the
