@@ -44,7 +44,8 @@ public:
   // How the frame that was prepared is summed: names and values, for people and for JSON. It may change where
   // a frame has to be made again more exactly.
   std::vector<std::pair<std::string, std::string>> path() const;
-  // One frame of what was prepared; the same bits at every call. Throws Error: out_of_memory, device_lost,
+  // One frame of what was prepared; the same bits at every call, but for the noise of
+  // SimulatorOptions::count_electrons, which the number decides. Throws Error: out_of_memory, device_lost,
   // accuracy (the error asked for was not kept), input (more light returns than a float holds; light that
   // bounces without end).
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {});

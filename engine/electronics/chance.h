@@ -69,6 +69,11 @@ struct ComplexBlock {
 PMDSIM_INLINED FloatBlock magnitude(const ComplexBlock &z) {
   return exact_root(fused(z.re, z.re, z.im * z.im));
 }
+// The same where the squares are no numbers that a float can hold.
+PMDSIM_INLINED FloatBlock magnitude_of_any(const ComplexBlock &z) {
+  const FloatBlock x = absolute(z.re), y = absolute(z.im), longer = larger(x, y), t = smaller(x, y) / longer;
+  return chosen(longer > 0.0f, longer * exact_root(fused(t, t, 1.0f)), filled(0.0f));
+}
 
 PMDSIM_INLINED ComplexBlock unit_phasor(const FloatBlock &turns) {
   const Block<Complex> phasors = each([](const Floats &x) { return unit_phasor(x); }, turns);

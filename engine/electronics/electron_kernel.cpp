@@ -119,7 +119,7 @@ private:
       z_e_.re += (of_.of_image * of_.reference[k][0]) * part_e(k);
       z_e_.im += (of_.of_image * of_.reference[k][1]) * part_e(k);
     }
-    amplitude_ = magnitude(z_e_) / of_.part_per_correlation;
+    amplitude_ = magnitude_of_any(z_e_) / of_.part_per_correlation;
   }
 
   // What the image's correlation sample adds to tap A and takes from B.
@@ -256,7 +256,7 @@ private:
     constexpr float root_of_half = 0.70710678f;
     const FloatBlock across = two_tap && is_sine()
                                   ? root_of_half * deviation
-                                  : exact_root(larger(0.5f * (variance_ - along()), filled(0.0f)));
+                                  : exact_root(larger(filled(0.0f), 0.5f * (variance_ - along())));
     IntBlock is_known = amplitude_ > 0.0f;
     if constexpr (!clear) {
       const FloatBlock fullest_dn = voltage_dn(of_, fullest_);
@@ -269,14 +269,13 @@ private:
   // sum_k variance_k cos(2 (phi - theta_k)). Of a sine that is read by one tap: of three images alone any is
   // left.
   PMDSIM_INLINED FloatBlock along() const {
-    const FloatBlock re2 = z_e_.re * z_e_.re, im2 = z_e_.im * z_e_.im, per_size2 = 1.0f / (re2 + im2);
-    if (!is_sine()) {
-      const FloatBlock cos2 = (re2 - im2) * per_size2, sin2 = 2.0f * z_e_.re * z_e_.im * per_size2;
-      return second_.re * cos2 + second_.im * sin2;
-    }
-    if (of_.images != 3)
+    if (is_sine() && of_.images != 3)
       return filled(0.0f);
-    return 1.5f * (z_e_.re * (re2 - 3.0f * im2) * per_size2);
+    const FloatBlock size_e = of_.part_per_correlation * amplitude_, cos = z_e_.re / size_e,
+                     sin = z_e_.im / size_e;
+    if (is_sine())
+      return 1.5f * size_e * cos * (4.0f * cos * cos - 3.0f);
+    return second_.re * (cos * cos - sin * sin) + second_.im * (2.0f * cos * sin);
   }
 
   // Of one tap the mean of all images is none of the correlation samples'.
@@ -335,10 +334,8 @@ bool has_finite_light(const ElectronWork &of, const Pixels<whole> &pixels) {
   if (!of.is_sine)
     return true; // whoever has it on the host has looked at it
   const SineLight light = sine_light(of, pixels);
-  // Of numbers whose squares are beyond it |z| is, too.
-  const FloatBlock size =
-      of.complex_returns ? larger(absolute(light.z.re), absolute(light.z.im)) : light.amplitude;
-  return !is_any_above(size, largest) && !is_any_above(light.mean_radiance, largest);
+  return !is_any_above(light.amplitude, largest) && !is_any_above(absolute(light.z.re), largest) &&
+         !is_any_above(absolute(light.z.im), largest) && !is_any_above(light.mean_radiance, largest);
 }
 
 template <bool two_tap, bool merged>

@@ -42,8 +42,9 @@ struct ElectronWork {
   float half_per_radiance, part_per_correlation, dark_e;
   float read_noise_e, full_well_e, sbi_e, dsnu_e, prnu;
   float gain_dn_per_e, offset_dn, largest_dn;
-  float clear_from_e,
-      clear_to_e;            // a tap's light in the mean of which no reading is dark, less than 0 or too much
+  // Of a tap whose mean light is between these no electrons are counted one by one, and no reading is beyond
+  // the camera's ends.
+  float clear_from_e, clear_to_e;
   float reading_variance_e2; // of the reading of one tap
   float radiance_per_dn;     // of the difference that the camera takes for a correlation sample
   bool two_tap;

@@ -21,18 +21,26 @@ constexpr std::uint32_t many_exposures = 64;
 // Of each thread, between which a frame of many exposures may be stopped.
 constexpr std::uint32_t parts_at_once = 4;
 
-// Pixels from `first` to `last` - 1 in parts, all threads at once. Throws Error: input where some have more
+// All threads at once count the parts from 0 to `parts` - 1. Throws Error: input where some pixels have more
 // light than a float can hold.
-void count_parts(const ElectronLoops &loops, const ElectronWork &work, std::uint32_t first,
-                 std::uint32_t last, std::uint32_t of_part) {
+template <class CountPart>
+void count_in_parts(std::uint32_t parts, const CountPart &count_part) {
   std::atomic<bool> are_finite = true;
-  tbb::parallel_for(0u, (last - first + of_part - 1) / of_part, [&](std::uint32_t part) {
-    const std::uint32_t begin = first + part * of_part;
-    if (!loops.count(work, begin, std::min(begin + of_part, last)))
+  tbb::parallel_for(0u, parts, [&](std::uint32_t part) {
+    if (!count_part(part))
       are_finite = false;
   });
   if (!are_finite)
     throw too_much_light();
+}
+
+// Pixels from `first` to `last` - 1.
+void count_pixels(const ElectronLoops &loops, const ElectronWork &work, std::uint32_t first,
+                  std::uint32_t last, std::uint32_t of_part) {
+  count_in_parts((last - first + of_part - 1) / of_part, [&](std::uint32_t part) {
+    const std::uint32_t begin = first + part * of_part;
+    return loops.count(work, begin, std::min(begin + of_part, last));
+  });
 }
 
 void count_frame(const ElectronLoops &loops, const ElectronWork &work, std::uint32_t pixels,
@@ -42,22 +50,27 @@ void count_frame(const ElectronLoops &loops, const ElectronWork &work, std::uint
   const auto threads = static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
   const std::uint32_t at_once = are_many ? parts_at_once * threads * of_part : pixels;
   for (std::uint32_t first = 0; first < pixels; first += at_once) {
-    count_parts(loops, work, first, std::min(first + at_once, pixels), of_part);
+    count_pixels(loops, work, first, std::min(first + at_once, pixels), of_part);
     if (between)
       between();
   }
 }
 
 // Row by row, unless the strip's rows are the frame's.
-void count_strip(const ElectronLoops &loops, ElectronWork work, const StripLight &light,
+void count_strip(const ElectronLoops &loops, const ElectronWork &work, const StripLight &light,
                  std::uint32_t frame_columns) {
-  const bool at_once = light.columns == frame_columns;
-  const std::uint32_t rows = at_once ? 1 : light.rows, pixels = light.columns * (at_once ? light.rows : 1);
-  for (std::uint32_t row = 0; row < rows; ++row) {
+  const auto count = [&](std::uint32_t row, std::uint32_t pixels, const auto &count_all) {
     const std::uint32_t first = (light.row + row) * frame_columns + light.column;
-    work.first_of_pairs = first - row * pixels;
-    count_parts(loops, work, first, first + pixels, pixels_at_once);
-  }
+    ElectronWork of_row = work;
+    of_row.first_of_pairs = first - row * light.columns;
+    return count_all(of_row, first, first + pixels);
+  };
+  if (light.columns == frame_columns)
+    return count(0, light.columns * light.rows,
+                 [&](const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
+                   count_pixels(loops, of, first, last, pixels_at_once);
+                 });
+  count_in_parts(light.rows, [&](std::uint32_t row) { return count(row, light.columns, loops.count); });
 }
 
 } // namespace

@@ -30,19 +30,17 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Meas
 // The noiseless light of a strip of a frame, row by row as a device leaves it: of a sine.
 struct StripLight {
   std::uint32_t column, row, columns, rows; // its place in the frame
-  bool is_complex;                          // which stand for:
-  std::vector<const float *> returns; // of each frequency: of each pixel amplitude and phase, or real and
-                                      // imaginary part
-  const float *mean_radiance;         // of each pixel, and beside it something else
+  bool is_complex;                          // returns are real and imaginary part, else amplitude and phase
+  std::vector<const float *> returns;       // two values a pixel, of each frequency
+  const float *mean_radiance;               // two values a pixel, of which the first counts
 };
 
-// Whether a sensor's electrons can be counted strip by strip: of a sine and of few exposures, with neither
-// scatter nor noiseless channels.
+// Whether a sensor's electrons can be counted strip by strip: of a sine, at most 64 readings that are
+// averaged, and neither scatter nor noiseless channels.
 bool counts_by_strips(const Sensor &sensor);
 
 // The same of a strip's pixels: their channels in `frame`, which has room for all, and no others' are
-// written. Of the request all but the light of single taps counts. Throws Error: input where there is more
-// light than a float can hold.
+// written. Of the request `keep_taps` and `host_vector_bits` count.
 void count_electrons(const Sensor &sensor, const ElectronsRequest &request, const StripLight &light,
                      Measurement &frame);
 

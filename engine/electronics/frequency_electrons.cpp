@@ -25,7 +25,7 @@ struct ClearLight {
 ClearLight clear_light(const Electronics &of) {
   constexpr double largest = largest_normal, rounding = 1e-5;
   // What is added to a mean beyond its deviation times a normal number: the expansion's other terms, at most
-  // 6, and read noise below least_merged_noise_e.
+  // 6, read noise below least_merged_noise_e, at most 5.4, and the rounding to whole electrons.
   const double apart_e = 12.0 + largest * of.dsnu_e, variance_e2 = of.read_noise_e * of.read_noise_e;
   // The mean m of which m + side * largest * sqrt(m + variance) is `charge_e`.
   const auto mean_e = [&](double charge_e, double side) {
@@ -40,7 +40,8 @@ ClearLight clear_light(const Electronics &of) {
   const double dark_e = 0.5 * of.dark_current_e_per_s * of.integration_time_s, spread = largest * of.prnu;
   if (spread >= 1.0)
     return {std::numeric_limits<double>::infinity(), 0.0};
-  return {(1.0 + rounding) * (dimmest_e - dark_e) / (1.0 - spread),
+  // And none has less light than none, which rounding may leave.
+  return {std::max((1.0 + rounding) * (dimmest_e - dark_e) / (1.0 - spread), rounding * dark_e),
           (1.0 - rounding) * (brightest_e - dark_e) / (1.0 + spread)};
 }
 

@@ -96,7 +96,7 @@ PMDSIM_INLINED SineLight sine_light(const ElectronWork &of, const Pixels<whole> 
   if (!of.complex_returns)
     return polar_light(of_return.first, of_return.second, mean_radiance);
   const ComplexBlock z{of_return.first, of_return.second};
-  return {magnitude(z), z, mean_radiance};
+  return {magnitude_of_any(z), z, mean_radiance};
 }
 
 // What both taps have of the mean light's electrons and of the background's.

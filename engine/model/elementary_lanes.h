@@ -25,7 +25,7 @@ inline Floats rounded(const Floats &v) {
 // What is left of turns beyond the nearest whole one.
 inline Floats turn_fraction(const Wide &turns) { return narrow(turns - rounded(turns)); }
 
-// (cos, sin) of 2 pi `turns`, for |turns| <= 1/2.
+// (cos, sin) of 2 pi `turns`, for turns from -1/2 to 1.
 inline Complex unit_phasor(const Floats &turns) {
   const Floats quarter = rounded(4.0f * turns), y = turns - 0.25f * quarter, u = y * y;
   const Floats s =

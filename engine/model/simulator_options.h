@@ -39,8 +39,8 @@ struct SimulatorOptions {
   bool keep_sample_ids = false;        // fill Measurement::sample_triangle_id and sample_pixel_id
   bool keep_visibility = false;        // fill Measurement::sample_visibility
   bool keep_taps = false;              // fill Return::taps
-  // Frames of a sensor with electronics are read by them (Measurement::has_electrons), where nothing that a
-  // host does comes between (engine/electronics/electrons.h).
+  // The frame's last pass counts the electrons of a sensor with electronics (Measurement::has_electrons), in
+  // mode exact, without bounces, and where counts_by_strips() of engine/electronics/electrons.h says so.
   bool count_electrons = false;
   bool keep_error_bound = false; // fill Return::error_bound_m wherever an error was asked for
   bool validate = false;         // run under the Khronos validation layer; a message is a std::logic_error

@@ -52,9 +52,9 @@ void store_pair(std::span<const shader::uvec2> pair, const Row &row, const Desti
 bool is_read_back(const ChannelRow &row, const ChannelLayout &layout, LightBy light) {
   if (!layout.holds(row))
     return false;
-  const auto is = [&](const ChannelRow &other) { return row.name == other.name; };
-  const bool is_light = is(row_of(&Return::amplitude)) || is(row_of(&Return::phase_rad)) ||
-                        is(row_of(&Return::distance_m)) || is(row_of(&Measurement::mean_radiance));
+  const bool is_light =
+      row.at == ChannelMember(&Return::amplitude) || row.at == ChannelMember(&Return::phase_rad) ||
+      row.at == ChannelMember(&Return::distance_m) || row.at == ChannelMember(&Measurement::mean_radiance);
   return !is_light || light == LightBy::read_back;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <stdexcept>
 #include <string_view>
 
 namespace pmdsim {
@@ -81,7 +82,9 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
     measurement = measurement_of(frame, number);
     reference::count_electrons(frame, sensor_, extras_.taps, measurement, progress_at_end(progress));
   } else {
-    measurement = measure_light(progress, number);
+    measurement = measure_device(progress, number);
+    if (add && measurement.has_electrons)
+      throw std::logic_error("light is added to a frame whose electrons are counted");
     if (add)
       add(measurement);
     const bool reads_taps = add || sensor_.waveform.kind != Waveform::Kind::sine;
@@ -104,6 +107,13 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
 }
 
 Measurement Camera::measure_light(const Progress &progress, const ExposureNumber &number) {
+  Measurement measurement = measure_device(progress, number);
+  if (measurement.has_electrons)
+    throw std::logic_error("the light of a frame whose electrons are counted");
+  return measurement;
+}
+
+Measurement Camera::measure_device(const Progress &progress, const ExposureNumber &number) {
   throw_if_interrupted();
   return simulator_ ? simulator_->measure(progress, number)
                     : measurement_of(reference_frame_(progress), number);

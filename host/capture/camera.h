@@ -51,7 +51,8 @@ public:
   using AddLight = std::function<void(Measurement &)>;
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {},
                       const AddLight &add = {});
-  // The same before the electronics; not of a camera with Extras::electrons_at_once.
+  // The same before the electronics. Neither this nor `add` is for a camera with Extras::electrons_at_once,
+  // whose frames throw std::logic_error where their electrons are counted already.
   Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().
   void reuse(Measurement &&frame);
@@ -59,6 +60,8 @@ public:
 private:
   std::optional<Simulator> simulator_;                                // empty: the reference
   std::function<reference::Frame(const Progress &)> reference_frame_; // of what is prepared
+  // A frame as the device or the reference leaves it.
+  Measurement measure_device(const Progress &progress, const ExposureNumber &number);
   Measurement measurement_of(const reference::Frame &frame, const ExposureNumber &number) const;
 
   Extras extras_;

@@ -89,6 +89,21 @@ TEST_CASE("phase noise of one tap and three images follows its formula") {
 
 // The prediction is of the first order: below it, it says too little until phases are alike in all
 // directions.
+TEST_CASE("distance_noise_m of hardly any light is no small number") {
+  for (const std::uint32_t images : {3u, 4u})
+    for (const bool two_tap : {true, false})
+      for (const float amplitude : {1e-12f, 1e-21f, 1e-30f}) {
+        Electronics electronics = plain_electronics();
+        electronics.two_tap = two_tap;
+        LightLevels levels = light_levels(electronics, images, {1000.0});
+        for (float &of : levels.noiseless.returns[0].amplitude)
+          of = amplitude;
+        INFO(images << " images, " << (two_tap ? 2 : 1) << " taps, " << amplitude << " W/(m^2 sr)");
+        const float noise_m = noisy_frame(levels, 0).returns[0].distance_noise_m[0];
+        CHECK((std::isnan(noise_m) || noise_m > 1e5f));
+      }
+}
+
 TEST_CASE("distance_noise_m is within 2 % below 0.1 rad, and says what it says where light is low") {
   const Electronics electronics = plain_electronics();
   fmt::print("{:<40}{:>12}{:>12}{:>12}\n", "low light, sigma_phi, rad", "predicted", "found", "ratio");

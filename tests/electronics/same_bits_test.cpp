@@ -265,31 +265,33 @@ TEST_CASE("a pixel's electrons do not depend on its neighbours, however close to
 namespace {
 
 // A row of even light, from `from_e` electrons of a tap's mean to `to_e`.
-Measurement rising_light(const LightLevels &levels, double from_e, double to_e) {
+Measurement rising_light(const LightLevels &levels, double from_e, double to_e, double part) {
   Measurement rising = levels.noiseless;
   const std::size_t pixels = rising.mean_radiance.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const double mean_e = from_e + (to_e - from_e) * static_cast<double>(i) / static_cast<double>(pixels);
     rising.mean_radiance[i] = static_cast<float>(2.0 * mean_e / electrons_of(1.0, levels.sensor));
-    rising.returns[0].amplitude[i] = 0.01f * rising.mean_radiance[i];
+    rising.returns[0].amplitude[i] = static_cast<float>(part) * rising.mean_radiance[i];
+    if (part == 1.0) // one of the taps has none
+      rising.returns[0].phase_rad[i] = 0.0f;
   }
   return rising;
 }
 
-// The same with a dark pixel in every 16, and of those between the number whose channels differ.
-std::size_t pixels_that_dark_ones_change(const LightLevels &levels, const Measurement &light) {
+// The same with a full pixel in every 16, and of those between the number whose channels differ.
+std::size_t pixels_that_full_ones_change(const LightLevels &levels, const Measurement &light) {
   constexpr std::size_t apart = 16;
-  Measurement alone = light, beside_dark = light;
+  Measurement alone = light, beside_full = light;
   for (std::size_t i = 0; i < light.mean_radiance.size(); i += apart)
-    beside_dark.returns[0].amplitude[i] = beside_dark.mean_radiance[i] = 0.0f;
+    beside_full.mean_radiance[i] = static_cast<float>(1e9 / electrons_of(1.0, levels.sensor));
   count_electrons(levels.sensor, {.keep_taps = true}, alone);
-  count_electrons(levels.sensor, {.keep_taps = true}, beside_dark);
+  count_electrons(levels.sensor, {.keep_taps = true}, beside_full);
   std::size_t different = 0;
   const auto compare = [&](const auto &a, const auto &b) {
     for (std::size_t i = 0; i < a.size(); ++i)
       different += i % apart != 0 && std::memcmp(&a[i], &b[i], sizeof(a[i])) != 0 ? 1u : 0u;
   };
-  const Return &a = alone.returns[0], &b = beside_dark.returns[0];
+  const Return &a = alone.returns[0], &b = beside_full.returns[0];
   for (const auto channel : {&Return::amplitude, &Return::phase_rad, &Return::distance_m,
                              &Return::distance_noise_m, &Return::confidence})
     compare(a.*channel, b.*channel);
@@ -307,25 +309,30 @@ TEST_CASE("nor however close to the ends of what the camera reads") {
   constexpr std::uint32_t columns = 48'000;
   struct Ends {
     double from_e, to_e, offset_dn, full_well_e, read_noise_e, pattern;
+    double dark_e = 0.0; // of a tap
+    double part = 0.01;  // of the light
   };
-  for (const Ends &ends : {Ends{64.0, 700.0, 0.0, 50e3, 25.0, 0.0}, Ends{64.0, 700.0, 0.0, 50e3, 25.0, 1.0},
-                           Ends{64.0, 300.0, 0.0, 50e3, 0.5, 0.0}, Ends{44e3, 51e3, 40.0, 50e3, 25.0, 0.0},
-                           Ends{40e3, 52e3, 40.0, 50e3, 25.0, 1.0}, Ends{46e3, 52e3, 40.0, 1e6, 25.0, 0.0},
-                           Ends{44e3, 51e3, 40.0, 50e3, 0.5, 0.0}})
+  for (const Ends &ends :
+       {Ends{64.0, 700.0, 0.0, 50e3, 25.0, 0.0}, Ends{64.0, 700.0, 0.0, 50e3, 25.0, 1.0},
+        Ends{64.0, 300.0, 0.0, 50e3, 0.5, 0.0}, Ends{44e3, 51e3, 40.0, 50e3, 25.0, 0.0},
+        Ends{40e3, 52e3, 40.0, 50e3, 25.0, 1.0}, Ends{46e3, 52e3, 40.0, 1e6, 25.0, 0.0},
+        Ends{44e3, 51e3, 40.0, 50e3, 0.5, 0.0}, Ends{200.0, 5e3, 40.0, 50e3, 25.0, 0.0, 100.3, 1.0}})
     for (const std::uint32_t images : {3u, 4u})
       for (const bool two_tap : {true, false}) {
         INFO(images << " images, " << (two_tap ? 2 : 1) << " taps, from " << ends.from_e << " e, read noise "
                     << ends.read_noise_e << " e, pattern " << ends.pattern);
         Electronics electronics = plain_electronics();
         electronics.two_tap = two_tap;
-        electronics.dark_current_e_per_s = 0.0;
+        electronics.dark_current_e_per_s = 2.0 * ends.dark_e / electronics.integration_time_s;
+        electronics.demodulation_contrast = {1.0};
         electronics.offset_dn = ends.offset_dn;
         electronics.full_well_e = ends.full_well_e;
         electronics.read_noise_e = ends.read_noise_e;
         electronics.prnu = 0.01 * ends.pattern;
         electronics.dsnu_e = 10.0 * ends.pattern;
         const LightLevels levels = light_levels(electronics, images, {1.0}, 1.1, columns);
-        CHECK(pixels_that_dark_ones_change(levels, rising_light(levels, ends.from_e, ends.to_e)) == 0);
+        CHECK(pixels_that_full_ones_change(levels, rising_light(levels, ends.from_e, ends.to_e, ends.part)) ==
+              0);
       }
 }
 

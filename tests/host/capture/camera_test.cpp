@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <stdexcept>
 
 using namespace pmdsim;
 
@@ -29,4 +30,20 @@ TEST_CASE("PMDSIM_VALIDATE=1 asks for the validation layer, and nothing else doe
   ::unsetenv("PMDSIM_VALIDATE");
   CHECK_NOTHROW(Camera(""));
   ::unsetenv("VK_LAYER_PATH");
+}
+
+TEST_CASE("a camera counts electrons at once where it may, and then gives no light that could be added to") {
+  const Setup setup = load_setup(PMDSIM_SCENES "/electronics/kinect_v2_like.json");
+  Sensor sensor = setup.start.sensors[0];
+  sensor.resolution = {32, 24};
+  sensor.electronics->noiseless_channels = false;
+  Camera at_once("", {.electrons_at_once = true}), later("");
+  for (Camera *camera : {&at_once, &later})
+    camera->prepare(setup, sensor);
+  CHECK(at_once.measure().has_electrons);
+  CHECK_THROWS_AS(at_once.measure_light(), std::logic_error);
+  const auto add_nothing = [](Measurement &) {};
+  CHECK_THROWS_AS(at_once.measure({}, {}, add_nothing), std::logic_error);
+  CHECK_FALSE(later.measure_light().has_electrons);
+  CHECK(later.measure().has_electrons);
 }
