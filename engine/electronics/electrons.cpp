@@ -57,20 +57,17 @@ void count_frame(const ElectronLoops &loops, const ElectronWork &work, std::uint
 }
 
 // Row by row, unless the strip's rows are the frame's.
-void count_strip(const ElectronLoops &loops, const ElectronWork &work, const StripLight &light,
+void count_strip(const ElectronLoops &loops, ElectronWork work, const StripLight &light,
                  std::uint32_t frame_columns) {
-  const auto count = [&](std::uint32_t row, std::uint32_t pixels, const auto &count_all) {
-    const std::uint32_t first = (light.row + row) * frame_columns + light.column;
-    ElectronWork of_row = work;
-    of_row.first_of_pairs = first - row * light.columns;
-    return count_all(of_row, first, first + pixels);
-  };
+  const auto first_of = [&](std::uint32_t row) { return (light.row + row) * frame_columns + light.column; };
+  work.first_of_pairs = first_of(0);
   if (light.columns == frame_columns)
-    return count(0, light.columns * light.rows,
-                 [&](const ElectronWork &of, std::uint32_t first, std::uint32_t last) {
-                   count_pixels(loops, of, first, last, pixels_at_once);
-                 });
-  count_in_parts(light.rows, [&](std::uint32_t row) { return count(row, light.columns, loops.count); });
+    return count_pixels(loops, work, first_of(0), first_of(light.rows), pixels_at_once);
+  count_in_parts(light.rows, [&](std::uint32_t row) {
+    ElectronWork of_row = work;
+    of_row.first_of_pairs = first_of(row) - row * light.columns;
+    return loops.count(of_row, first_of(row), first_of(row) + light.columns);
+  });
 }
 
 } // namespace
