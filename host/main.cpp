@@ -14,7 +14,7 @@ namespace {
 const std::map<std::string, void (*)(const Options &)> commands{
     {"render", run_render},   {"deform", run_deform},     {"check", run_check},
     {"bench", run_bench},     {"tradeoff", run_tradeoff}, {"import-calibration", run_import_calibration},
-    {"devices", run_devices}, {"noise", run_noise}};
+    {"devices", run_devices}, {"noise", run_noise},       {"merge", run_merge}};
 
 constexpr const char *width_variable = "LP_NATIVE_VECTOR_WIDTH"; // bits
 constexpr const char *cache_variable = "MESA_SHADER_CACHE_DIR";

@@ -113,6 +113,7 @@ Setup load_setup(const std::filesystem::path &file) {
   Setup setup;
   setup.file = file;
   setup.as_used = read_setup(root);
+  const FilesRead files(file.parent_path());
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
   setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
@@ -142,6 +143,7 @@ Setup load_setup(const std::filesystem::path &file) {
   setup.start.scene = std::move(scene.scene);
   if (gltf.moves())
     setup.motion = std::make_shared<const Motion>(std::move(gltf), setup.as_used, root);
+  setup.inputs = files.list();
   return setup;
 }
 
