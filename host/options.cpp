@@ -15,8 +15,9 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Format> format_names{
-    {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
+const std::map<std::string, Format> format_names{{"exr", Format::exr}, {"npz", Format::npz},
+                                                 {"h5", Format::h5},   {"npy", Format::npy},
+                                                 {"png", Format::png}, {"csv", Format::csv}};
 // The formats of the commands that write frames.
 const std::map<std::string, std::vector<std::string>> default_formats{{"render", {"exr", "png"}},
                                                                       {"deform", {"exr", "png", "csv"}}};
@@ -59,10 +60,10 @@ void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
       .add_option("--format", written.formats,
-                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]",
+                  fmt::format("what to write: exr, npz, h5, npy, png, csv, separated by commas [{}]",
                               fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
-      ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
+      ->check(CLI::IsMember({"exr", "npz", "h5", "npy", "png", "csv"}));
   command.add_option("--frames", written.frames,
                      "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
 }

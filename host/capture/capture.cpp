@@ -112,7 +112,7 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats) {
   auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{taken->sensor, at.frame, channels_of(taken->measurement), taken});
+      FrameToWrite{taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken});
   return {record_of(*taken, at), [frame = std::move(frame), formats] { return files_of(frame, formats); }};
 }
 

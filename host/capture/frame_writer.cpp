@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/capture/progress.h"
+#include "host/output/files/h5_writer.h"
 #include "host/output/pictures/preview.h"
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"
@@ -54,6 +55,12 @@ std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &fra
   };
   if (formats.contains(Format::exr))
     add(stem + ".exr", [&set](OutputFile &file) { write_exr(file, set); });
+  if (formats.contains(Format::npz))
+    add(stem + ".npz", [&set](OutputFile &file) { write_npz(file, set); });
+  if (formats.contains(Format::h5))
+    add(stem + ".h5", [&at = *frame](OutputFile &file) {
+      write_h5(file, at.channels, {at.sensor, at.frame, at.time_s});
+    });
   if (formats.contains(Format::csv))
     add(stem + ".profile.csv",
         [&at = *frame](OutputFile &file) { write_profile_csv(file, at.channels, at.sensor); });

@@ -71,21 +71,22 @@ FileToWrite profile_plot(const std::shared_ptr<const FrameToWrite> &frame, const
 }
 
 std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair> &pair,
-                                           std::uint32_t frame_number, const std::set<Format> &formats) {
+                                           const FrameRecord &record, const std::set<Format> &formats) {
   const Measurement &bistatic = pair->bistatic.measurement;
   const Maps &deformations = pair->deformations_mm;
   ChannelSet set{bistatic.resolution, {}};
   for (std::size_t i = 0; i < deformations.size(); ++i)
     set.channels.push_back({"deformation_mm", "mm", std::span(deformations[i]),
                             frequency_of(i, deformations.size()),
-                            Preview{"deformation", ColourScale::zero_centred}});
+                            Preview{"deformation", ColourScale::zero_centred},
+                            "bistatic minus monostatic distance, wrapped"});
   ChannelSet measured = channels_of(bistatic);
   for (Channel &channel : measured.channels) {
     channel.preview = std::nullopt;
     set.channels.push_back(std::move(channel));
   }
   const auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{pair->bistatic.sensor, frame_number, std::move(set), pair});
+      FrameToWrite{pair->bistatic.sensor, record.frame, record.time_s, std::move(set), pair});
   std::vector<FileToWrite> files = files_of(frame, formats);
   if (formats.contains(Format::png))
     for (std::size_t i = 0; i < deformations.size(); ++i)
@@ -118,7 +119,7 @@ std::deque<DeformedFrame> deform(Capture &capture) {
               pair->deformations_mm = deformations_mm(*pair);
               for (const std::vector<float> &deformation : pair->deformations_mm)
                 told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
-              return deformation_files(pair, told.record.frame, formats);
+              return deformation_files(pair, told.record, formats);
             }};
   };
   capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2), 2.0);
