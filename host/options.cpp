@@ -28,7 +28,7 @@ struct Written {
   WrittenAccuracy accuracy;
   std::optional<std::string> samples, frames, paths, suite_name;
   SuiteOptions suite;
-  std::vector<std::string> formats;
+  std::vector<std::string> formats, channels;
 };
 
 void add_setup(CLI::App &command, Written &written) {
@@ -64,6 +64,12 @@ void add_writing(CLI::App &command, Written &written) {
                               fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
       ->check(CLI::IsMember({"exr", "npz", "h5", "npy", "png", "csv"}));
+  command
+      .add_option(
+          "--channels", written.channels,
+          "only these, by names separated by commas, e.g. distance_m,lit; without the numbers of taps, "
+          "with or without the prefix of a frequency. What no other needs is not computed [all]")
+      ->delimiter(',');
   command.add_option("--frames", written.frames,
                      "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
 }
@@ -229,6 +235,11 @@ std::uint32_t paths_of(const std::string &text, bool on_reference) {
   return static_cast<std::uint32_t>(*paths);
 }
 
+WantedChannels wanted_channels(const std::vector<std::string> &names, const std::string &command) {
+  return WantedChannels(names, command == "deform" ? std::vector<std::string>{deformation_channel}
+                                                   : std::vector<std::string>{});
+}
+
 // Checks the commands that compare a device with the reference.
 void check_comparing(const Written &written) {
   const Options &options = written.options;
@@ -264,6 +275,8 @@ Options checked(Written written, const std::string &command) {
     capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);
+  if (!written.channels.empty())
+    capture.channels = wanted_channels(written.channels, command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_names.at(format));
   return options;

@@ -123,6 +123,7 @@ void write_manifest(OutputFile &file, const RunRecord &run) {
                     {"device", run.device},
                     {"driver", run.driver}};
   head.update(asked_json(run.accuracy));
+  head["channels"] = run.channels.empty() ? ordered_json(nullptr) : ordered_json(run.channels);
   head["setup"] = run.setup;
   head["points"] = how_to_make_points();
   std::string text = json_text(head);

@@ -40,6 +40,7 @@ struct RunRecord {
   std::string device, driver;
   Accuracy accuracy;            // asked for
   nlohmann::ordered_json setup; // as used
+  std::vector<std::string> channels{}; // asked for; none: all
   std::vector<FrameRecord> frames{};
 };
 
