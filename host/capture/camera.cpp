@@ -41,6 +41,7 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
   options.count_electrons = extras.electrons_at_once;
+  options.allowed.complex_returns = !extras.electrons_of_polar;
   if (extras.diodes_in_a_loop)
     options.allowed.point_polynomials = options.allowed.direct_pixels = false;
   // The program never changes its environment any more.

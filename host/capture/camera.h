@@ -15,11 +15,12 @@ namespace pmdsim {
 
 // Extras that a measurement shall have beside its other channels.
 struct Extras {
-  bool sample_triangles = false;  // Measurement::sample_triangle_id, not from the reference
-  bool reached = false;           // Measurement::sample_visibility, not from the reference
-  bool taps = false;              // Return::taps, and those in electrons
-  bool electrons_at_once = false; // SimulatorOptions::count_electrons: nothing is added to the frames' light
-  bool diodes_in_a_loop = false;  // nothing is summed beforehand, and the sum is a pass of its own
+  bool sample_triangles = false;   // Measurement::sample_triangle_id, not from the reference
+  bool reached = false;            // Measurement::sample_visibility, not from the reference
+  bool taps = false;               // Return::taps, and those in electrons
+  bool electrons_at_once = false;  // SimulatorOptions::count_electrons: nothing is added to the frames' light
+  bool electrons_of_polar = false; // then of amplitude and phase, as beside noiseless channels: the same bits
+  bool diodes_in_a_loop = false;   // nothing is summed beforehand, and the sum is a pass of its own
   // Where light bounces, the paths that the reference follows for each pixel; 0: as many as it chooses.
   std::uint32_t paths = 0;
 };

@@ -124,9 +124,11 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
                      std::uint32_t paths, const WantedChannels &wanted)
-    : setup_(setup), wanted_(wanted), keep_taps_(keep_taps && wanted.have_taps()), accuracy_(accuracy),
+    : setup_(setup), wanted_(wanted), leaves_noiseless_(leaves_noiseless(wanted, setup.start.sensors)),
+      keep_taps_(keep_taps && wanted.have_taps()), accuracy_(accuracy),
       camera_(device, {.taps = keep_taps_ || exposes_any_tap_by_tap(setup),
                        .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
+                       .electrons_of_polar = leaves_noiseless_,
                        .paths = paths}),
       others_(setup, device, paths, are_others_asked_for()), instants_(setup) {}
 
@@ -157,7 +159,7 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   prepared_.reset();
   const Instant &instant = instant_at(view.time_s);
   const FramePart part = this->part(instant.sensors[view.sensor]);
-  Sensor sensor = reduced_to(wanted_, part, instant.sensors[view.sensor]);
+  Sensor sensor = reduced_to(wanted_, part, leaves_noiseless_, instant.sensors[view.sensor]);
   if (view.frequency)
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
   const bool is_in_lens = view.light == Light::in_lens || part == FramePart::truth;
@@ -259,7 +261,7 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
                        std::vector<float> &correlation) {
     others_.add_to(frame.sensor, frequency, tap, exposure_s, exposure, correlation);
   };
-  const Sensor sensor_of_taps = reduced_to(wanted_, FramePart::electrons, frame.sensor);
+  const Sensor sensor_of_taps = reduced_to(wanted_, FramePart::electrons, leaves_noiseless_, frame.sensor);
   frame.measurement = measure_tap_by_tap(sensor_of_taps, time_s, expose, keep_taps_,
                                          others_.reach(frame.sensor) ? AddToExposure(add) : nullptr);
   return frame;

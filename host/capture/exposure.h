@@ -136,7 +136,7 @@ private:
 
   const Setup &setup_;
   WantedChannels wanted_;
-  bool keep_taps_;
+  bool leaves_noiseless_, keep_taps_;
   Accuracy accuracy_;
   Camera camera_;
   OtherCameras others_;

@@ -193,7 +193,15 @@ FramePart part_of(const WantedChannels &wanted, const Sensor &sensor, const Boun
   return part;
 }
 
-Sensor reduced_to(const WantedChannels &wanted, FramePart part, Sensor sensor) {
+bool leaves_noiseless(const WantedChannels &wanted, const std::vector<Sensor> &sensors) {
+  const auto is_wanted = [&](const ChannelRow &row) { return is_noiseless(row) && wanted.has(row); };
+  const auto can_leave = [](const Sensor &sensor) {
+    return !sensor.electronics || sensor.electronics->noiseless_channels;
+  };
+  return std::ranges::none_of(channel_rows, is_wanted) && std::ranges::all_of(sensors, can_leave);
+}
+
+Sensor reduced_to(const WantedChannels &wanted, FramePart part, bool leaves_noiseless, Sensor sensor) {
   if (part <= FramePart::visibility) {
     sensor.modulation_hz.resize(1);
     sensor.waveform = {};
@@ -201,15 +209,15 @@ Sensor reduced_to(const WantedChannels &wanted, FramePart part, Sensor sensor) {
   }
   if (part < FramePart::light)
     sensor.scatter.clear();
-  if (part < FramePart::electrons || !(wanted.has(row_of(&Measurement::unwrapped_distance_m)) ||
-                                       wanted.has(row_of(&Measurement::unwrap_ok))))
+  const bool unwraps =
+      wanted.has(row_of(&Measurement::unwrapped_distance_m)) || wanted.has(row_of(&Measurement::unwrap_ok));
+  if (part < FramePart::electrons || !unwraps)
     sensor.unwrap_range_m = 0.0;
-  if (sensor.electronics) // those of which there are noiseless channels are not counted by the device
-    sensor.electronics->noiseless_channels =
-        part < FramePart::electrons || (sensor.electronics->noiseless_channels &&
-                                        std::ranges::any_of(channel_rows, [&](const ChannelRow &row) {
-                                          return is_noiseless(row) && wanted.has(row);
-                                        }));
+  // The device counts no electrons of sensors with noiseless channels.
+  if (sensor.electronics && part < FramePart::electrons)
+    sensor.electronics->noiseless_channels = true;
+  else if (sensor.electronics && leaves_noiseless)
+    sensor.electronics->noiseless_channels = false;
   return sensor;
 }
 

@@ -71,8 +71,13 @@ enum class FramePart {
 FramePart part_of(const WantedChannels &wanted, const Sensor &sensor, const Bounces &bounces,
                   const Accuracy &accuracy);
 
+// Whether noiseless channels are left out. The device then counts electrons strip by strip, of the same light
+// as beside them (Extras::electrons_of_polar), which is not quite the light of sensors that have none: all
+// that have electronics must have them.
+bool leaves_noiseless(const WantedChannels &wanted, const std::vector<Sensor> &sensors);
+
 // The sensor without what the part and the wanted channels do not need.
-Sensor reduced_to(const WantedChannels &wanted, FramePart part, Sensor sensor);
+Sensor reduced_to(const WantedChannels &wanted, FramePart part, bool leaves_noiseless, Sensor sensor);
 
 // Gives the channels of the light, in a frame that was made without bounces or electrons, the names that they
 // have beside these. `sensor` is the setup's.
