@@ -3,6 +3,7 @@
 #include "host/accuracy_options.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
+#include "host/setup_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,13 +28,14 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
+  WrittenSetups setups;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats, channels;
 };
 
-void add_setup(CLI::App &command, Written &written) {
-  command.add_option("SETUP", written.options.capture.setup, "setup file (JSON)")->required();
+void add_setup(CLI::App &command, Written &written, Setups setups = Setups::one) {
+  add_setups(command, written.setups, setups);
 }
 
 void add_samples(CLI::App &command, Written &written) {
@@ -151,7 +153,7 @@ std::string channel_list() {
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
-  add_setup(*render, written);
+  add_setup(*render, written, Setups::several);
   add_writing(*render, written);
   add_measuring(*render, written);
   add_paths(*render, written);
@@ -169,10 +171,7 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *bench =
       app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");
-  bench->add_option(
-      "SETUP", written.options.capture.setup,
-      "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
-      "and frequencies: some minutes]");
+  add_setup(*bench, written, Setups::none_or_one);
   add_measuring(*bench, written);
   add_suite(*bench, written);
 
@@ -317,10 +316,22 @@ void check_comparing(const Written &written) {
     throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
 }
 
+void take_setups(const WrittenSetups &written, Options &options) {
+  options.variants = written.variants;
+  if (written.setups.size() > 1 || written.variants)
+    options.setups = written.setups;
+  if (!written.setups.empty())
+    options.capture.setup = written.setups.front();
+  options.capture.changes = changes_of(written.changes);
+  if (written.poses)
+    options.capture.poses = poses_of(*written.poses);
+}
+
 Options checked(Written written, const std::string &command) {
   Options &options = written.options;
   CaptureRequest &capture = options.capture;
   options.command = command;
+  take_setups(written.setups, options);
   check_importing(options);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
@@ -339,7 +350,9 @@ Options checked(Written written, const std::string &command) {
     throw Error(ExitCode::usage,
                 fmt::format("merge: expected -o beside {} directories", options.merged.size()));
   if (capture.output_directory.empty() && command != "merge")
-    capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
+    capture.output_directory = options.setups.size() > 1
+                                   ? std::filesystem::path("out") / command
+                                   : std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);
   if (!written.channels.empty())
