@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int slow = 8; // S of S x S samples: some milliseconds a frame
+constexpr int slow = 4; // S of S x S samples: a few milliseconds a frame
 
 // Kills the run so many times, each after a random share of the time that it takes, and lets it go on; then
 // lets it end. What was whole stays as it was.
@@ -86,7 +86,7 @@ TEST_CASE("a run that is killed fifty times ends as if nothing had been", "[long
   check_killed(200, 50, 3);
 }
 
-TEST_CASE("two processes share the work in one folder") { check_together(2, 40); }
+TEST_CASE("two processes share the work in one folder") { check_together(2, 30); }
 
 TEST_CASE("three processes share the work in one folder, again and again", "[long]") {
   for (int i = 0; i < 10; ++i)
@@ -94,7 +94,7 @@ TEST_CASE("three processes share the work in one folder, again and again", "[lon
 }
 
 TEST_CASE("what a killed process has left is made by one that lives beside it") {
-  const ManyFrames many(40, slow);
+  const ManyFrames many(30, slow);
   many.run_well("alone");
   RunningPmdsim killed(many.arguments("beside"));
   wait_for(many.work / "beside/run.json");
@@ -159,7 +159,7 @@ TEST_CASE("--resume refuses a folder of another setup, scene, device, option, co
   std::string command = "render", difference;
   SECTION("setup") {
     two.work.write("setup.json", with(bytes_in(two.setup), "[30000000.0,50000000.0]", "[30e6,51e6]"));
-    difference = "the setup differs at /sensors/1/modulation_hz/1: 50000000.0 there, 51000000.0 here";
+    difference = "the setup differs at /sensors/1/modulation_hz/1: 50000000 there, 51000000 here";
   }
   SECTION("scene") {
     two.work.write("wall.gltf", with(bytes_in(two.work / "wall.gltf"), "\"wall\"", "\"wale\""));
