@@ -78,7 +78,7 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
       exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_, frames_, request.output_directory,
                 {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
-                 setup_.as_used, request.channels.names()}) {}
+                 setup_.as_used, {}, request.channels.names()}) {}
 
 std::string Capture::device_text() const {
   return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());

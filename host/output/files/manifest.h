@@ -40,8 +40,8 @@ struct RunRecord {
   std::string device, driver;
   Accuracy accuracy;            // asked for
   nlohmann::ordered_json setup; // as used
-  std::vector<std::string> channels{}; // asked for; none: all
   std::vector<FrameRecord> frames{};
+  std::vector<std::string> channels{}; // asked for; none: all
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".

@@ -35,9 +35,9 @@ struct WrittenFrame {
   ChannelSet channels() const {
     return {resolution,
             {{"distance_m", "m", std::span(distances), 0},
+             {"tap2", "W/(m² sr)", std::span(distances), 0},
              {"distance_m", "m", std::span(distances), 1},
-             {"object_id", "", std::span(ids)},
-             {"tap2", "W/(m² sr)", std::span(distances), 0}}};
+             {"object_id", "", std::span(ids)}}};
   }
   void write(const std::filesystem::path &path) const {
     OutputFile file(path);
@@ -111,7 +111,7 @@ TEST_CASE("a frame comes back with all its bits, names, units and its size") {
       CHECK(read.resolution == size);
       const ChannelSet expected = written.channels();
       REQUIRE(read.channels.size() == expected.channels.size());
-      for (std::size_t i = 0; i < read.channels.size(); ++i) { // whose names are sorted
+      for (std::size_t i = 0; i < read.channels.size(); ++i) { // sorted by name, as in EXR files
         CHECK(read.channels[i].name == expected.channels[i].name());
         CHECK(read.channels[i].unit == expected.channels[i].unit);
         CHECK(has_values(read.channels[i], expected.channels[i]));
