@@ -1,11 +1,10 @@
 #include "host/input/frame/frame_bytes.h"
 
-#include "host/hdf5/hdf5.h"
+#include "host/hdf5/memory_file.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <hdf5_hl.h>
 #include <optional>
 
 namespace pmdsim {
@@ -15,12 +14,8 @@ constexpr std::size_t max_unit_bytes = 1000;
 
 class H5Reader {
 public:
-  explicit H5Reader(const FrameBytes &frame) : frame_(frame) {
-    // HDF5 reads where the bytes lie, and does not free them.
-    constexpr unsigned as_they_are = H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE;
-    file_ = opened(
-        H5LTopen_file_image(const_cast<char *>(frame.content.data()), frame.content.size(), as_they_are),
-        H5Fclose);
+  explicit H5Reader(const FrameBytes &frame) : frame_(frame), file_(opened_in_memory(frame.content)) {
+    check(file_.id() < 0 ? -1 : 0);
   }
 
   ReadFrame frame() const {
