@@ -62,13 +62,20 @@ H5FD_class_t memory_driver() {
   return driver;
 }
 
+// Stays, as HDF5 looks at a driver while it closes the last file of it; anew where somebody closed HDF5.
+hid_t driver_id() {
+  static const H5FD_class_t driver = memory_driver();
+  static hid_t id = -1;
+  if (id < 0 || H5Iget_type(id) != H5I_VFL)
+    id = H5FDregister(&driver);
+  return id;
+}
+
 } // namespace
 
 Hdf5Handle opened_in_memory(std::string_view bytes) {
-  static const H5FD_class_t driver_class = memory_driver();
-  const Hdf5Handle driver(H5FDregister(&driver_class), H5FDunregister); // which an open file keeps
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (driver.id() < 0 || H5Pset_driver(access.id(), driver.id(), &bytes) < 0)
+  if (H5Pset_driver(access.id(), driver_id(), &bytes) < 0)
     return {};
   return {H5Fopen("frame", H5F_ACC_RDONLY, access.id()), H5Fclose};
 }
