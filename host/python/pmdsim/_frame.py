@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import re
@@ -271,7 +270,7 @@ class Frame:
 def _write_npz(name: str, arrays: Dict[str, NDArray[Any]]) -> None:
     partial = f"{name}.{os.getpid()}.partial"
     try:
-        with io.open(partial, "wb") as file:
+        with open(partial, "wb") as file:
             np.savez(file, **arrays)
         os.replace(partial, name)
     except OSError as error:
