@@ -7,6 +7,7 @@ import json
 import os
 import warnings
 import weakref
+from functools import partial
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Set, Tuple, TypeVar, Union
 
 from ._calls import Caller
@@ -49,16 +50,21 @@ def _device_name(device: Optional[Device]) -> Optional[bytes]:
     if isinstance(device, str):
         kind = _kinds.get(device.lower())
         if kind:
-            for index, found in enumerate(devices()):
-                if kind in found.get("kind", ""):
-                    return str(index).encode()
+            for found in devices():
+                if kind in found["kind"]:
+                    return found["name"].encode()
         return device.encode()
     return str(whole_number(device, "device", 0, _most)).encode()
 
 
+def _cancel(handle: ctypes.c_void_p) -> None:
+    if handle.value:
+        library().pmdsim_simulator_cancel(handle)
+
+
 def _destroy(handle: int, process: int, caller: Caller) -> None:
-    caller.stop()
     if os.getpid() == process:
+        caller.stop()
         library().pmdsim_simulator_destroy(handle)
 
 
@@ -127,8 +133,8 @@ class Simulator:
         _refuse_after_fork()
         self._owner = os.getpid()
         name = _device_name(device)
-        self._caller = Caller(self._cancel_call)
         handle = ctypes.c_void_p()
+        self._caller = Caller(partial(_cancel, handle))  # which does not hold the simulator
         self._caller(lambda: check(library().pmdsim_simulator_create(name, ctypes.byref(handle))))
         self._handle = handle.value or 0
         self._finalizer = weakref.finalize(self, _destroy, self._handle, self._owner, self._caller)
@@ -152,7 +158,10 @@ class Simulator:
         self.close()
 
     def __repr__(self) -> str:
-        return f"<pmdsim.Simulator, {self.device if self._handle else 'closed'}>"
+        if not self._handle:
+            return "<pmdsim.Simulator, closed>"
+        told = self._described or {}
+        return f"<pmdsim.Simulator on {told.get('device', 'a device')} of {', '.join(told.get('sensors') or ['no setup'])}>"
 
     def close(self) -> None:
         """Gives the device and the memory back; frames that were measured stay. Twice does no harm.
@@ -185,10 +194,6 @@ class Simulator:
         if self._caller.lost:
             raise HandleError("the simulator was given up, since a call that was cancelled did not end")
         return self._handle
-
-    def _cancel_call(self) -> None:
-        if self._handle:
-            library().pmdsim_simulator_cancel(self._handle)
 
     def cancel(self) -> None:
         """Ends the call that another thread is in, soon, with CancelledError. Nothing happens where none is."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections import deque
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import Any, Deque, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 from ._errors import ArgumentError, CancelledError
@@ -54,17 +54,21 @@ class _Workers:
             made = Simulator(device=self._device)
             with self._lock:
                 self._simulators.append(made)
+            self._go_on()
             made.load(self._setup, scene=self._scene)
             simulator = self._of_thread.simulator = made
         return simulator
+
+    def _go_on(self) -> None:
+        if self._stopped:
+            raise CancelledError("the sweep was ended")
 
     def _measure(self, variant: Variant, sensor: Union[int, str], frames: Sequence[int], options: Any) -> List[Frame]:
         simulator = self._simulator()
         simulator.set(variant)
         measured = []
         for frame in frames:
-            if self._stopped:
-                raise CancelledError("the sweep was ended")
+            self._go_on()
             measured.append(simulator._render(sensor, frame, options, stacklevel=4))
         return measured
 
@@ -74,12 +78,12 @@ class _Workers:
     def stop(self, pending: Iterable["Future[List[Frame]]"]) -> None:
         """Ends what runs, and closes the simulators when all threads are through."""
         self._stopped = True
-        for future in pending:
-            future.cancel()
-        with self._lock:
-            running = list(self._simulators)
-        for simulator in running:
-            simulator._cancel_call()
+        running = {future for future in pending if not future.cancel()}
+        while running:
+            with self._lock:  # again and again: a thread may have been between two calls
+                for simulator in self._simulators:
+                    simulator.cancel()
+            running = wait(running, timeout=0.05).not_done
         self._pool.shutdown(wait=True)
         for simulator in self._simulators:
             simulator.close()
