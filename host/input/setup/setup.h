@@ -48,6 +48,8 @@ class Motion;
 struct SampleChoice {
   std::uint32_t samples = 1; // Sensor::samples
   bool adaptive = false;     // Sensor::adaptive_samples
+
+  bool operator==(const SampleChoice &) const = default;
 };
 
 // "auto": S x S samples where they show anything, fewer elsewhere; the reference takes them all.
@@ -80,6 +82,14 @@ struct Setup {
   // Everything in its place at a time; `start` where nothing moves. Throws Error (input).
   Instant at(double time_s) const;
 };
+
+// Of all its sensors, in place of their own.
+inline void set_samples(Setup &setup, const SampleChoice &choice) {
+  for (Sensor &sensor : setup.start.sensors)
+    set_samples(sensor, choice);
+  for (auto &sensor : setup.as_used["sensors"])
+    sensor["samples"] = sample_choice_json(choice);
+}
 
 // Throws Error (input) in one line: the file, the place in it and what was expected.
 Setup load_setup(const std::filesystem::path &file);
