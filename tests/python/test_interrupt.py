@@ -15,8 +15,8 @@ import sys, threading, time
 import pmdsim
 from setups import small_setup
 setup = small_setup()
-setup["sensors"][0].update(resolution=[200, 2000], samples=16, focal_length_m=0.45)
-setup["illuminators"][0]["diodes"]["rings"][0]["count"] = 30
+setup["sensors"][0].update(resolution=[100, 1500], samples=16, focal_length_m=0.45)
+setup["illuminators"][0]["diodes"]["rings"][0]["count"] = 60
 print("ready", flush=True)
 try:
     ACTION
