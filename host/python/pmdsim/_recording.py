@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 def _read_npz(file: str, report: Dict[str, Any]) -> Frame:
     try:
-        with np.load(file, allow_pickle=False) as archive:
+        with open(file, "rb") as stream, np.load(stream, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, KeyError) as error:
         raise InputError(f"{file}: cannot be read: {error}", file) from None

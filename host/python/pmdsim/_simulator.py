@@ -199,6 +199,13 @@ class Simulator:
         """Ends the call that another thread is in, soon, with CancelledError. Nothing happens where none is."""
         check(library().pmdsim_simulator_cancel(self._usable()))
 
+    def _end_call(self) -> None:
+        """As cancel(), and nothing where there is no simulator any more."""
+        library().pmdsim_simulator_cancel(self._handle)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a simulator belongs to its process and cannot be pickled; make one in each")
+
     def _call(self, function: Callable[[], Result]) -> Result:
         return self._caller(function)
 

@@ -85,7 +85,7 @@ class _Workers:
         while running and time.monotonic() < give_up:
             with self._lock:  # again and again: a thread may have been between two calls
                 for simulator in self._simulators:
-                    simulator.cancel()
+                    simulator._end_call()
             running = wait(running, timeout=0.02).not_done
         self._pool.shutdown(wait=not running)
         if not running:
