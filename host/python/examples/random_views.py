@@ -48,14 +48,14 @@ def furnished_room(seed: int, pieces: int = 12) -> pmdsim.Scene:
     )
 
 
-def camera(columns: int, rows: int) -> dict:
-    """A noisy camera with a light at its lens."""
+def camera(binning: int) -> dict:
+    """A noisy camera of 512 x 424 pixels, of which `binning` x `binning` make one, with a light at its lens."""
     return {
         "sensors": [
             {
                 "name": "camera",
-                "resolution": [columns, rows],
-                "pixel_pitch_m": [10e-6 * 512 / columns, 10e-6 * 424 / rows],
+                "resolution": [512 // binning, 424 // binning],
+                "pixel_pitch_m": [10e-6 * binning, 10e-6 * binning],
                 "focal_length_m": 3.66e-3,
                 "modulation_hz": [16e6],
                 "samples": 2,
@@ -64,6 +64,8 @@ def camera(columns: int, rows: int) -> dict:
                     "integration_time_s": 2e-3,
                     "lens_f_number": 1.1,
                     "background_radiance_w_m2_sr": 0.02,
+                    "binning": [binning, binning],
+                    "binning_after_adc": True,
                     "noiseless_channels": True,
                 },
             }
@@ -73,7 +75,7 @@ def camera(columns: int, rows: int) -> dict:
                 "name": "light",
                 "diodes": {"rings": [{"radius_m": 0.04, "count": 3}]},
                 "pattern": {"order": 1},
-                "intensity_w_sr": 4.0,
+                "intensity_w_sr": 1.0,
             }
         ],
     }
@@ -119,7 +121,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=Path("out/random_views"), help="folder [%(default)s]")
     parser.add_argument("--count", type=int, default=1000, help="views [%(default)s]")
     parser.add_argument("--seed", type=int, default=0, help="of the room and all views [%(default)s]")
-    parser.add_argument("--resolution", type=int, nargs=2, default=[64, 53], metavar=("COLUMNS", "ROWS"))
+    parser.add_argument("--binning", type=int, default=8, help="8: 64 x 53 pixels, 1: 512 x 424 [%(default)s]")
     parser.add_argument("--part", type=part, default=(0, 1), metavar="i/n", help="every n-th view from the i-th on, from 0")
     arguments = parser.parse_args()
 
@@ -129,7 +131,7 @@ def main() -> None:
     missing = {number: file for number, file in files.items() if not file.exists()}
     print(f"{len(files)} views, {len(files) - len(missing)} of them are there")
     errors = []
-    with pmdsim.Simulator(camera(*arguments.resolution), scene=furnished_room(arguments.seed)) as simulator:
+    with pmdsim.Simulator(camera(arguments.binning), scene=furnished_room(arguments.seed)) as simulator:
         for number, file in missing.items():
             simulator.set(random_view(arguments.seed, number))
             frame = simulator.render()
