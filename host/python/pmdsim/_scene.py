@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Union
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -103,7 +103,7 @@ def _vertices(values: Any) -> NDArray[np.float64]:
     return array
 
 
-def _indices(values: Any, what: str, shape: tuple, count: int, of: str) -> NDArray[np.uint32]:
+def _indices(values: Any, what: str, shape: Tuple[Optional[int], ...], count: int, of: str) -> NDArray[np.uint32]:
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
         raise ArgumentError(f"{what}: expected whole numbers, found the type {array.dtype}")
