@@ -16,8 +16,9 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Format> format_names{
-    {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
+const std::map<std::string, Format> format_names{{"exr", Format::exr}, {"npz", Format::npz},
+                                                 {"h5", Format::h5},   {"npy", Format::npy},
+                                                 {"png", Format::png}, {"csv", Format::csv}};
 // The formats of the commands that write frames.
 const std::map<std::string, std::vector<std::string>> default_formats{{"render", {"exr", "png"}},
                                                                       {"deform", {"exr", "png", "csv"}}};
@@ -28,7 +29,7 @@ struct Written {
   WrittenAccuracy accuracy;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
-  std::vector<std::string> formats;
+  std::vector<std::string> formats, channels;
 };
 
 void add_setup(CLI::App &command, Written &written) {
@@ -65,10 +66,16 @@ void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
       .add_option("--format", written.formats,
-                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]",
+                  fmt::format("what to write: exr, npz, h5, npy, png, csv, separated by commas [{}]",
                               fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
-      ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
+      ->check(CLI::IsMember({"exr", "npz", "h5", "npy", "png", "csv"}));
+  command
+      .add_option(
+          "--channels", written.channels,
+          "only these, by names separated by commas, e.g. distance_m,lit; without the numbers of taps, "
+          "with or without the prefix of a frequency. What no other needs is not computed [all]")
+      ->delimiter(',');
   add_frames(command, written);
   command.add_option("--shard", written.shard,
                      "I/N, I from 0 to N - 1: only frames whose number modulo N is I; or `slurm`, what "
@@ -290,6 +297,11 @@ std::uint32_t paths_of(const std::string &text, bool on_reference) {
   return static_cast<std::uint32_t>(*paths);
 }
 
+WantedChannels wanted_channels(const std::vector<std::string> &names, const std::string &command) {
+  return WantedChannels(names, command == "deform" ? std::vector<std::string>{deformation_channel}
+                                                   : std::vector<std::string>{});
+}
+
 // Checks the commands that compare a device with the reference.
 void check_comparing(const Written &written) {
   const Options &options = written.options;
@@ -330,6 +342,8 @@ Options checked(Written written, const std::string &command) {
     capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);
+  if (!written.channels.empty())
+    capture.channels = wanted_channels(written.channels, command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_names.at(format));
   return options;

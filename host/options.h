@@ -11,6 +11,9 @@
 
 namespace pmdsim {
 
+// The channel that `deform` makes itself, as --channels names it.
+inline constexpr const char *deformation_channel = "deformation_mm";
+
 // bench --suite: procedural scenes.
 struct SuiteOptions {
   std::vector<std::string> kinds;    // all but the awkward ones where there are none

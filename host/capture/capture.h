@@ -27,6 +27,7 @@ struct CaptureRequest {
   std::filesystem::path output_directory;
   bool resume = false; // frames that are whole there stay
   std::set<Format> formats;
+  WantedChannels channels;
 };
 
 // The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error: input,
@@ -44,14 +45,17 @@ public:
   // `command` is what the manifest calls it. Without `keep_taps` as Exposures. Throws Error: nothing is
   // measured in vain where a file cannot be written.
   Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
-      : Capture(request, requested_setup(request), command, keep_taps) {}
+      : Capture(request, requested_setup(request), command, keep_taps, request.channels) {}
   // Of `setup`, which is the requested one, changed.
-  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps);
+  // Measured are the channels that `measured` wants, beside those of the request.
+  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
+          const WantedChannels &measured);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t frame_count() const { return frames_.count(); } // that were asked for
   const std::set<Format> &formats() const { return formats_; }
-  const FrameSequence &sequence() const { return sequence_; } // with what it has written
+  const WantedChannels &channels() const { return channels_; } // of the request
+  const FrameSequence &sequence() const { return sequence_; }  // with what it has written
   // Of the frames in the directory that were asked for, sensor by sensor, as its records have them. As
   // FrameSequence::for_each_record().
   void for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const;
@@ -70,6 +74,7 @@ private:
   Setup setup_;
   FrameRange frames_;
   std::set<Format> formats_;
+  WantedChannels channels_;
   double max_error_m_; // asked for
   Exposures exposures_;
   FrameSequence sequence_;
@@ -79,12 +84,13 @@ private:
 // A manifest's record of a part of a frame.
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 
-// A frame as `render` leaves it: every channel of what was measured. Its files hold on to `taken`.
+// A frame as `render` leaves it: every channel of what was taken. Its files hold on to `taken`.
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats);
 
-// The bytes of the setup's largest frame, with or without its taps, and with so many maps more of each
-// frequency.
-std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps = 0);
+// The bytes of the setup's largest frame of the wanted channels, with or without its taps, and with so many
+// maps more of each frequency.
+std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted = {},
+                                   std::size_t maps = 0);
 
 } // namespace pmdsim

@@ -22,8 +22,11 @@ double mean_coverage(const std::vector<float> &coverage) {
   return std::accumulate(coverage.begin(), coverage.end(), 0.0, add) / static_cast<double>(coverage.size());
 }
 
+// Nothing of a channel that is not there.
 std::string spread_line(const std::string &quantity, const std::vector<float> &values,
                         const std::string &unit) {
+  if (values.empty())
+    return {};
   const auto [min, median, max] = spread_of(values);
   return fmt::format("{:<24}{:>12}{:>12}{:>12}  {}\n", quantity, table_number(min), table_number(median),
                      table_number(max), unit);
@@ -32,17 +35,21 @@ std::string spread_line(const std::string &quantity, const std::vector<float> &v
 std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
   const auto &[sensor, measurement, mode] = taken;
   std::string text = fmt::format("{}, frame {}, {:.3f} ms\n", sensor.name, frame, measurement.frame_ms);
-  text += fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
+  const std::string head = fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
+  std::string lines;
   for (std::size_t i = 0; i < measurement.returns.size(); ++i) {
     const std::string at = frequency_of(i, sensor.modulation_hz.size())
                                ? " at " + frequency_text(sensor.modulation_hz[i])
                                : std::string();
-    text += spread_line("distance" + at, measurement.returns[i].distance_m, "m");
-    text += spread_line("amplitude" + at, measurement.returns[i].amplitude, "W/(m² sr)");
-    if (!measurement.returns[i].multipath_m.empty())
-      text += spread_line("multipath" + at, measurement.returns[i].multipath_m, "m");
+    lines += spread_line("distance" + at, measurement.returns[i].distance_m, "m");
+    lines += spread_line("amplitude" + at, measurement.returns[i].amplitude, "W/(m² sr)");
+    lines += spread_line("multipath" + at, measurement.returns[i].multipath_m, "m");
   }
-  text += fmt::format("{:.2f} % of the samples hit the scene\n", 100.0 * mean_coverage(measurement.coverage));
+  if (!lines.empty())
+    text += head + lines;
+  if (!measurement.coverage.empty())
+    text +=
+        fmt::format("{:.2f} % of the samples hit the scene\n", 100.0 * mean_coverage(measurement.coverage));
   if (measurement.bounces)
     text += bounces_text(*measurement.bounces) + "\n";
   return text + accuracy_text(mode, measurement.accuracy) + "\n";
@@ -79,7 +86,7 @@ std::string render(Capture &capture) {
     first = first.value_or(at.frame);
     return rendered_frame(taken, at, capture.formats());
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), true));
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), true, capture.channels()));
   return text;
 }
 

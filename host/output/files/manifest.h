@@ -53,6 +53,7 @@ struct RunHead {
   nlohmann::ordered_json setup; // as used
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
   std::vector<std::string> formats{};
+  std::vector<std::string> channels{}; // asked for; none: all
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
