@@ -176,9 +176,9 @@ def _in_turn(
 ) -> Iterator[Tuple[Variant, Frame]]:
     with Simulator(setup, device, scene=scene) as simulator:
         for variant in variants:
-            simulator.set(variant)
+            simulator._set(variant, stacklevel=4)
             for frame in frames:
-                yield variant, simulator._render(sensor, frame, options, stacklevel=4)
+                yield variant, simulator._render(sensor, frame, options, stacklevel=3)
 
 
 def _ahead(
