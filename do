@@ -13,7 +13,7 @@ packages=(
   libcli11-dev libfmt-dev
   libmeshoptimizer-dev libpng-dev libturbojpeg0-dev
   libopenexr-dev libisal-dev libdeflate-dev libarchive-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libtbb-dev
-  catch2
+  catch2 python3-numpy
 )
 
 say() { printf '%s\n' "do: $*" >&2; }
