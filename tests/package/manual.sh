@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Manual pages and completions as they are installed: manual.sh FOLDER, the build's packaging/manual. groff renders the
 # pages without a warning, bash completes, and zsh and fish, where they are installed, read their scripts.
-. "$(dirname "$0")/check.sh"
+. "$(dirname "$0")/../support/check.sh"
 folder=$1
 
 check_pages() {

@@ -1,8 +1,8 @@
-# What the scripts of this folder share: a scratch folder that goes when the script ends, however it ends, and checks.
+# What scripts that test share: a scratch folder that goes when the script ends, however it ends, and checks.
 set -euo pipefail
 source_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 skipped=77 # CTest's SKIP_RETURN_CODE
-scratch=$(mktemp -d "${TMPDIR:-/tmp}/pmdsim_package.XXXXXX")
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/pmdsim_test.XXXXXX")
 leave() { rm -rf --one-file-system "$scratch"; }
 trap leave EXIT
 trap 'exit 129' HUP INT TERM
