@@ -28,10 +28,8 @@ bool is_mostly_beyond(const Measurement &measured) {
 } // namespace
 
 struct Simulator::State {
-  explicit State(const SimulatorOptions &wanted)
-      : options(wanted), wants_error_bound(wanted.keep_error_bound), wants_sample_ids(wanted.keep_sample_ids),
-        wants_taps(wanted.keep_taps), wants_electrons(wanted.count_electrons), instance(wanted.validate),
-        info(choose_device(instance, wanted.device)),
+  explicit State(const SimulatorOptions &asked)
+      : wanted(asked), options(asked), instance(asked.validate), info(choose_device(instance, asked.device)),
         device(instance, std::move(instance.devices()[info.index])), recorder(device), textures(device) {}
 
   void prepare();
@@ -39,8 +37,8 @@ struct Simulator::State {
   bool refine();
   Measurement spare_memory();
 
-  SimulatorOptions options; // keeps bounds also where a frame turned out to need them
-  bool wants_error_bound, wants_sample_ids, wants_taps, wants_electrons;
+  SimulatorOptions wanted;
+  SimulatorOptions options; // what a frame takes: more than was wanted where it turned out to need that
   vulkan::Instance instance;
   DeviceInfo info;
   vulkan::Device device;
@@ -122,6 +120,10 @@ Simulator &Simulator::operator=(Simulator &&) noexcept = default;
 
 const DeviceInfo &Simulator::device() const { return state_->info; }
 
+const SimulatorOptions &Simulator::options() const { return state_->wanted; }
+
+void Simulator::change(const SimulatorOptions &options) { state_->wanted = options; }
+
 void Simulator::prepare(const Scene &scene, const Sensor &sensor,
                         const std::vector<Illuminator> &illuminators, Backscatter backscatter,
                         Shadows shadows, const Accuracy &accuracy, const Bounces &bounces) {
@@ -132,13 +134,13 @@ void Simulator::prepare(const Scene &scene, const Sensor &sensor,
     throw std::logic_error("bounces off surfaces that are not Lambert's");
   state_->requested.emplace(FrameRequest{scene, sensor, illuminators, backscatter, shadows, accuracy});
   state_->attempt = 0;
-  state_->options.keep_error_bound = state_->wants_error_bound;
+  state_->options = state_->wanted;
   state_->bounces = bounces.any();
   // Electrons are counted from the samples of any waveform but a sine.
   state_->options.keep_taps =
-      state_->wants_taps || (sensor.electronics && sensor.waveform.kind != Waveform::Kind::sine);
-  state_->options.count_electrons = state_->wants_electrons && !bounces.any();
-  state_->options.keep_sample_ids = state_->wants_sample_ids || (bounces.any() && sensor.samples > 1);
+      state_->wanted.keep_taps || (sensor.electronics && sensor.waveform.kind != Waveform::Kind::sine);
+  state_->options.count_electrons = state_->wanted.count_electrons && !bounces.any();
+  state_->options.keep_sample_ids = state_->wanted.keep_sample_ids || (bounces.any() && sensor.samples > 1);
   if (bounces.any())
     state_->multipath.prepare({scene, sensor, illuminators, shadows, bounces});
   state_->prepare();

@@ -34,6 +34,11 @@ public:
 
   const DeviceInfo &device() const;
 
+  // As the constructor or change() was told.
+  const SimulatorOptions &options() const;
+  // Frames from the next prepare() on are measured so. The device and validation stay as they are.
+  void change(const SimulatorOptions &options);
+
   // With Mode::automatic `scene` must outlive the frames, which may have to be prepared anew, more exact.
   // Uploads what a frame needs and compiles its shaders. Throws Error: out_of_memory, device_lost, accuracy
   // (the error asked for cannot be promised), input (diodes of intensities more than 1e25 apart). With

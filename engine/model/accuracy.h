@@ -27,6 +27,8 @@ struct Accuracy {
       default_max_error_m; // of distance in every pixel, wrapped; in mode exact of adaptive samples only
   double max_amplitude_error = std::numeric_limits<double>::infinity(); // relative, likewise
   bool strict = false; // a frame some of whose pixels may be off by more is refused, not returned
+
+  bool operator==(const Accuracy &) const = default;
 };
 
 // The accuracy of a frame. Errors are of distance, wrapped, and of amplitude, relative, each the largest of

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace pmdsim {
 
@@ -21,14 +22,23 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
+// The file that is wrong, and the place in it: a JSON pointer, or "LINE:COLUMN". Empty where there is none.
+struct Whereabouts {
+  std::string file{}, place{};
+};
+
 class Error : public std::runtime_error {
 public:
-  // `message` is one line that names the file, the place in it and what was expected.
-  Error(ExitCode code, const std::string &message) : std::runtime_error(message), code_(code) {}
+  // `message` is one line that names the file, the place in it and what was expected; `where` tells the first
+  // two to programs.
+  Error(ExitCode code, const std::string &message, Whereabouts where = {})
+      : std::runtime_error(message), code_(code), where_(std::move(where)) {}
   ExitCode code() const { return code_; }
+  const Whereabouts &where() const { return where_; }
 
 private:
   ExitCode code_;
+  Whereabouts where_;
 };
 
 inline Error too_much_light() {

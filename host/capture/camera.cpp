@@ -27,9 +27,19 @@ std::function<void()> progress_at_end(const Progress &progress) {
   return [&progress] { progress(1.0); };
 }
 
+void set_extras(const Extras &extras, SimulatorOptions &options) {
+  options.keep_sample_ids = extras.sample_triangles;
+  options.keep_visibility = extras.reached;
+  options.keep_taps = extras.taps;
+  options.count_electrons = extras.electrons_at_once;
+  const PathForms all;
+  options.allowed.point_polynomials = all.point_polynomials && !extras.diodes_in_a_loop;
+  options.allowed.direct_pixels = all.direct_pixels && !extras.diodes_in_a_loop;
+}
+
 } // namespace
 
-Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras) {
+Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras), wanted_(device) {
   if (names_the_reference(device)) {
     device_ = "reference";
     driver_ = "pmdsim " PMDSIM_VERSION;
@@ -37,18 +47,22 @@ Camera::Camera(const std::string &device, const Extras &extras) : extras_(extras
   }
   SimulatorOptions options;
   options.device = device;
-  options.keep_sample_ids = extras.sample_triangles;
-  options.keep_visibility = extras.reached;
-  options.keep_taps = extras.taps;
-  options.count_electrons = extras.electrons_at_once;
-  if (extras.diodes_in_a_loop)
-    options.allowed.point_polynomials = options.allowed.direct_pixels = false;
+  set_extras(extras, options);
   // The program never changes its environment any more.
   const char *validate = std::getenv("PMDSIM_VALIDATE"); // NOLINT(concurrency-mt-unsafe)
   options.validate = validate && std::string_view(validate) == "1";
   simulator_.emplace(options);
   device_ = simulator_->device().name;
   driver_ = simulator_->device().driver;
+}
+
+void Camera::give(const Extras &extras) {
+  extras_ = extras;
+  if (!simulator_)
+    return;
+  SimulatorOptions options = simulator_->options();
+  set_extras(extras, options);
+  simulator_->change(options);
 }
 
 void Camera::prepare(const Scene &scene, const Sensor &sensor, const std::vector<Illuminator> &illuminators,

@@ -33,6 +33,10 @@ public:
   // PMDSIM_VALIDATE=1 in the environment sets SimulatorOptions::validate.
   explicit Camera(const std::string &device, const Extras &extras = {});
 
+  // Frames from the next prepare() on have these beside their other channels.
+  void give(const Extras &extras);
+
+  const std::string &wanted() const { return wanted_; } // as the constructor was told
   const std::string &device() const { return device_; }
   const std::string &driver() const { return driver_; }
   bool is_reference() const { return !simulator_; }
@@ -67,7 +71,7 @@ private:
   Extras extras_;
   Sensor sensor_; // that is prepared
   std::uint32_t diode_count_ = 0;
-  std::string device_, driver_;
+  std::string wanted_, device_, driver_;
 };
 
 } // namespace pmdsim

@@ -32,12 +32,8 @@ Setup requested_setup(const CaptureRequest &request) {
   if (request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
     fmt::print(stderr, "pmdsim: warning: frames whose taps are taken one after the other are taken in mode "
                        "exact, and nothing is claimed of their errors\n");
-  if (request.samples) {
-    for (Sensor &sensor : setup.start.sensors)
-      set_samples(sensor, *request.samples);
-    for (auto &sensor : setup.as_used["sensors"])
-      sensor["samples"] = sample_choice_json(*request.samples);
-  }
+  if (request.samples)
+    set_samples(setup, *request.samples);
   return setup;
 }
 

@@ -142,11 +142,16 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
                      std::uint32_t paths)
-    : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy),
-      camera_(device, {.taps = keep_taps || exposes_any_tap_by_tap(setup),
-                       .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
-                       .paths = paths}),
-      others_(setup, device, paths), instants_(setup) {}
+    : Exposures(setup, std::make_shared<Camera>(device), keep_taps, accuracy, paths) {}
+
+Exposures::Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps,
+                     const Accuracy &accuracy, std::uint32_t paths)
+    : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy), camera_(std::move(camera)),
+      others_(setup, camera_->wanted(), paths), instants_(setup) {
+  camera_->give({.taps = keep_taps || exposes_any_tap_by_tap(setup),
+                 .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
+                 .paths = paths});
+}
 
 const Instant &Exposures::instant_at(double time_s) {
   if (!instants_.holds(time_s))
@@ -168,8 +173,8 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
   const std::vector in_lens{monostatic_illuminator(sensor.world_from_camera)};
   // Light in the lens reaches whatever the lens sees; what bounces comes from elsewhere, too.
   const Shadows shadows = is_in_lens && !setup_.bounces.any() ? Shadows::off : setup_.shadows;
-  camera_.prepare(instant.scene, sensor, is_in_lens ? in_lens : instant.illuminators, setup_.backscatter,
-                  shadows, accuracy, setup_.bounces);
+  camera_->prepare(instant.scene, sensor, is_in_lens ? in_lens : instant.illuminators, setup_.backscatter,
+                   shadows, accuracy, setup_.bounces);
   if (others_.reach(sensor))
     others_.prepare(instant, sensor);
   prepared_ = view;
@@ -186,8 +191,8 @@ TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light
     if (next_s)
       instants_.expect(*next_s);
     const auto add = [&](Measurement &measured) { others_.add_to(frame.sensor, time_s, measured); };
-    frame.measurement = camera_.measure(progress, {static_cast<std::uint32_t>(sensor), number, 0},
-                                        others_.reach(frame.sensor) ? Camera::AddLight(add) : nullptr);
+    frame.measurement = camera_->measure(progress, {static_cast<std::uint32_t>(sensor), number, 0},
+                                         others_.reach(frame.sensor) ? Camera::AddLight(add) : nullptr);
   }
   if (!keep_taps_)
     for (Return &of : frame.measurement.returns)
@@ -220,7 +225,7 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
     const auto of_exposure = [&](double fraction) {
       progress((before + fraction) / static_cast<double>(exposures));
     };
-    return camera_.measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
+    return camera_->measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
   };
   const auto add = [&](std::size_t frequency, std::size_t tap, double exposure_s, Measurement &exposure,
                        std::vector<float> &correlation) {

@@ -96,10 +96,13 @@ public:
   // `paths` as Extras.
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {},
             std::uint32_t paths = 0);
+  // With a camera that others may have used before, and nobody does meanwhile.
+  Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps, const Accuracy &accuracy,
+            std::uint32_t paths);
 
-  const Camera &camera() const { return camera_; }
+  const Camera &camera() const { return *camera_; }
   // As Simulator::reuse().
-  void reuse(Measurement &&frame) { camera_.reuse(std::move(frame)); }
+  void reuse(Measurement &&frame) { camera_->reuse(std::move(frame)); }
   // A frame whose memory is reused once nobody holds it any more; this must outlive it.
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
 
@@ -128,7 +131,7 @@ private:
   const Setup &setup_;
   bool keep_taps_;
   Accuracy accuracy_;
-  Camera camera_;
+  std::shared_ptr<Camera> camera_;
   OtherCameras others_;
   std::optional<View> prepared_;
   Instants instants_;

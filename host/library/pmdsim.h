@@ -52,17 +52,17 @@ extern "C" {
 /* The first ones are the program's exit codes. */
 typedef enum pmdsim_status {
   PMDSIM_OK = 0,
-  PMDSIM_INTERNAL = 1,      /* a mistake in the library */
-  PMDSIM_BAD_ARGUMENT = 2,  /* an argument is wrong */
-  PMDSIM_BAD_INPUT = 3,     /* a setup, a scene or another file is wrong; file and place tell which and where */
-  PMDSIM_NO_DEVICE = 4,     /* no usable device */
+  PMDSIM_INTERNAL = 1,     /* a mistake in the library */
+  PMDSIM_BAD_ARGUMENT = 2, /* an argument is wrong */
+  PMDSIM_BAD_INPUT = 3, /* a setup, a scene or another file is wrong; file and place tell which and where */
+  PMDSIM_NO_DEVICE = 4, /* no usable device */
   PMDSIM_OUT_OF_MEMORY = 5, /* of the host or the device */
   PMDSIM_DEVICE_LOST = 6,
-  PMDSIM_BAD_OUTPUT = 7,    /* a file cannot be written */
-  PMDSIM_BAD_ACCURACY = 8,  /* the accuracy asked for cannot be reached */
-  PMDSIM_BAD_HANDLE = 9,    /* an object was destroyed, or never was one */
-  PMDSIM_BUSY = 10,         /* the simulator is in another call */
-  PMDSIM_CANCELLED = 130    /* by pmdsim_simulator_cancel() */
+  PMDSIM_BAD_OUTPUT = 7,   /* a file cannot be written */
+  PMDSIM_BAD_ACCURACY = 8, /* the accuracy asked for cannot be reached */
+  PMDSIM_BAD_HANDLE = 9,   /* an object was destroyed, or never was one */
+  PMDSIM_BUSY = 10,        /* the simulator is in another call */
+  PMDSIM_CANCELLED = 130   /* by pmdsim_simulator_cancel() */
 } pmdsim_status;
 
 typedef struct pmdsim_simulator pmdsim_simulator; /* a device and a setup */
@@ -115,8 +115,8 @@ PMDSIM_API pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator,
                                                     const pmdsim_mesh *mesh);
 
 /* Changes the setup: `json` is an object of paths and values, {"sensors/0/focal_length_m": 0.02,
- * "nodes/robot/pose": {"matrix": [[...], [...], [...], [...]]}}. A path is a JSON pointer, with or without its
- * first slash, and may have the "name" of an element for its index. All changes together are checked as a
+ * "nodes/robot/pose": {"matrix": [[...], [...], [...], [...]]}}. A path is a JSON pointer, with or without
+ * its first slash, and may have the "name" of an element for its index. All changes together are checked as a
  * setup is, and taken or refused; they stay until the next load. Scene files are not read again.
  * PMDSIM_BAD_INPUT. */
 PMDSIM_API pmdsim_status pmdsim_simulator_set(pmdsim_simulator *simulator, const char *json);
@@ -138,9 +138,9 @@ typedef struct pmdsim_render_options {
   double max_amplitude_error; /* likewise of amplitude, relative; 0: any */
   const char *precision;      /* of the sum over the diodes, "fp32" or "fp64"; NULL: chosen */
   const char *samples;        /* S of S x S samples a pixel, "1" to "16", or "auto"; NULL: the setup's */
-  const char *channels;       /* names, separated by commas; NULL: all. What only others need is not computed */
-  uint32_t paths;             /* of the reference, for each pixel where light bounces; 0: it chooses */
-  int strict;                 /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY */
+  const char *channels; /* names, separated by commas; NULL: all. What only others need is not computed */
+  uint32_t paths;       /* of the reference, for each pixel where light bounces; 0: it chooses */
+  int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY */
 } pmdsim_render_options;
 
 /* Measures frame `frame` of the sensor with the index `sensor`, both from 0; the same bits as the program
@@ -175,14 +175,16 @@ PMDSIM_API pmdsim_status pmdsim_frame_find(const pmdsim_frame *frame, const char
                                            pmdsim_channel *channel);
 
 /* What a manifest and a record say of the frame (docs/outputs.md, "The manifest"): sensor, frame, time_s,
- * camera, mode, errors claimed and found, frame_ms, passes_ms, warnings; JSON that lives as long as the frame.
+ * camera, mode, errors claimed and found, frame_ms, passes_ms, warnings; JSON that lives as long as the
+ * frame.
  * "{}" of a frame that was read. */
 PMDSIM_API pmdsim_status pmdsim_frame_report(const pmdsim_frame *frame, const char **json);
 
 /* The unit vectors, rows x columns x 3 values, from the lens through the centre of each pixel, in the
  * camera's frame; point_camera = distance_m * direction. `length` is the number of values that there is room
  * for. PMDSIM_BAD_ARGUMENT for less, and for a frame that was read. */
-PMDSIM_API pmdsim_status pmdsim_frame_directions(const pmdsim_frame *frame, double *directions, size_t length);
+PMDSIM_API pmdsim_status pmdsim_frame_directions(const pmdsim_frame *frame, double *directions,
+                                                 size_t length);
 
 #ifdef __cplusplus
 }

@@ -23,13 +23,15 @@ Error input_error(const Place &place, std::string_view message) {
   std::string line = place.pointer.empty()
                          ? fmt::format("{}: {}", place.file.string(), message)
                          : fmt::format("{}: {}: {}", place.file.string(), place.pointer.to_string(), message);
-  return {ExitCode::input, one_line(std::move(line))};
+  return {ExitCode::input, one_line(std::move(line)), {place.file.string(), place.pointer.to_string()}};
 }
 
 Error input_error(const TextPlace &place, std::string_view message) {
   const std::string column = place.column == 0 ? "" : fmt::format(":{}", place.column);
+  const std::string position = fmt::format("{}{}", place.line, column);
   return {ExitCode::input,
-          one_line(fmt::format("{}:{}{}: {}", place.file.string(), place.line, column, message))};
+          one_line(fmt::format("{}:{}: {}", place.file.string(), position, message)),
+          {place.file.string(), position}};
 }
 
 Error input_error(const AnyPlace &place, std::string_view message) {

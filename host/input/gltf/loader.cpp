@@ -6,6 +6,7 @@
 #include "host/input/gltf/material/material.h"
 #include "host/input/gltf/mesh/mesh.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -134,11 +135,26 @@ std::vector<std::string> GltfFile::materials_beyond_lambert() const {
   return found;
 }
 
-GltfScene GltfFile::at(double time_s) const {
+std::vector<NodePlacement> GltfFile::placements(const std::vector<PlacedNode> &placed) const {
+  std::vector<NodePlacement> result;
+  for (const PlacedNode &each : placed) {
+    const auto is_it = [&](const SceneNode &node) { return model_->nodes[node.index].name == each.name; };
+    const auto node = std::ranges::find_if(nodes_, is_it);
+    if (node == nodes_.end())
+      throw input_error(each.place, fmt::format("no node {} in {}", in_quotes(each.name), file_.string()));
+    if (std::ranges::count_if(nodes_, is_it) > 1)
+      throw input_error(each.place,
+                        fmt::format("more than one node {} in {}", in_quotes(each.name), file_.string()));
+    result.push_back({static_cast<std::size_t>(node - nodes_.begin()), each.world_from_node, each.place});
+  }
+  return result;
+}
+
+GltfScene GltfFile::at(double time_s, const std::vector<PlacedNode> &placed) const {
   const Place root{file_};
   std::vector<SceneNode> nodes = nodes_;
   animation_.apply(time_s, nodes);
-  const std::vector<AffineTransform> world_from = world_from_nodes(nodes, root);
+  const std::vector<AffineTransform> world_from = world_from_nodes(nodes, root, placements(placed));
   std::map<int, std::vector<AffineTransform>> world_from_skin; // by skin, then joint
   for (const auto &[skin, joints] : skins_.joints)
     world_from_skin[skin] = world_from_mesh_by_joint(joints, world_from);

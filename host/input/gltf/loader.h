@@ -26,6 +26,13 @@ struct NamedNode {
   AffineTransform world_from_node;
 };
 
+// Where a named node is put: NodePlacement.
+struct PlacedNode {
+  std::string name;
+  Pose world_from_node;
+  Place place;
+};
+
 // A file's active scene at one time.
 struct GltfScene {
   std::filesystem::path file;
@@ -46,10 +53,13 @@ public:
   // Materials of the active scene that are metallic, glossy or transmitting, in words, each once: "\"brass\"
   // (metallic)".
   std::vector<std::string> materials_beyond_lambert() const;
-  // At any finite time, before 0 too. Throws Error (input).
-  GltfScene at(double time_s) const;
+  // At any finite time, before 0 too, with some nodes put elsewhere. Throws Error (input): also where a node
+  // to be put is not there, or more than once.
+  GltfScene at(double time_s, const std::vector<PlacedNode> &placed = {}) const;
 
 private:
+  std::vector<NodePlacement> placements(const std::vector<PlacedNode> &placed) const;
+
   std::filesystem::path file_;
   std::shared_ptr<const tinygltf::Model> model_;
   std::shared_ptr<GltfMaterials> materials_; // decodes textures at the first use

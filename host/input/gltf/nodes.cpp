@@ -91,6 +91,23 @@ std::vector<SceneNode> scene_roots(const tinygltf::Model &model, const std::vect
   return roots;
 }
 
+// The node's transform at another pose: its axes are turned as a whole, their lengths stay.
+AffineTransform put_at(const NodePlacement &placement, const AffineTransform &world_from_node) {
+  constexpr double rounding = 1e-6;
+  const glm::dmat3 &linear = world_from_node.linear;
+  const glm::dvec3 lengths(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
+  for (glm::length_t i = 0; i < 3; ++i)
+    for (glm::length_t j = 0; j < i; ++j)
+      if (!(std::abs(glm::dot(linear[i], linear[j])) <= rounding * lengths[i] * lengths[j]))
+        throw input_error(placement.place,
+                          "the node is sheared, expected one that is turned, scaled and moved alone");
+  const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+  AffineTransform result{placement.world_from_node.rotation, placement.world_from_node.translation_m};
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+    result.linear[axis] *= side * lengths[axis];
+  return result;
+}
+
 } // namespace
 
 AffineTransform compose(const AffineTransform &a_from_b, const AffineTransform &b_from_c) {
@@ -134,13 +151,17 @@ std::vector<std::optional<std::size_t>> places_of_nodes(const tinygltf::Model &m
   return places;
 }
 
-std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root) {
+std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root,
+                                              const std::vector<NodePlacement> &placed) {
   std::vector<AffineTransform> world_from;
   world_from.reserve(nodes.size());
   for (const SceneNode &node : nodes) {
     const AffineTransform parent_from_node = node.transform.parent_from_node();
     world_from.push_back(node.parent ? compose(world_from[*node.parent], parent_from_node)
                                      : parent_from_node);
+    const auto placement = std::ranges::find(placed, world_from.size() - 1, &NodePlacement::node);
+    if (placement != placed.end())
+      world_from.back() = put_at(*placement, world_from.back());
     if (!is_finite(world_from.back()))
       throw input_error(root / "nodes" / node.index, "its transform is not finite");
   }

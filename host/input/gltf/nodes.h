@@ -1,6 +1,7 @@
 #pragma once
 // The node tree of a glTF file's active scene, flattened, with its transforms in double precision.
 
+#include "engine/model/pose.h"
 #include "host/input/file/input_error.h"
 
 #include <cstddef>
@@ -52,7 +53,16 @@ std::vector<SceneNode> active_nodes(const tinygltf::Model &model, const Place &r
 std::vector<std::optional<std::size_t>> places_of_nodes(const tinygltf::Model &model,
                                                         const std::vector<SceneNode> &nodes);
 
-// World from each of `nodes`, parents first. Throws Error (input) where one is not finite.
-std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root);
+// Where a node is put, whatever its file says; it keeps its own scale, and its children go with it.
+struct NodePlacement {
+  std::size_t node; // its place in the list of nodes
+  Pose world_from_node;
+  Place place; // that asks for it, for errors
+};
+
+// World from each of `nodes`, parents first. Throws Error (input) where one is not finite, and where one that
+// is put elsewhere is sheared.
+std::vector<AffineTransform> world_from_nodes(const std::vector<SceneNode> &nodes, const Place &root,
+                                              const std::vector<NodePlacement> &placed = {});
 
 } // namespace pmdsim

@@ -255,6 +255,11 @@ ordered_json filled(const ordered_json &root, const ordered_json &schema_or_anyo
     else if (property.contains("default"))
       result[key] = filled(root, property, property.at("default"));
   }
+  const auto others = schema.find("additionalProperties");
+  if (others != schema.end() && others->is_object())
+    for (const auto &[key, each] : value.items())
+      if (!schema.at("properties").contains(key))
+        result[key] = filled(root, *others, each);
   return result;
 }
 

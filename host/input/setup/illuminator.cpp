@@ -101,7 +101,7 @@ std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place
 } // namespace
 
 std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
-                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         const Surroundings &at, const std::vector<Sensor> &sensors,
                                          std::vector<std::string> &warnings) {
   DiagramFiles diagrams;
   std::vector<Illuminator> result;
@@ -109,7 +109,7 @@ std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const
   for (std::size_t i = 0; i < illuminators.size(); ++i) {
     const ordered_json &illuminator = illuminators[i];
     result.push_back({illuminator.at("name"),
-                      world_from_frame(illuminator.at("pose"), place / i / "pose", scene, sensors),
+                      world_from_frame(illuminator.at("pose"), place / i / "pose", at, sensors),
                       diodes_of(illuminator, place / i, diagrams),
                       glm::radians(full_turn(illuminator.at("modulation_phase_deg").get<double>())),
                       illuminator.at("modulation_depth").get<double>()});

@@ -1,7 +1,5 @@
 #include "host/input/setup/setup.h"
 
-#include "host/input/file/input_file.h"
-#include "host/input/file/json_file.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
 #include "host/input/setup/parts.h"
@@ -9,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
 #include <set>
 
 namespace pmdsim {
@@ -17,8 +16,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 namespace {
-
-constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
 
 void refuse_second_pattern(const json &document, const Place &root) {
   const json &illuminators = document.at("illuminators");
@@ -37,22 +34,37 @@ ordered_json with_all_defaults(json document, const ordered_json &schema) {
   for (ordered_json &illuminator : setup.at("illuminators"))
     if (illuminator.at("diodes").contains("file"))
       illuminator.erase("pattern");
+  if (setup.at("frames").contains("trajectory"))
+    setup.at("frames") = {{"trajectory", setup.at("frames").at("trajectory")}};
   return setup;
 }
 
-ordered_json read_setup(const Place &root) {
+ordered_json checked_setup(const SetupDocument &source) {
   static const json schema = json::parse(setup_schema_text);
   static const ordered_json ordered_schema = ordered_json::parse(setup_schema_text);
-  const std::string text = read_regular_file(root.file, max_setup_bytes, root);
-  json document = parse_json(text, root.file, Comments::allowed);
+  json document = source.json;
   fill_presets(document);
-  check_schema(document, schema, root.file);
-  refuse_second_pattern(document, root);
+  check_schema(document, schema, source.file);
+  refuse_second_pattern(document, Place{source.file});
   return with_all_defaults(document, ordered_schema);
 }
 
-FrameTimes frame_times_of(const ordered_json &frames, const Place &place) {
+// The keys that say when frames are taken are all in vain beside a trajectory.
+void check_frames(const SetupDocument &source, const Place &root) {
+  const json frames = source.json.is_object() ? source.json.value("frames", json::object()) : json::object();
+  if (frames.contains("trajectory") && frames.size() > 1)
+    throw input_error(root / "frames",
+                      "expected nothing beside a trajectory, whose poses say when frames are taken");
+}
+
+FrameTimes frame_times_of(const ordered_json &frames, const Place &place, const Trajectories &trajectories) {
   FrameTimes times;
+  if (frames.contains("trajectory")) {
+    times.times_s = trajectories.at(frames.at("trajectory").get<std::string>())->times_s;
+    times.start_s = times.times_s.front();
+    times.count = static_cast<std::uint32_t>(times.times_s.size());
+    return times;
+  }
   times.start_s = frames.at("start_s");
   times.count = frames.at("count");
   if (frames.contains("rate_hz"))
@@ -106,44 +118,111 @@ void warn_of_unused_others(Setup &setup) {
                                            sensor.name));
 }
 
-} // namespace
+// A scene's file, or what stands for it, and what moves in it.
+struct SceneSource {
+  std::filesystem::path file;
+  SceneAtTime at;
+  const GltfFile *gltf; // null: it has no file
+};
 
-Setup load_setup(const std::filesystem::path &file) {
-  const Place root{file};
-  Setup setup;
-  setup.file = file;
-  setup.as_used = read_setup(root);
+bool has_trajectory(const ordered_json &setup) {
+  const auto follows = [](const ordered_json &placed) { return placed.at("pose").contains("trajectory"); };
+  return std::ranges::any_of(setup.at("sensors"), follows) ||
+         std::ranges::any_of(setup.at("illuminators"), follows) ||
+         std::ranges::any_of(setup.at("nodes"), follows);
+}
+
+void set_sensors_and_illuminators(const Place &root, const Surroundings &at, Setup &setup) {
+  const ordered_json &sensors = setup.as_used.at("sensors");
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    setup.start.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, at));
+  refuse_doubled_names(setup.start.sensors, "sensor", root / "sensors");
+  const ordered_json &illuminators = setup.as_used.at("illuminators");
+  std::vector<Illuminator> all =
+      illuminators_of(illuminators, root / "illuminators", at, setup.start.sensors, setup.warnings);
+  refuse_doubled_names(all, "illuminator", root / "illuminators");
+  set_illuminators(illuminators, std::move(all), root / "illuminators", setup.start);
+}
+
+void warn(const SceneSource &source, Setup &setup) {
+  warn_of_unused_others(setup);
+  warn_of_unseen_harmonics(setup);
+  if (setup.start.scene.shape_count() == 0)
+    setup.warnings.push_back(fmt::format(
+        "{}: the scene has neither triangles nor points, nothing will be seen", source.file.string()));
+  if (setup.bounces.any() && source.gltf)
+    std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
+}
+
+// `setup` has its as_used and no more.
+void fill(const SceneSource &source, const Place &root, Trajectories trajectories, Setup &setup) {
+  setup.file = root.file;
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
   setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
   setup.bounces = bounces_of(setup.as_used, root);
-  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames");
-
-  const std::filesystem::path scene_file = file.parent_path() / setup.as_used.at("scene").get<std::string>();
-  GltfFile gltf = load_gltf(scene_file, root / "scene");
-  GltfScene scene = gltf.at(setup.frames.start_s);
-  const ordered_json &sensors = setup.as_used.at("sensors");
-  for (std::size_t i = 0; i < sensors.size(); ++i)
-    setup.start.sensors.push_back(sensor_of(sensors[i], root / "sensors" / i, scene));
-  refuse_doubled_names(setup.start.sensors, "sensor", root / "sensors");
-  const ordered_json &illuminators = setup.as_used.at("illuminators");
-  std::vector<Illuminator> all =
-      illuminators_of(illuminators, root / "illuminators", scene, setup.start.sensors, setup.warnings);
-  refuse_doubled_names(all, "illuminator", root / "illuminators");
-  set_illuminators(illuminators, std::move(all), root / "illuminators", setup.start);
-  warn_of_unused_others(setup);
-
-  warn_of_unseen_harmonics(setup);
-  if (scene.scene.shape_count() == 0)
-    setup.warnings.push_back(fmt::format(
-        "{}: the scene has neither triangles nor points, nothing will be seen", scene_file.string()));
-  if (setup.bounces.any())
-    std::ranges::copy(bounce_warnings(scene.scene, gltf), std::back_inserter(setup.warnings));
+  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+  GltfScene scene = source.at(setup.frames.start_s);
+  set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
   setup.start.scene = std::move(scene.scene);
-  if (gltf.moves())
-    setup.motion = std::make_shared<const Motion>(std::move(gltf), setup.as_used, root);
+  warn(source, setup);
+  if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))
+    setup.motion = std::make_shared<const Motion>(source.at, std::move(trajectories), setup.as_used, root);
+}
+
+constexpr const char *given_scene = "(given)"; // as the setup's "scene"
+
+} // namespace
+
+struct SetupLoader::Files {
+  const GltfFile &get(const std::filesystem::path &file, const Place &named_at) {
+    const auto known = scenes.find(file);
+    return known != scenes.end() ? known->second
+                                 : scenes.emplace(file, load_gltf(file, named_at)).first->second;
+  }
+
+  std::map<std::filesystem::path, GltfFile> scenes;
+};
+
+SetupLoader::SetupLoader() : files_(std::make_unique<Files>()) {}
+SetupLoader::~SetupLoader() = default;
+SetupLoader::SetupLoader(SetupLoader &&) noexcept = default;
+SetupLoader &SetupLoader::operator=(SetupLoader &&) noexcept = default;
+
+Setup SetupLoader::load(const SetupDocument &document) {
+  const Place root{document.file};
+  check_frames(document, root);
+  Setup setup;
+  setup.as_used = checked_setup(document);
+  const std::filesystem::path file =
+      document.file.parent_path() / setup.as_used.at("scene").get<std::string>();
+  const GltfFile &gltf = files_->get(file, root / "scene");
+  const Trajectories trajectories = read_trajectories(setup.as_used, root);
+  const auto at = [gltf, trajectories, root, used = setup.as_used](double time_s) {
+    return gltf.at(time_s, placed_nodes(used, root, trajectories, time_s));
+  };
+  fill({file, at, &gltf}, root, trajectories, setup);
   return setup;
 }
+
+Setup SetupLoader::load(const SetupDocument &document, std::shared_ptr<const Scene> scene) {
+  const Place root{document.file};
+  check_frames(document, root);
+  SetupDocument with_scene = document;
+  if (with_scene.json.is_object() && with_scene.json.contains("scene"))
+    throw input_error(root / "scene", "expected none, as a scene is given");
+  if (with_scene.json.is_object())
+    with_scene.json["scene"] = given_scene;
+  Setup setup;
+  setup.as_used = checked_setup(with_scene);
+  if (!setup.as_used.at("nodes").empty())
+    throw input_error(root / "nodes", "expected none, as the scene that is given has no nodes");
+  const auto at = [scene](double) { return GltfScene{given_scene, *scene, {}}; };
+  fill({given_scene, at, nullptr}, root, read_trajectories(setup.as_used, root), setup);
+  return setup;
+}
+
+Setup load_setup(const std::filesystem::path &file) { return SetupLoader().load(read_setup_document(file)); }
 
 Instant Setup::at(double time_s) const { return motion ? motion->at(time_s, start) : start; }
 

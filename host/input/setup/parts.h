@@ -8,7 +8,9 @@
 #include "host/input/file/input_error.h"
 #include "host/input/gltf/loader.h"
 #include "host/input/setup/setup.h"
+#include "host/input/setup/trajectory.h"
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,16 +18,31 @@
 
 namespace pmdsim {
 
+// What poses refer to.
+struct Surroundings {
+  const GltfScene &scene;
+  const Trajectories &trajectories;
+  double time_s; // that all of it is at
+};
+
 // World from the frame (x right, y down, z forward) that `pose` gives: {"node"}, {"position_m", "look_at_m",
-// "up"}, or {"sensor"} for one of `sensors`. Scale and shear of a node's transform are taken out, its view
-// direction is kept. Throws Error (input) at `place`: unknown node or sensor, a view or an up without a
-// direction, a mirrored node or one outside the world.
-Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, const GltfScene &scene,
+// "up"}, {"matrix"}, {"trajectory"}, or {"sensor"} for one of `sensors`. Scale and shear of a node's
+// transform are taken out, its view direction is kept. Throws Error (input) at `place`: unknown node or
+// sensor, a view or an up without a direction, a mirrored node or one outside the world, a matrix that is no
+// rotation and translation.
+Pose world_from_frame(const nlohmann::ordered_json &pose, const Place &place, const Surroundings &at,
                       const std::vector<Sensor> &sensors);
+
+// The setup's /nodes: where nodes of the scene are put at a time. Throws Error (input).
+std::vector<PlacedNode> placed_nodes(const nlohmann::ordered_json &setup, const Place &root,
+                                     const Trajectories &trajectories, double time_s);
+
+// The trajectories that the setup names. Throws Error (input).
+Trajectories read_trajectories(const nlohmann::ordered_json &setup, const Place &root);
 
 // An element of /sensors. Throws Error (input): also for a distortion that folds over inside the image and a
 // chip that is not in front of the lens.
-Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const GltfScene &scene);
+Sensor sensor_of(const nlohmann::ordered_json &sensor, const Place &place, const Surroundings &at);
 
 // A sensor's /electronics; `sensor` has its resolution and frequencies already. Throws Error (input).
 Electronics electronics_of(const nlohmann::ordered_json &electronics, const Place &place,
@@ -52,7 +69,7 @@ inline bool is_of_another(const nlohmann::ordered_json &illuminator) {
 // The setup's /illuminators. At most 100,000 diodes in all. Appends to `warnings`, one line each, what is odd
 // about their diagrams. Throws Error (input).
 std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,
-                                         const GltfScene &scene, const std::vector<Sensor> &sensors,
+                                         const Surroundings &at, const std::vector<Sensor> &sensors,
                                          std::vector<std::string> &warnings);
 
 // The setup's /bounces and /bounce_error. Throws Error (input): also where light that bounces meets another
@@ -63,10 +80,13 @@ Bounces bounces_of(const nlohmann::ordered_json &setup, const Place &root);
 // scatter evenly.
 std::vector<std::string> bounce_warnings(const Scene &scene, const GltfFile &gltf);
 
-// How a setup's scene moves, and the sensors and illuminators with its nodes.
+// The setup's scene at a time, its nodes in their places. Throws Error (input).
+using SceneAtTime = std::function<GltfScene(double time_s)>;
+
+// How a setup's scene moves, and the sensors and illuminators with its nodes or along trajectories.
 class Motion {
 public:
-  Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root);
+  Motion(SceneAtTime scene, Trajectories trajectories, nlohmann::ordered_json setup, Place root);
 
   // `start` with everything in its place at `time_s`. Throws Error (input).
   Instant at(double time_s, const Instant &start) const;
@@ -74,7 +94,8 @@ public:
 private:
   Instant placed_at(double time_s, const Instant &start) const;
 
-  GltfFile gltf_;
+  SceneAtTime scene_;
+  Trajectories trajectories_;
   nlohmann::ordered_json setup_;
   Place root_;
 };

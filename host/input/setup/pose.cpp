@@ -78,35 +78,101 @@ Pose at_sensor(const std::string &name, const Place &place, const std::vector<Se
   return sensor->world_from_camera;
 }
 
-} // namespace
-
-Pose world_from_frame(const ordered_json &pose, const Place &place, const GltfScene &scene,
-                      const std::vector<Sensor> &sensors) {
-  if (pose.contains("node"))
-    return at_node(pose.at("node"), place / "node", scene);
-  if (pose.contains("sensor"))
-    return at_sensor(pose.at("sensor"), place / "sensor", sensors);
-  return looking_at(pose, place);
+// Rows of a 4 x 4 matrix, whose rotation may be rounded to six digits.
+Pose by_matrix(const ordered_json &rows, const Place &place) {
+  constexpr double rounding = 1e-5;
+  glm::dmat4 matrix;
+  for (glm::length_t row = 0; row < 4; ++row)
+    for (glm::length_t column = 0; column < 4; ++column)
+      matrix[column][row] =
+          rows.at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column)).get<double>();
+  const auto affine = affine_transform(matrix);
+  if (!affine)
+    throw input_error(place / 3, "expected the last row to be 0, 0, 0, 1");
+  const auto rotation = rotation_of(affine->linear);
+  bool is_rigid = rotation.has_value();
+  for (glm::length_t axis = 0; is_rigid && axis < 3; ++axis)
+    is_rigid = glm::length((*rotation)[axis] - affine->linear[axis]) <= rounding;
+  if (!is_rigid)
+    throw input_error(place,
+                      "expected a rotation and a translation, found a matrix that scales, shears or mirrors");
+  return {*rotation, affine->translation_m};
 }
 
-Motion::Motion(GltfFile gltf, nlohmann::ordered_json setup, Place root)
-    : gltf_(std::move(gltf)), setup_(std::move(setup)), root_(std::move(root)) {}
+// {"matrix"} or {"trajectory"}.
+Pose free_pose(const ordered_json &pose, const Place &place, const Trajectories &trajectories,
+               double time_s) {
+  if (pose.contains("matrix"))
+    return by_matrix(pose.at("matrix"), place / "matrix");
+  return trajectories.at(pose.at("trajectory").get<std::string>())->at(time_s);
+}
+
+// Calls `visit` with the name of each trajectory and its place in the setup.
+template <class Visit>
+void for_each_trajectory(const ordered_json &setup, const Place &root, const Visit &visit) {
+  const auto look_at = [&](const ordered_json &holder, const Place &place) {
+    if (holder.contains("trajectory"))
+      visit(holder.at("trajectory").get<std::string>(), place / "trajectory");
+  };
+  for (const char *list : {"sensors", "illuminators"})
+    for (std::size_t i = 0; i < setup.at(list).size(); ++i)
+      look_at(setup.at(list).at(i).at("pose"), root / list / i / "pose");
+  for (const auto &[name, node] : setup.at("nodes").items())
+    look_at(node.at("pose"), root / "nodes" / name / "pose");
+  look_at(setup.at("frames"), root / "frames");
+}
+
+} // namespace
+
+Pose world_from_frame(const ordered_json &pose, const Place &place, const Surroundings &at,
+                      const std::vector<Sensor> &sensors) {
+  if (pose.contains("node"))
+    return at_node(pose.at("node"), place / "node", at.scene);
+  if (pose.contains("sensor"))
+    return at_sensor(pose.at("sensor"), place / "sensor", sensors);
+  return pose.contains("position_m") ? looking_at(pose, place)
+                                     : free_pose(pose, place, at.trajectories, at.time_s);
+}
+
+std::vector<PlacedNode> placed_nodes(const ordered_json &setup, const Place &root,
+                                     const Trajectories &trajectories, double time_s) {
+  std::vector<PlacedNode> placed;
+  for (const auto &[name, node] : setup.at("nodes").items()) {
+    const Place place = root / "nodes" / name;
+    placed.push_back({name, free_pose(node.at("pose"), place / "pose", trajectories, time_s), place});
+  }
+  return placed;
+}
+
+Trajectories read_trajectories(const ordered_json &setup, const Place &root) {
+  Trajectories trajectories;
+  for_each_trajectory(setup, root, [&](const std::string &name, const Place &place) {
+    if (!trajectories.contains(name))
+      trajectories[name] =
+          std::make_shared<const Trajectory>(read_trajectory(root.file.parent_path() / name, place));
+  });
+  return trajectories;
+}
+
+Motion::Motion(SceneAtTime scene, Trajectories trajectories, nlohmann::ordered_json setup, Place root)
+    : scene_(std::move(scene)), trajectories_(std::move(trajectories)), setup_(std::move(setup)),
+      root_(std::move(root)) {}
 
 // A setup that is right at rest may go wrong in motion: such an error tells when.
 Instant Motion::at(double time_s, const Instant &start) const {
   try {
     return placed_at(time_s, start);
   } catch (const Error &error) {
-    throw Error(error.code(), fmt::format("{}, at {:.6g} s", error.what(), time_s));
+    throw Error(error.code(), fmt::format("{}, at {:.6g} s", error.what(), time_s), error.where());
   }
 }
 
 Instant Motion::placed_at(double time_s, const Instant &start) const {
-  GltfScene moved = gltf_.at(time_s);
+  GltfScene moved = scene_(time_s);
   Instant instant{{}, start.sensors, start.illuminators, start.others};
   const auto pose_of = [&](const char *list, std::size_t i) {
-    return world_from_frame(setup_.at(list).at(i).at("pose"), root_ / list / i / "pose", moved,
-                            instant.sensors);
+    return world_from_frame(setup_.at(list).at(i).at("pose"), root_ / list / i / "pose",
+                            {moved, trajectories_, time_s}, instant.sensors);
   };
   for (std::size_t i = 0; i < instant.sensors.size(); ++i)
     instant.sensors[i].world_from_camera = pose_of("sensors", i);

@@ -134,7 +134,7 @@ LensProblem problem_of(LensFault fault, const Sensor &sensor, const Lens &lens) 
 
 } // namespace
 
-Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene &scene) {
+Sensor sensor_of(const ordered_json &sensor, const Place &place, const Surroundings &at) {
   Sensor result;
   sensor.at("name").get_to(result.name);
   sensor.at("resolution").get_to(result.resolution);
@@ -146,7 +146,7 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const GltfScene
   result.chip.rotation_rad = glm::radians(sensor.at("chip").at("rotation_deg").get<glm::dvec3>());
   sensor.at("chip").at("translation_m").get_to(result.chip.translation_m);
   result.vignetting = sensor.at("vignetting") == "cos4" ? Vignetting::cos4 : Vignetting::none;
-  result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", scene, {});
+  result.world_from_camera = world_from_frame(sensor.at("pose"), place / "pose", at, {});
   sensor.at("modulation_hz").get_to(result.modulation_hz);
   result.waveform = waveform_of(sensor.at("waveform"), place / "waveform");
   sensor.at("taps").get_to(result.taps);

@@ -5,6 +5,7 @@
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
+#include "host/input/setup/document.h"
 
 #include <filesystem>
 #include <memory>
@@ -33,8 +34,11 @@ struct FrameTimes {
   double start_s = 0.0;
   double rate_hz = 1.0;
   std::uint32_t count = 1;
+  std::vector<double> times_s{}; // of each frame, those of a trajectory's poses; empty: by the rate
 
-  double time_s(std::uint32_t frame) const { return start_s + frame / rate_hz; }
+  double time_s(std::uint32_t frame) const {
+    return times_s.empty() ? start_s + frame / rate_hz : times_s[frame];
+  }
 };
 
 // How the scene, the sensors and the illuminators move.
@@ -44,6 +48,8 @@ class Motion;
 struct SampleChoice {
   std::uint32_t samples = 1; // Sensor::samples
   bool adaptive = false;     // Sensor::adaptive_samples
+
+  bool operator==(const SampleChoice &) const = default;
 };
 
 // "auto": S x S samples where they show anything, fewer elsewhere; the reference takes them all.
@@ -77,7 +83,33 @@ struct Setup {
   Instant at(double time_s) const;
 };
 
+// Of all its sensors, in place of their own.
+inline void set_samples(Setup &setup, const SampleChoice &choice) {
+  for (Sensor &sensor : setup.start.sensors)
+    set_samples(sensor, choice);
+  for (auto &sensor : setup.as_used["sensors"])
+    sensor["samples"] = sample_choice_json(choice);
+}
+
 // Throws Error (input) in one line: the file, the place in it and what was expected.
 Setup load_setup(const std::filesystem::path &file);
+
+// Loads one setup after the other; the files of scenes are read once.
+class SetupLoader {
+public:
+  SetupLoader();
+  ~SetupLoader();
+  SetupLoader(SetupLoader &&) noexcept;
+  SetupLoader &operator=(SetupLoader &&) noexcept;
+
+  // Throws Error (input).
+  Setup load(const SetupDocument &document);
+  // With this scene, which has no nodes and does not move, in place of a file; the document names none.
+  Setup load(const SetupDocument &document, std::shared_ptr<const Scene> scene);
+
+private:
+  struct Files;
+  std::unique_ptr<Files> files_;
+};
 
 } // namespace pmdsim

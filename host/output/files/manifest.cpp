@@ -19,26 +19,6 @@ ordered_json asked_json(const Accuracy &accuracy) {
           {"max_amplitude_error", bound(accuracy.max_amplitude_error)}};
 }
 
-ordered_json frame_json(const FrameRecord &record) {
-  ordered_json frame{{"sensor", record.sensor.name},
-                     {"frame", record.frame},
-                     {"time_s", record.time_s},
-                     {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
-                     {"modulation_hz", record.sensor.modulation_hz},
-                     {"ambiguity_m", ambiguities_m(record.sensor)},
-                     {"waveform", waveform_json(record.sensor.waveform)},
-                     {"taps", record.sensor.taps},
-                     {"tap_interval_s", record.sensor.tap_interval_s},
-                     {"camera", camera_json(record.sensor)},
-                     {"frame_ms", record.frame_ms},
-                     {"passes_ms", passes_json(record.passes)}};
-  frame.update(accuracy_json(record));
-  if (record.bounces)
-    frame["bounces"] = bounces_json(*record.bounces);
-  frame["outputs"] = record.outputs;
-  return frame;
-}
-
 // All lines but the first begin with `spaces` more.
 std::string indented(const ordered_json &json, std::size_t spaces) {
   std::string text;
@@ -114,6 +94,26 @@ ordered_json passes_json(const std::vector<PassTime> &passes) {
   for (const PassTime &pass : passes)
     json[pass.name] = pass.ms;
   return json;
+}
+
+ordered_json frame_json(const FrameRecord &record) {
+  ordered_json frame{{"sensor", record.sensor.name},
+                     {"frame", record.frame},
+                     {"time_s", record.time_s},
+                     {"resolution", {record.sensor.resolution.x, record.sensor.resolution.y}},
+                     {"modulation_hz", record.sensor.modulation_hz},
+                     {"ambiguity_m", ambiguities_m(record.sensor)},
+                     {"waveform", waveform_json(record.sensor.waveform)},
+                     {"taps", record.sensor.taps},
+                     {"tap_interval_s", record.sensor.tap_interval_s},
+                     {"camera", camera_json(record.sensor)},
+                     {"frame_ms", record.frame_ms},
+                     {"passes_ms", passes_json(record.passes)}};
+  frame.update(accuracy_json(record));
+  if (record.bounces)
+    frame["bounces"] = bounces_json(*record.bounces);
+  frame["outputs"] = record.outputs;
+  return frame;
 }
 
 void write_manifest(OutputFile &file, const RunRecord &run) {

@@ -89,6 +89,9 @@ nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 // elements, lines, products, claimed_m (null where nothing is claimed).
 nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
+// What the manifest says of a frame.
+nlohmann::ordered_json frame_json(const FrameRecord &record);
+
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 

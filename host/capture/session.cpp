@@ -1,0 +1,53 @@
+#include "host/capture/session.h"
+
+#include "engine/model/error.h"
+
+#include <fmt/format.h>
+
+namespace pmdsim {
+namespace {
+
+std::shared_ptr<const Setup> with_samples(const std::shared_ptr<const Setup> &setup,
+                                          const std::optional<SampleChoice> &samples) {
+  if (!samples)
+    return setup;
+  auto changed = std::make_shared<Setup>(*setup);
+  set_samples(*changed, *samples);
+  return changed;
+}
+
+} // namespace
+
+void Session::load(SetupDocument document, std::shared_ptr<const Scene> scene) {
+  auto setup = std::make_shared<const Setup>(scene ? loader_.load(document, scene) : loader_.load(document));
+  taking_.reset();
+  setup_ = std::move(setup);
+  document_ = std::move(document);
+  scene_ = std::move(scene);
+}
+
+void Session::set(const nlohmann::json &values) {
+  SetupDocument document = document_;
+  change(document, values);
+  load(std::move(document), scene_);
+}
+
+TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRequest &request,
+                         const Progress &progress) {
+  if (sensor >= setup_->start.sensors.size() || number >= setup_->frames.count)
+    throw Error(ExitCode::usage,
+                fmt::format("expected a sensor below {} and a frame below {}, found {} and {}",
+                            setup_->start.sensors.size(), setup_->frames.count, sensor, number));
+  if (request.paths > 0 && !setup_->bounces.any())
+    throw Error(ExitCode::usage, "paths: no light bounces in the setup");
+  if (!taking_ || taking_->request != request) {
+    taking_.reset(); // its memory first
+    auto setup = with_samples(setup_, request.samples);
+    const Setup &of = *setup;
+    taking_.reset(new Taking{std::move(setup), request,
+                             Exposures(of, camera_, request.keep_taps, request.accuracy, request.paths)});
+  }
+  return taking_->exposures.take(sensor, number, Light::beside_lens, progress);
+}
+
+} // namespace pmdsim

@@ -1,0 +1,96 @@
+#include "host/input/setup/document.h"
+
+#include "host/input/file/input_error.h"
+#include "host/input/file/input_file.h"
+#include "host/input/file/json_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
+
+// The parts of a JSON pointer (RFC 6901). Nothing where it is none.
+std::optional<std::vector<std::string>> parts_of(const std::string &path) {
+  try {
+    const json::json_pointer whole(path.starts_with('/') ? path : "/" + path);
+    std::vector<std::string> parts;
+    for (json::json_pointer rest = whole; !rest.empty(); rest.pop_back())
+      parts.insert(parts.begin(), rest.back());
+    return parts;
+  } catch (const json::exception &) {
+    return std::nullopt;
+  }
+}
+
+// The element that `part` names, by its index or its "name".
+std::optional<std::size_t> index_in(const json &array, const std::string &part) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error == std::errc() && end == part.data() + part.size())
+    return index < array.size() ? std::optional(index) : std::nullopt;
+  const auto named = std::ranges::find_if(array, [&](const json &element) {
+    return element.is_object() && element.contains("name") && element.at("name") == part;
+  });
+  return named == array.end() ? std::nullopt : std::optional(static_cast<std::size_t>(named - array.begin()));
+}
+
+void put(json &document, const std::filesystem::path &file, const std::string &path, const json &value) {
+  const auto parts = parts_of(path);
+  if (!parts || path.empty())
+    throw input_error(
+        Place{file},
+        fmt::format("cannot set {}: expected a path such as sensors/0/focal_length_m", in_quotes(path)));
+  json *at = &document;
+  Place place{file};
+  for (const std::string &part : *parts) {
+    if (at->is_null())
+      *at = json::object();
+    if (at->is_object()) {
+      at = &(*at)[part];
+      place = place / part;
+    } else if (at->is_array()) {
+      const auto index = index_in(*at, part);
+      if (!index)
+        throw input_error(place,
+                          fmt::format("cannot set {}: expected the index or the name of one of {}, found {}",
+                                      in_quotes(path), at->size(), in_quotes(part)));
+      at = &at->at(*index);
+      place = place / *index;
+    } else {
+      throw input_error(place, fmt::format("cannot set {}: expected an object or an array here, found {}",
+                                           in_quotes(path), in_quotes(at->dump())));
+    }
+  }
+  *at = value;
+}
+
+} // namespace
+
+SetupDocument read_setup_document(const std::filesystem::path &file) {
+  return parse_setup_document(read_regular_file(file, max_setup_bytes, Place{file}), file);
+}
+
+SetupDocument parse_setup_document(std::string_view text, const std::filesystem::path &file) {
+  return {file, parse_json(text, file, Comments::allowed)};
+}
+
+void change(SetupDocument &document, const json &values) {
+  if (!values.is_object())
+    throw input_error(Place{document.file}, "cannot set anything: expected an object of paths and values");
+  json changed = document.json;
+  for (const auto &[path, value] : values.items())
+    put(changed, document.file, path, value);
+  document.json = std::move(changed);
+}
+
+} // namespace pmdsim

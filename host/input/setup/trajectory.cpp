@@ -1,0 +1,136 @@
+#include "host/input/setup/trajectory.h"
+
+#include "host/input/file/input_file.h"
+#include "host/input/schema/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace pmdsim {
+namespace {
+
+constexpr std::array<std::string_view, 8> names{"time_s", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"};
+constexpr std::array<std::string_view, 8> ros_endings{"%time",         "position.x",    "position.y",
+                                                      "position.z",    "orientation.x", "orientation.y",
+                                                      "orientation.z", "orientation.w"};
+constexpr double ros_seconds = 1e-9;                         // its times are nanoseconds
+constexpr double least_length = 0.99, largest_length = 1.01; // of a quaternion as files round them
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
+// At commas; without, at runs of blanks.
+std::vector<std::string_view> fields_of(std::string_view line, bool commas) {
+  std::vector<std::string_view> fields;
+  while (!line.empty() || fields.empty()) {
+    const std::size_t end = std::min(line.find_first_of(commas ? "," : " \t"), line.size());
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (commas && end + 1 == line.size())
+      fields.emplace_back();
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (!commas)
+      line = trimmed(line);
+  }
+  return fields;
+}
+
+// Which field of a line holds each of the eight values, and the unit of its time.
+struct Columns {
+  std::array<std::size_t, 8> of{0, 1, 2, 3, 4, 5, 6, 7};
+  std::size_t count = 8; // of a line's fields
+  bool commas = false;
+  double seconds = 1.0;
+};
+
+Columns columns_of(std::string_view header, const TextPlace &place) {
+  const std::vector<std::string_view> fields = fields_of(header, true);
+  const bool is_ros = std::ranges::any_of(fields, [](auto name) { return name == ros_endings[0]; });
+  Columns columns{.count = fields.size(), .commas = true, .seconds = is_ros ? ros_seconds : 1.0};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto is_it = [&](std::string_view name) {
+      return is_ros ? name.ends_with(ros_endings[i]) : name == names[i];
+    };
+    const auto found = std::ranges::find_if(fields, is_it);
+    if (found == fields.end())
+      throw input_error(place, fmt::format("missing column {}", is_ros ? ros_endings[i] : names[i]));
+    columns.of[i] = static_cast<std::size_t>(found - fields.begin());
+  }
+  return columns;
+}
+
+void append_pose(std::string_view line, const Columns &columns, const TextPlace &place, Trajectory &to) {
+  const std::vector<std::string_view> fields = fields_of(line, columns.commas);
+  if (fields.size() != columns.count)
+    throw input_error(place, fmt::format("expected {} values, found {}", columns.count, fields.size()));
+  std::array<double, 8> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_length = i >= 1 && i <= 3;
+    const Range range = is_length ? Range{-max_coordinate_m, max_coordinate_m} : Range{};
+    values[i] = number_of(fields[columns.of[i]], names[i], place, range);
+  }
+  const auto [time, x, y, z, qx, qy, qz, qw] = values;
+  const glm::dquat rotation(qw, qx, qy, qz);
+  const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw)), time_s = time * columns.seconds;
+  if (!(length >= least_length && length <= largest_length))
+    throw input_error(place, fmt::format("expected a quaternion of length 1, found {}", length));
+  if (!to.times_s.empty() && time_s <= to.times_s.back())
+    throw input_error(place,
+                      fmt::format("expected a time after {} s, found {} s", to.times_s.back(), time_s));
+  if (to.times_s.size() == max_poses)
+    throw input_error(place, fmt::format("expected at most {} poses", max_poses));
+  to.times_s.push_back(time_s);
+  to.positions_m.emplace_back(x, y, z);
+  to.rotations.push_back(glm::normalize(rotation));
+}
+
+bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#'); }
+
+} // namespace
+
+Pose Trajectory::at(double time_s) const {
+  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(times_s, time_s) - times_s.begin());
+  if (after == 0 || after == times_s.size()) {
+    const std::size_t end = after == 0 ? 0 : after - 1;
+    return {glm::mat3_cast(rotations[end]), positions_m[end]};
+  }
+  const std::size_t before = after - 1;
+  const double share = (time_s - times_s[before]) / (times_s[after] - times_s[before]);
+  return {glm::mat3_cast(glm::slerp(rotations[before], rotations[after], share)),
+          glm::mix(positions_m[before], positions_m[after], share)};
+}
+
+Trajectory read_trajectory(const std::filesystem::path &file, const Place &named_at) {
+  const std::string text = read_text_file(file, named_at);
+  Trajectory trajectory;
+  std::optional<Columns> columns;
+  TextPlace place{file, 0};
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    ++place.line;
+    if (is_comment(line))
+      continue;
+    if (columns) {
+      append_pose(line, *columns, place, trajectory);
+    } else if (line.find(',') != std::string_view::npos) {
+      columns = columns_of(line, place);
+    } else {
+      columns = Columns{};
+      append_pose(line, *columns, place, trajectory);
+    }
+  }
+  if (trajectory.times_s.empty())
+    throw input_error(Place{file}, "expected at least one pose");
+  return trajectory;
+}
+
+} // namespace pmdsim
