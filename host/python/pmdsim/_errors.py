@@ -1,0 +1,132 @@
+"""What can go wrong, by name. The codes are those of the C interface, pmdsim_status."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Tuple, Type
+
+
+class Error(Exception):
+    """Anything that pmdsim refuses or fails at; its text is one line for people.
+
+    Attributes
+    ----------
+    file : str
+        The file that is wrong, or "".
+    place : str
+        The place in it, a JSON pointer or "LINE:COLUMN", or "". Of a setup that is no file it is the place in
+        the setup.
+    code : int
+        The pmdsim_status of the C interface; up to 8 they are the program's exit codes.
+    """
+
+    code = 1
+
+    def __init__(self, message: str, file: str = "", place: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.file = file
+        self.place = place
+
+    def __str__(self) -> str:
+        return self.message
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.message, self.file, self.place)
+
+
+class InternalError(Error, RuntimeError):
+    """A mistake in pmdsim itself."""
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is wrong."""
+
+    code = 2
+
+
+class InputError(Error, ValueError):
+    """A setup, a scene or another file is wrong; `file` and `place` tell which and where."""
+
+    code = 3
+
+
+class NoDeviceError(Error, RuntimeError):
+    """There is no usable device of that name."""
+
+    code = 4
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """The host or the device has too little memory."""
+
+    code = 5
+
+
+class DeviceLostError(Error, RuntimeError):
+    """The device failed; its simulator is of no use any more."""
+
+    code = 6
+
+
+class OutputError(Error, OSError):
+    """A file cannot be written."""
+
+    code = 7
+
+
+class AccuracyError(Error, ArithmeticError):
+    """The accuracy asked for cannot be reached."""
+
+    code = 8
+
+
+class HandleError(Error, ValueError):
+    """A simulator is closed, or belongs to another process."""
+
+    code = 9
+
+
+class BusyError(Error, RuntimeError):
+    """The simulator is in another call, of another thread."""
+
+    code = 10
+
+
+class CancelledError(Error, RuntimeError):
+    """The call was ended by Simulator.cancel()."""
+
+    code = 130
+
+
+class UnknownChannelError(ArgumentError, AttributeError, KeyError):
+    """A frame has no channel of that name; the text says which it has."""
+
+
+class UnknownKeyError(InputError, AttributeError, KeyError):
+    """A setup cannot have that key; the text says which it can have."""
+
+
+class LibraryError(Error, ImportError):
+    """The shared library is not there, or is of another version."""
+
+
+class PmdsimWarning(UserWarning):
+    """What a setup or a frame warns of, one line."""
+
+
+error_of_status: Dict[int, Type[Error]] = {
+    error.code: error
+    for error in (
+        InternalError,
+        ArgumentError,
+        InputError,
+        NoDeviceError,
+        OutOfMemoryError,
+        DeviceLostError,
+        OutputError,
+        AccuracyError,
+        HandleError,
+        BusyError,
+        CancelledError,
+    )
+}

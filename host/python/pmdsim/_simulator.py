@@ -1,0 +1,464 @@
+"""A device with a setup, for many frames."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import warnings
+import weakref
+from functools import partial
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Set, Tuple, TypeVar, Union
+
+from ._calls import Caller
+from ._errors import ArgumentError, HandleError, PmdsimWarning
+from ._frame import Frame
+from ._frame_sources import FrameHandle, LibrarySource
+from ._library import check, devices, library
+from ._options import Channels, Length, render_options
+from ._scene import Scene
+from ._setup import Setup
+from ._values import json_bytes, pose_value, whole_number
+
+Result = TypeVar("Result")
+Path = Union[str, "os.PathLike[str]"]
+SetupLike = Union[Path, Mapping[str, Any]]
+Device = Union[str, int]
+
+_most = 2**32 - 1
+_kinds = {"cpu": "CPU", "gpu": "GPU"}
+
+# The process whose threads and devices the library has, once it has some.
+_process: Optional[int] = None
+
+
+def _refuse_after_fork() -> None:
+    """A forked child has the memory of the library's threads but not the threads, and would wait for them forever."""
+    global _process
+    if _process is None:
+        _process = os.getpid()
+    if _process != os.getpid():
+        raise HandleError(
+            f"this process was forked from process {_process}, which had used pmdsim, whose threads a fork does not "
+            "copy; start processes with multiprocessing's 'spawn' or 'forkserver'"
+        )
+
+
+def _device_name(device: Optional[Device]) -> Optional[bytes]:
+    if device is None:
+        return None
+    if isinstance(device, str):
+        kind = _kinds.get(device.lower())
+        if kind:
+            for found in devices():
+                if kind in found["kind"]:
+                    return found["name"].encode()
+        return device.encode()
+    return str(whole_number(device, "device", 0, _most)).encode()
+
+
+def _cancel(handle: ctypes.c_void_p) -> None:
+    if handle.value:
+        library().pmdsim_simulator_cancel(handle)
+
+
+def _destroy(handle: int, process: int, caller: Caller) -> None:
+    if os.getpid() == process:
+        caller.stop()
+        library().pmdsim_simulator_destroy(handle)
+
+
+def _file_name(setup: Path) -> bytes:
+    name = os.fspath(setup)
+    return name if isinstance(name, bytes) else name.encode("utf-8", "surrogateescape")
+
+
+def changes_of(changes: Mapping[str, Any]) -> Dict[str, Any]:
+    """Paths and values as the library takes them: a node, a sensor or an illuminator that is given a pose as a matrix
+    or as a position and a quaternion gets it as its pose."""
+    found: Dict[str, Any] = {}
+    for path, value in changes.items():
+        if not isinstance(path, str):
+            raise ArgumentError(f'expected paths like "sensors/0/focal_length_m", found {path!r:.80}')
+        parts = path.strip("/").split("/")
+        is_whole_node = len(parts) == 2 and parts[0] == "nodes"
+        if is_whole_node and not (isinstance(value, Mapping) and "pose" in value):
+            path, value = "/".join([*parts, "pose"]), pose_value(value, path)
+        elif parts[-1] == "pose" and len(parts) == 3:
+            value = pose_value(value, path)
+        found[path] = value
+    return found
+
+
+class Simulator:
+    """A device that measures frames of a setup, which can be changed between them.
+
+    Parameters
+    ----------
+    setup : path, dict or pmdsim.Setup, optional
+        What `load` takes; without it `load` has to be called before `render`.
+    device : str or int, optional
+        An index or a part of a name, as pmdsim.devices() has them; "cpu" or "gpu", the first of that kind; or
+        "reference", the CPU in double precision, which is slow. By default the library chooses.
+    scene : pmdsim.Scene, optional
+        Triangles in place of the setup's scene.
+
+    Raises
+    ------
+    NoDeviceError
+        No device of that name is usable.
+    InputError
+        The setup or a file that it names is wrong.
+    HandleError
+        This process was forked from one that had used pmdsim.
+
+    Notes
+    -----
+    A simulator is a context manager, and closes itself when it is forgotten. Different simulators may be used by
+    different threads at once; the GIL is released meanwhile. One simulator serves one thread at a time: another gets
+    BusyError. Ctrl-C ends a call within a second, with KeyboardInterrupt.
+
+    Examples
+    --------
+    >>> with pmdsim.Simulator("room.json") as simulator:                       # doctest: +SKIP
+    ...     for focal_length_m in (0.01, 0.02):
+    ...         simulator.set("sensors/0/focal_length_m", focal_length_m)
+    ...         print(simulator.render().distance_m.mean())
+    """
+
+    def __init__(
+        self, setup: Optional[SetupLike] = None, device: Optional[Device] = None, *, scene: Optional[Scene] = None
+    ) -> None:
+        self._handle = 0
+        _refuse_after_fork()
+        self._owner = os.getpid()
+        name = _device_name(device)
+        handle = ctypes.c_void_p()
+        self._caller = Caller(partial(_cancel, handle))  # which does not hold the simulator
+        self._caller(lambda: check(library().pmdsim_simulator_create(name, ctypes.byref(handle))))
+        self._handle = handle.value or 0
+        self._finalizer = weakref.finalize(self, _destroy, self._handle, self._owner, self._caller)
+        self._described: Optional[Dict[str, Any]] = None
+        self._warned: Set[str] = set()
+        if setup is not None:
+            try:
+                self._load(setup, scene, stacklevel=4)
+            except BaseException:
+                self.close()
+                raise
+        elif scene is not None:
+            self.close()
+            raise ArgumentError("scene: expected a setup beside it")
+
+    def __enter__(self) -> "Simulator":
+        self._usable()
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<pmdsim.Simulator, closed>"
+        told = self._described or {}
+        return f"<pmdsim.Simulator on {told.get('device', 'a device')} of {', '.join(told.get('sensors') or ['no setup'])}>"
+
+    def close(self) -> None:
+        """Gives the device and the memory back; frames that were measured stay. Twice does no harm.
+
+        Raises
+        ------
+        BusyError
+            Another thread is in a call.
+        """
+        handle, self._handle = self._handle, 0
+        if not handle or self._owner != os.getpid():
+            return
+        if self._caller.lost:  # a call that cannot be ended still uses it
+            self._finalizer.detach()
+            return
+        try:
+            check(library().pmdsim_simulator_destroy(handle))
+        except BaseException:
+            self._handle = handle
+            raise
+        self._finalizer.detach()
+        self._caller.stop()
+
+    def _usable(self) -> int:
+        """The handle."""
+        if not self._handle:
+            raise HandleError("the simulator is closed")
+        if self._owner != os.getpid():
+            raise HandleError(f"the simulator belongs to process {self._owner}; make one in this process")
+        if self._caller.lost:
+            raise HandleError("the simulator was given up, since a call that was cancelled did not end")
+        return self._handle
+
+    def cancel(self) -> None:
+        """Ends the call that another thread is in, soon, with CancelledError. Nothing happens where none is."""
+        check(library().pmdsim_simulator_cancel(self._usable()))
+
+    def _call(self, function: Callable[[], Result]) -> Result:
+        return self._caller(function)
+
+    def load(self, setup: SetupLike, *, scene: Optional[Scene] = None) -> None:
+        """Takes a setup in place of the one before; changes that were set are gone.
+
+        Parameters
+        ----------
+        setup : path, dict or pmdsim.Setup
+            A setup file, or the same as dicts (docs/setup.md has the keys), whose relative paths start at
+            `Setup.directory`, else at the process's. "scene" may be a pmdsim.Scene.
+        scene : pmdsim.Scene, optional
+            Triangles in place of the setup's "scene". Poses at nodes are an error then.
+
+        Raises
+        ------
+        InputError
+            The setup or a file that it names is wrong. The setup from before stays.
+        ArgumentError
+            A value is none that JSON has, such as NaN.
+        """
+        self._load(setup, scene, stacklevel=3)
+
+    def _load(self, setup: SetupLike, scene: Optional[Scene], stacklevel: int) -> None:
+        handle = self._usable()
+        if not isinstance(setup, (str, os.PathLike, Mapping)):
+            raise ArgumentError(f"setup: expected a path, a dict or a pmdsim.Setup, found {setup!r:.80}")
+        if isinstance(setup, (str, os.PathLike)) and scene is not None:
+            setup = Setup.load(setup)
+        if isinstance(setup, Mapping):
+            self._load_values(handle, setup, scene)
+        else:
+            name = _file_name(setup)
+            self._call(lambda: check(library().pmdsim_simulator_load(handle, name)))
+        self._described = None
+        self._warned = set()
+        self._warn(stacklevel + 1)
+
+    def _load_values(self, handle: int, setup: Mapping[str, Any], scene: Optional[Scene]) -> None:
+        values = dict(setup)
+        if scene is None and isinstance(values.get("scene"), Scene):
+            scene = values["scene"]
+        if scene is not None:
+            values.pop("scene", None)
+        text = json_bytes(values)
+        directory = getattr(setup, "directory", None)
+        folder = None if directory is None else _file_name(directory)
+        if scene is None:
+            self._call(lambda: check(library().pmdsim_simulator_load_text(handle, text, len(text), folder)))
+            return
+        if not isinstance(scene, Scene):
+            raise ArgumentError(f"scene: expected a pmdsim.Scene, found {scene!r:.80}")
+        mesh = scene._mesh()
+        self._call(
+            lambda: check(
+                library().pmdsim_simulator_load_mesh(handle, text, len(text), folder, ctypes.byref(mesh))
+            )
+        )
+
+    def set(self, path: Union[str, Mapping[str, Any]], value: Any = None) -> None:
+        """Changes the setup: `set(path, value)`, or several at once, `set({path: value, ...})`.
+
+        Parameters
+        ----------
+        path : str or dict
+            A path is a JSON pointer into the setup, with or without its first slash; the name of an element may
+            stand for its index: "sensors/pmd/focal_length_m", "illuminators/0/diodes/rings/0/radius_m".
+        value : numbers, text, lists, dicts, numpy arrays
+            What stands there from now on. A pose may be what `move` takes.
+
+        Raises
+        ------
+        InputError
+            The changed setup is wrong. All changes are taken together, or none.
+
+        Notes
+        -----
+        Changes stay until the next load. Scene files are not read again.
+        """
+        if not isinstance(path, Mapping):
+            path = {path: value}
+        elif value is not None:
+            raise ArgumentError("set: expected a path and a value, or a dict of them alone")
+        self._set(path, stacklevel=4)
+
+    def _set(self, changes: Mapping[str, Any], stacklevel: int) -> None:
+        handle = self._usable()
+        text = json_bytes(changes_of(changes))
+        self._call(lambda: check(library().pmdsim_simulator_set(handle, text)))
+        self._described = None
+        self._warn(stacklevel)
+
+    def move(
+        self,
+        *,
+        pose: Any,
+        node: Optional[str] = None,
+        sensor: Optional[Union[str, int]] = None,
+        illuminator: Optional[Union[str, int]] = None,
+    ) -> None:
+        """Puts a node of the scene, a sensor or an illuminator elsewhere.
+
+        Parameters
+        ----------
+        pose : array_like (4, 4), or (position, quaternion), or dict
+            World from the frame of what is moved, metres: a matrix, or a position and a quaternion (x, y, z, w); or a
+            pose as setups have it. A node's frame is glTF's; a sensor's and an illuminator's is x right, y down, z
+            forward. A node keeps its scale, and its children go with it.
+        node : str
+            The node's name. One of `node`, `sensor` and `illuminator` is needed.
+        sensor, illuminator : str or int
+            Its name or index.
+
+        Raises
+        ------
+        ArgumentError
+            The pose's shape is wrong, or a number in it is not finite.
+        InputError
+            There is no such node, or the matrix does more than turn and move.
+        """
+        named = {"nodes": node, "sensors": sensor, "illuminators": illuminator}
+        given = [(part, name) for part, name in named.items() if name is not None]
+        if len(given) != 1:
+            raise ArgumentError("move: expected one of node, sensor and illuminator")
+        part, name = given[0]
+        self._set({f"{part}/{_escaped(name)}/pose": pose_value(pose)}, stacklevel=4)
+
+    def _warn(self, stacklevel: int) -> None:
+        for line in self._description().get("warnings", ()):
+            if line not in self._warned:
+                self._warned.add(line)
+                warnings.warn(line, PmdsimWarning, stacklevel=stacklevel)
+
+    def _description(self) -> Dict[str, Any]:
+        if self._described is None:
+            handle = self._usable()
+
+            def describe() -> Dict[str, Any]:
+                text = ctypes.c_char_p()
+                check(library().pmdsim_simulator_describe(handle, ctypes.byref(text)))
+                return json.loads(text.value or b"{}")
+
+            self._described = self._call(describe)
+        return self._described
+
+    @property
+    def device(self) -> str:
+        """The device's name."""
+        return self._told("device")
+
+    @property
+    def driver(self) -> str:
+        """The driver's name and version."""
+        return self._told("driver")
+
+    @property
+    def sensors(self) -> List[str]:
+        """The sensors' names; none without a setup."""
+        return list(self._told("sensors") or ())
+
+    @property
+    def frame_count(self) -> int:
+        """The number of frames that the setup has; 0 without one."""
+        return int(self._told("frames") or 0)
+
+    @property
+    def setup(self) -> Optional[Setup]:
+        """The setup as used, with all changes and defaults; a copy. None without a setup."""
+        setup = self._told("setup")
+        return None if setup is None else Setup(setup)
+
+    def _told(self, key: str) -> Any:
+        self._usable()
+        return self._description().get(key)
+
+    def _sensor_index(self, sensor: Union[int, str]) -> int:
+        if not isinstance(sensor, str):
+            return whole_number(sensor, "sensor", 0, _most)
+        names = self.sensors
+        if sensor not in names:
+            raise ArgumentError(f"sensor: expected one of {', '.join(names) or 'a setup'}, found {sensor!r:.80}")
+        return names.index(sensor)
+
+    def render(
+        self,
+        *,
+        sensor: Union[int, str] = 0,
+        frame: int = 0,
+        mode: Optional[str] = None,
+        max_error: Optional[Length] = None,
+        max_amplitude_error: Optional[float] = None,
+        precision: Optional[str] = None,
+        samples: Optional[Union[int, str]] = None,
+        channels: Optional[Channels] = None,
+        paths: Optional[int] = None,
+        strict: bool = False,
+    ) -> Frame:
+        """Measures one frame of one sensor. `pmdsim.render` explains the arguments and errors.
+
+        Returns
+        -------
+        Frame
+            Its arrays stay when the simulator is changed or closed.
+        """
+        options = render_options(mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict)
+        return self._render(sensor, frame, options, stacklevel=4)
+
+    def _render(self, sensor: Union[int, str], frame: int, options: Any, stacklevel: int) -> Frame:
+        handle = self._usable()
+        sensor_index = self._sensor_index(sensor)
+        frame_index = whole_number(frame, "frame", 0, _most)
+
+        def measure() -> FrameHandle:
+            result = ctypes.c_void_p()
+            check(
+                library().pmdsim_render(
+                    handle, sensor_index, frame_index, ctypes.byref(options), ctypes.byref(result)
+                )
+            )
+            return FrameHandle(result.value or 0)
+
+        measured = Frame(LibrarySource(self._call(measure)))
+        for line in measured.report.get("warnings", ()):
+            if line not in self._warned:
+                warnings.warn(line, PmdsimWarning, stacklevel=stacklevel)
+        return measured
+
+    def frames(
+        self,
+        *,
+        sensors: Optional[Iterable[Union[int, str]]] = None,
+        frames: Optional[Iterable[int]] = None,
+        **options: Any,
+    ) -> Iterator[Frame]:
+        """Measures frame after frame, of every sensor each.
+
+        Parameters
+        ----------
+        sensors : iterable of int or str, optional
+            Indices or names; by default all.
+        frames : iterable of int, optional
+            Numbers, e.g. range(10, 20); by default all that the setup has.
+        **options
+            As for `render`.
+
+        Yields
+        ------
+        Frame
+            Frame 0 of each sensor, then frame 1, ...; `frame.sensor` and `frame.frame` tell which.
+        """
+        prepared = render_options(**options)
+        chosen = [self._sensor_index(sensor) for sensor in (self.sensors if sensors is None else sensors)]
+        return self._measured_in_turn(chosen, range(self.frame_count) if frames is None else frames, prepared)
+
+    def _measured_in_turn(self, sensors: List[int], frames: Iterable[int], options: Any) -> Iterator[Frame]:
+        for frame in frames:
+            for sensor in sensors:
+                yield self._render(sensor, frame, options, stacklevel=4)
+
+
+def _escaped(name: Union[str, int]) -> Union[str, int]:
+    """A name as a part of a JSON pointer."""
+    return name.replace("~", "~0").replace("/", "~1") if isinstance(name, str) else name
