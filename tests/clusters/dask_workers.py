@@ -18,8 +18,9 @@ import time
 from pathlib import Path
 
 try:
-    import dask.array
-    from distributed import Client, LocalCluster
+    import dask.array  # noqa: F401
+    import numpy
+    from distributed import LocalCluster
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -70,7 +71,7 @@ class Killer(threading.Thread):
                 if self.over.wait(0.05):
                     return
             worker = list(self.cluster.workers.values())[least % 2]
-            pid = worker.process.pid if worker.process else None
+            pid = worker.pid  # the nanny's child; None while there is none
             if pid:
                 os.kill(pid, signal.SIGKILL)
                 self.killed.append(pid)
@@ -100,6 +101,36 @@ def check_shards(cluster, program, setup, folder):
     print(f"{shards} shares by 2 workers, {len(killer.killed)} of which were killed: the same bytes as one run")
 
 
+def check_array(cluster, setup, folder):
+    """The means of an array's frames are those of the files of one run, but for the order of sums."""
+    done = subprocess.run(
+        [sys.executable, examples / "dask_array.py", setup, "--scheduler", cluster.scheduler_address]
+        + ["--save", folder / "mean.npy"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    frames = numpy.stack([numpy.load(file) for file in sorted((folder / "one").glob("pmd_*.distance_m.npy"))])
+    assert len(frames) == 40
+    expected = numpy.nanmean(frames.astype(float), axis=0)
+    found = numpy.load(folder / "mean.npy")
+    assert numpy.array_equal(numpy.isnan(found), numpy.isnan(expected))
+    error_m = numpy.nanmax(numpy.abs(found - expected))
+    assert error_m < 1e-5, f"means differ by {error_m} m"
+    print("an array of 40 frames by 2 workers: as in the files")
+
+
+def end_programs(folder):
+    """Ends what dead workers have left at work in `folder`."""
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            if str(folder).encode() in (entry / "cmdline").read_bytes() and int(entry.name) != os.getpid():
+                os.kill(int(entry.name), signal.SIGKILL)
+        except OSError:
+            pass  # it has ended by itself
+
+
 def main():
     program = sys.argv[1]
     folder = Path(tempfile.mkdtemp(prefix="pmdsim_test."))
@@ -114,7 +145,9 @@ def main():
             local_directory=str(folder / "dask"),
         ) as cluster:
             check_shards(cluster, program, setup, folder)
+            check_array(cluster, setup, folder)
     finally:
+        end_programs(folder)
         shutil.rmtree(folder, ignore_errors=True)
 
 
