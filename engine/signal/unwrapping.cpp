@@ -1,5 +1,7 @@
 #include "engine/signal/unwrapping.h"
 
+#include "engine/model/stopwatch.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +23,8 @@ constexpr double most_chi2 = 9.0, least_margin = 9.0;
 
 // A frequency's part of a pixel.
 struct Remainder {
-  double distance_m, ambiguity_m, weight; // 1 / variance; 0 where that is not known
+  double distance_m, ambiguity_m, per_ambiguity; // 1 / ambiguity_m
+  double weight;                                 // 1 / variance; 0 where that is not known
 };
 
 struct Candidate {
@@ -29,14 +32,21 @@ struct Candidate {
          chi2 = std::numeric_limits<double>::infinity();
 };
 
+// Of fewer than 2^51 turns; several times as fast as std::nearbyint() without SSE4.1.
+double nearest_whole(double turns) {
+  constexpr double ones = 0x1.8p52; // whose neighbours are 1 apart
+  return (turns + ones) - ones;
+}
+
 using Remainders = std::array<Remainder, most_frequencies>;
 
 // The distance around `at_m` that fits all remainders best, and how badly it fits.
 Candidate fitted(const Remainders &remainders, std::size_t count, double at_m) {
   double weights = 0.0, mean_m = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto &[distance_m, ambiguity_m, weight] = remainders[i];
-    const double off_m = std::remainder(distance_m - at_m, ambiguity_m);
+    const auto &[distance_m, ambiguity_m, per_ambiguity, weight] = remainders[i];
+    const double turns = (distance_m - at_m) * per_ambiguity;
+    const double off_m = (turns - nearest_whole(turns)) * ambiguity_m;
     weights += weight;
     mean_m += weight * off_m;
     squares += weight * off_m * off_m;
@@ -73,6 +83,7 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
   const std::size_t pixels = frame.returns.front().distance_m.size(), count = frame.returns.size();
   if (count > most_frequencies)
     throw std::logic_error("more frequencies than can be unwrapped");
+  Stopwatch stopwatch;
   frame.unwrapped_distance_m.resize(pixels);
   frame.unwrap_ok.resize(pixels);
   tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
@@ -84,7 +95,7 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
       const double noise_m =
           of.distance_noise_m.empty() ? 0.0 : static_cast<double>(of.distance_noise_m[pixel]);
       const bool is_full = std::isnan(noise_m);
-      remainders[i] = {static_cast<double>(of.distance_m[pixel]), ambiguity_m,
+      remainders[i] = {static_cast<double>(of.distance_m[pixel]), ambiguity_m, 1.0 / ambiguity_m,
                        is_full ? 0.0 : 1.0 / (noise_m * noise_m + tolerance_m * tolerance_m)};
       known = known && std::isfinite(remainders[i].distance_m);
       sure = sure && !is_full;
@@ -96,6 +107,7 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
     frame.unwrapped_distance_m[pixel] = static_cast<float>(of_pixel.distance_m);
     frame.unwrap_ok[pixel] = of_pixel.ok ? 1 : 0;
   });
+  stopwatch.add_to(frame, "unwrap");
 }
 
 } // namespace pmdsim

@@ -19,17 +19,23 @@ std::shared_ptr<const Setup> with_samples(const std::shared_ptr<const Setup> &se
 } // namespace
 
 void Session::load(SetupDocument document, std::shared_ptr<const Scene> scene) {
-  auto setup = std::make_shared<const Setup>(scene ? loader_.load(document, scene) : loader_.load(document));
-  taking_.reset();
-  setup_ = std::move(setup);
-  document_ = std::move(document);
-  scene_ = std::move(scene);
+  SetupLoader loader; // as files may have changed
+  take_over(std::move(document), std::move(scene), loader);
+  loader_ = std::move(loader);
 }
 
 void Session::set(const nlohmann::json &values) {
   SetupDocument document = document_;
   change(document, values);
-  load(std::move(document), scene_);
+  take_over(std::move(document), scene_, loader_);
+}
+
+void Session::take_over(SetupDocument document, std::shared_ptr<const Scene> scene, SetupLoader &loader) {
+  auto setup = std::make_shared<const Setup>(scene ? loader.load(document, scene) : loader.load(document));
+  taking_.reset();
+  setup_ = std::move(setup);
+  document_ = std::move(document);
+  scene_ = std::move(scene);
 }
 
 TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRequest &request,

@@ -45,6 +45,8 @@ public:
                   const Progress &progress);
 
 private:
+  void take_over(SetupDocument document, std::shared_ptr<const Scene> scene, SetupLoader &loader);
+
   // What frames are taken of; in one place, as exposures look at their setup.
   struct Taking {
     std::shared_ptr<const Setup> setup;

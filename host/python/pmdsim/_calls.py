@@ -6,14 +6,17 @@ runs in a thread of its own, and the main thread waits for it in a way that sign
 
 from __future__ import annotations
 
+import atexit
 import threading
+import time
 from queue import SimpleQueue
 from typing import Any, Callable, Optional, TypeVar
 
 Result = TypeVar("Result")
 
-# How long a cancelled call may take to end, seconds.
-_patience_s = 0.9
+# How long a cancelled call may take to end before Ctrl-C goes on without it, and before the process ends, seconds.
+patience_s = 0.9
+_patience_at_exit_s = 60.0
 
 
 class _Job:
@@ -50,6 +53,7 @@ class Caller:
     def __init__(self, cancel: Callable[[], None]) -> None:
         self._cancel = cancel
         self._jobs: "Optional[SimpleQueue[Optional[_Job]]]" = None
+        self._thread: Optional[threading.Thread] = None
         self.lost = False  # a call did not end when it was cancelled
 
     def __call__(self, function: Callable[[], Result]) -> Result:
@@ -57,7 +61,8 @@ class Caller:
             return function()
         if self._jobs is None:
             jobs: "SimpleQueue[Optional[_Job]]" = SimpleQueue()
-            threading.Thread(target=_work, args=(jobs,), name="pmdsim", daemon=True).start()
+            self._thread = threading.Thread(target=_work, args=(jobs,), name="pmdsim", daemon=True)
+            self._thread.start()
             self._jobs = jobs
         job = _Job(function)
         try:
@@ -77,11 +82,17 @@ class Caller:
         """Waits until the thread is through with all that it was given, which includes a job that the signal may
         or may not have let in."""
         self.lost = True
-        self._cancel()
         last = _Job(_nothing)
         jobs.put(last)
-        if last.done.acquire(timeout=_patience_s):
-            self.lost = False
+        give_up = time.monotonic() + patience_s
+        while time.monotonic() < give_up:
+            self._cancel()  # again and again: the call may not have begun
+            if last.done.acquire(timeout=0.02):
+                self.lost = False
+                return
+        if self._thread is not None:  # the library may not be taken down under it
+            atexit.register(self._thread.join, _patience_at_exit_s)
+        self.stop()
 
     def stop(self) -> None:
         """Lets the thread end when it is through."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import os
 import threading
 from typing import Any, Mapping, Optional, Tuple, Union
@@ -34,15 +33,6 @@ def _give(key: _Key, simulator: Simulator) -> None:
     global _idle
     with _lock:
         before, _idle = _idle, (key, simulator)
-    if before is not None:
-        before[1].close()
-
-
-@atexit.register
-def _close() -> None:
-    global _idle
-    with _lock:
-        before, _idle = _idle, None
     if before is not None:
         before[1].close()
 

@@ -51,7 +51,7 @@ def _device_name(device: Optional[Device]) -> Optional[bytes]:
         kind = _kinds.get(device.lower())
         if kind:
             for found in devices():
-                if kind in found["kind"]:
+                if kind in found["kind"] and found.get("usable", True):
                     return found["name"].encode()
         return device.encode()
     return str(whole_number(device, "device", 0, _most)).encode()
@@ -172,7 +172,7 @@ class Simulator:
             Another thread is in a call.
         """
         handle, self._handle = self._handle, 0
-        if not handle or self._owner != os.getpid():
+        if not handle or self._owner != os.getpid() or not self._finalizer.alive:
             return
         if self._caller.lost:  # a call that cannot be ended still uses it
             self._finalizer.detach()

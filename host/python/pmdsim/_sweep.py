@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import itertools
 import threading
+import time
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import Any, Deque, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
+from ._calls import patience_s
 from ._errors import ArgumentError, CancelledError
 from ._frame import Frame
 from ._options import render_options
@@ -76,17 +78,19 @@ class _Workers:
         return self._pool.submit(self._measure, *work)
 
     def stop(self, pending: Iterable["Future[List[Frame]]"]) -> None:
-        """Ends what runs, and closes the simulators when all threads are through."""
+        """Ends what runs, and closes the simulators when all threads are through, which the process waits for."""
         self._stopped = True
         running = {future for future in pending if not future.cancel()}
-        while running:
+        give_up = time.monotonic() + patience_s
+        while running and time.monotonic() < give_up:
             with self._lock:  # again and again: a thread may have been between two calls
                 for simulator in self._simulators:
                     simulator.cancel()
-            running = wait(running, timeout=0.05).not_done
-        self._pool.shutdown(wait=True)
-        for simulator in self._simulators:
-            simulator.close()
+            running = wait(running, timeout=0.02).not_done
+        self._pool.shutdown(wait=not running)
+        if not running:
+            for simulator in self._simulators:
+                simulator.close()
 
 
 def sweep(

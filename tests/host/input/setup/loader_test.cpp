@@ -204,6 +204,7 @@ TEST_CASE("The setup as used states every default") {
   const json as_used = SetupFixture().load().as_used;
   CHECK(as_used == json::parse(R"({
     "scene": "scene.gltf",
+    "nodes": {},
     "backscatter": "lambert",
     "shadows": "auto",
     "bounces": 0,

@@ -1,0 +1,201 @@
+"""One call: frames, their channels, points, copies."""
+
+from __future__ import annotations
+
+import copy
+import gc
+import inspect
+import json
+import os
+import pickle
+import sys
+import tempfile
+import types
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import pmdsim
+from setups import same_bytes, scenes, small_setup, without_scene, wall, write_by_program
+
+two_frequencies = {
+    "sensors": [{**small_setup()["sensors"][0], "modulation_hz": [20e6, 60e6], "unwrap_range_m": 5, "waveform": "square"}]
+}
+
+
+class Render(unittest.TestCase):
+    def test_a_wall_at_2_m(self) -> None:
+        frame = pmdsim.render(small_setup())
+        self.assertEqual(frame.shape, (6, 8))
+        self.assertEqual(frame.distance_m.dtype, np.float32)
+        self.assertEqual(frame.triangle_id.dtype, np.uint32)
+        self.assertEqual(frame.units["distance_m"], "m")
+        self.assertEqual(frame.units["triangle_id"], "")
+        self.assertLess(np.nanmax(np.abs(frame.range_m - 2.0)), 0.1)
+        self.assertEqual((frame.sensor, frame.frame, frame.time_s), ("pmd", 0, 0.0))
+        self.assertEqual(frame.report["mode"], "exact")
+        self.assertIs(frame.distance_m, frame["distance_m"])
+        self.assertIn("distance_m", frame)
+        self.assertEqual(list(frame), list(frame.channels))
+        self.assertEqual(dict(frame.items())["z_m"].shape, (6, 8))
+
+    def test_the_same_bytes_as_the_program(self) -> None:
+        variants = {
+            "sine": {},
+            "several": two_frequencies,
+            "shadowless": {"shadows": "off", "backscatter": "constant"},
+        }
+        for name, changes in variants.items():
+            for options, arguments in (({}, []), ({"max_error": "10um"}, ["--max-error", "10um"]), ({"samples": 3}, ["--samples", "3"])):
+                with self.subTest(name, **options), tempfile.TemporaryDirectory() as folder:
+                    setup = Path(folder) / "setup.json"
+                    setup.write_text(json.dumps(small_setup(**changes)))
+                    write_by_program(setup, Path(folder) / "out", "--format", "npy", *arguments)
+                    frame = pmdsim.render(setup, **options)
+                    same_bytes(frame, list((Path(folder) / "out").glob("*.npy")), "pmd_0000.")
+
+    def test_the_reference_too(self) -> None:
+        frame = pmdsim.render(small_setup(), device="reference")
+        self.assertLess(np.nanmax(np.abs(frame.distance_m - pmdsim.render(small_setup()).distance_m)), 1e-6)
+
+    def test_a_device_by_its_kind(self) -> None:
+        kinds = [device["kind"] for device in pmdsim.devices()]
+        self.assertIn("CPU", kinds)
+        with pmdsim.Simulator(device="cpu") as simulator:
+            self.assertTrue(simulator.device)
+
+    def test_points(self) -> None:
+        frame = pmdsim.render(small_setup())
+        self.assertEqual(frame.directions.shape, (6, 8, 3))
+        np.testing.assert_allclose(np.linalg.norm(frame.directions, axis=-1), 1.0)
+        truth = frame.points_of("range_m")
+        np.testing.assert_allclose(truth[..., 2], np.where(np.isnan(frame.range_m), np.nan, -2.0), atol=1e-6)
+        self.assertGreater(truth[0, 0, 1], truth[-1, 0, 1])  # row 0 is at the top
+        self.assertLess(truth[0, 0, 0], truth[0, -1, 0])
+        self.assertEqual(frame.points_m.shape, (6, 8, 3))
+        np.testing.assert_array_equal(np.isnan(frame.points_m[..., 0]), np.isnan(frame.distance_m))
+
+    def test_points_of_a_camera_that_is_moved(self) -> None:
+        pose = {"position_m": [0.1, 0.2, 0.5], "look_at_m": [0.1, 0.2, -2]}
+        frame = pmdsim.render(small_setup(), set={"sensors/pmd/pose": pose})
+        np.testing.assert_allclose(np.nanmean(frame.points_of("range_m")[..., 2]), -2.0, atol=1e-6)
+
+    def test_channels_of_several_frequencies(self) -> None:
+        frame = pmdsim.render(small_setup(**two_frequencies))
+        self.assertIs(frame.f1.distance_m, frame["f1.distance_m"])
+        self.assertIn("tap0", frame.f0.channels)
+        self.assertIn("distance_m", dir(frame.f0))
+        with self.assertRaisesRegex(pmdsim.UnknownChannelError, "f0.distance_m or f1.distance_m"):
+            frame.distance_m
+        with self.assertRaisesRegex(AttributeError, "f0.distance_m or f1.distance_m"):
+            frame.distance_m
+        self.assertFalse(hasattr(frame, "f2"))
+        np.testing.assert_array_equal(frame.points_m, frame.points_of("unwrapped_distance_m"))
+
+    def test_chosen_channels(self) -> None:
+        whole, few = pmdsim.render(small_setup()), pmdsim.render(small_setup(), channels=["distance_m", "range_m"])
+        self.assertEqual(set(few.channels), {"distance_m", "range_m"})
+        self.assertEqual(few.distance_m.tobytes(), whole.distance_m.tobytes())
+
+    def test_arrays_are_views_that_outlive_the_frame(self) -> None:
+        frame = pmdsim.render(small_setup())
+        distance = frame.distance_m
+        before = distance.copy()
+        self.assertFalse(distance.flags.owndata)
+        self.assertFalse(distance.flags.writeable)
+        with self.assertRaises(ValueError):
+            distance[0, 0] = 1
+        row = distance[2]
+        del frame, distance
+        gc.collect()
+        for _ in range(5):
+            pmdsim.render(small_setup(), set={"illuminators/0/intensity_w_sr": 2})
+        np.testing.assert_array_equal(row, before[2])
+
+    def test_copies_and_pickles(self) -> None:
+        frame = pmdsim.render(small_setup())
+        distorted = pmdsim.render(small_setup(), set={"sensors/0/distortion": {"model": "brown", "k1": -0.1}})
+        for original in (frame, distorted):
+            for made in (copy.copy(original), copy.deepcopy(original), pickle.loads(pickle.dumps(original))):
+                self.assertEqual(made.channels, original.channels)
+                self.assertEqual(made.units, original.units)
+                self.assertEqual(made.report, original.report)
+                self.assertEqual(made.distance_m.tobytes(), original.distance_m.tobytes())
+                self.assertFalse(made.distance_m.flags.writeable)
+                np.testing.assert_allclose(made.points_m, original.points_m, rtol=0, atol=1e-12)
+
+    def test_save_and_load(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            frame = pmdsim.render(small_setup(), set={"sensors/0/distortion": {"model": "brown", "k1": -0.1}})
+            frame.save(f"{folder}/a.npz")
+            again = pmdsim.load(f"{folder}/a.npz")
+            self.assertEqual(again.channels, frame.channels)
+            self.assertEqual(again.units, frame.units)
+            self.assertEqual(again.report, json.loads(json.dumps(frame.report)))
+            np.testing.assert_array_equal(again.points_m, frame.points_m)
+            self.assertEqual(os.listdir(folder), ["a.npz"])
+
+    def test_xarray(self) -> None:
+        """With a module in xarray's place, which notes what it is given."""
+        module = types.ModuleType("xarray")
+        module.Dataset = lambda variables, coords=None, attrs=None: (variables, coords, attrs)
+        before = sys.modules.get("xarray")
+        sys.modules["xarray"] = module
+        try:
+            variables, _, attributes = pmdsim.render(small_setup()).to_xarray()
+        finally:
+            sys.modules.pop("xarray")
+            if before:
+                sys.modules["xarray"] = before
+        dimensions, array, of_channel = variables["distance_m"]
+        self.assertEqual((dimensions, array.shape, of_channel), (("row", "column"), (6, 8), {"units": "m"}))
+        self.assertEqual(attributes["sensor"], "pmd")
+
+    def test_repeated_calls_take_what_is_new(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            setup = Path(folder) / "setup.json"
+            scene = Path(folder) / "scene.gltf"
+            setup.write_text(json.dumps(small_setup(scene="scene.gltf")))
+            scene.write_bytes((scenes / "wall_2m.gltf").read_bytes())
+            first = pmdsim.render(setup)
+            scene.write_bytes((scenes / "wall_0m3.gltf").read_bytes())
+            second = pmdsim.render(setup)
+        self.assertLess(np.nanmin(second.z_m), 0.31)
+        self.assertGreater(np.nanmin(first.z_m), 1.99)
+
+    def test_scene_of_arrays(self) -> None:
+        from_argument = pmdsim.render(without_scene(), scene=wall())
+        from_setup = pmdsim.render(small_setup(scene=wall()))
+        from_both = pmdsim.render(small_setup(), scene=wall())
+        np.testing.assert_allclose(from_argument.z_m[from_argument.coverage > 0], 2.0, atol=1e-6)
+        self.assertTrue((from_argument.coverage > 0).any())
+        for other in (from_setup, from_both):
+            self.assertEqual(other.distance_m.tobytes(), from_argument.distance_m.tobytes())
+
+    def test_warnings(self) -> None:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            pmdsim.render(small_setup(), set={"sensors/0/waveform": {"harmonics": [0, 1]}})
+        self.assertTrue(caught)
+        self.assertTrue(issubclass(caught[0].category, pmdsim.PmdsimWarning))
+        self.assertEqual(caught[0].filename, __file__)
+
+    def test_what_there_is(self) -> None:
+        self.assertIn("distance_m", [channel["name"] for channel in pmdsim.channels()])
+        self.assertIn("sensors", pmdsim.schema()["properties"])
+        self.assertEqual(pmdsim.version(), pmdsim.__version__)
+
+    def test_help_suffices(self) -> None:
+        for name in pmdsim.__all__:
+            self.assertTrue(inspect.getdoc(getattr(pmdsim, name)), name)
+        text = inspect.getdoc(pmdsim.render)
+        for name in inspect.signature(pmdsim.render).parameters:
+            self.assertRegex(text, rf"(?m)^{name} : ", name)
+        for name in ("InputError", "metres", "(rows, columns)", "Examples"):
+            self.assertIn(name, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
