@@ -17,6 +17,12 @@ packages=(
   catch2
 )
 
+# What long tests of packages, manual pages and clusters need; they are skipped where there are no such packages.
+packages_of_long_tests=(
+  mmdebstrap groff-base man-db zsh fish
+  slurm-wlm munge python3-distributed python3-dask
+)
+
 say() { printf '%s\n' "do: $*" >&2; }
 
 usage() {
@@ -71,7 +77,7 @@ install_if_possible() {
     dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
-  if ! (update_package_lists && install "${missing[@]}"); then say "not installable: ${missing[*]}"; fi
+  if ! { update_package_lists && install "${missing[@]}"; }; then say "not installable: ${missing[*]}"; fi
 }
 
 # Debian has clang-tidy-22 beside its clang-tidy, which is version 14: that takes more than twice the time and calls
@@ -207,6 +213,9 @@ test)
   --smoke) run_smoke_tests ;;
   --long)
     lint_long
+    install_if_possible "${packages_of_long_tests[@]}"
+    make_package
+    make_wheel
     run_tests --label-exclude smoke
     ;;
   '') run_tests --label-exclude 'long|smoke' ;;

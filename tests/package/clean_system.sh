@@ -35,6 +35,7 @@ make_system() {
 }
 
 install_package() {
+  in_system apt-get update -qq >"$scratch/log" 2>&1 || fail "apt-get update: $(tail -5 "$scratch/log")"
   in_system apt-get install -y -qq --no-install-recommends "/root/$(basename "$package")" >"$scratch/log" 2>&1 ||
     fail "apt-get install: $(tail -5 "$scratch/log")"
   say 'apt-get install: done'
