@@ -69,15 +69,20 @@ install_missing() {
   install "${missing[@]}"
 }
 
-# Installs those of $@ that are missing and that there are; what needs the others says so itself.
+# Installs those of $@ that are missing, as far as there are such packages; what needs the others says so itself.
 install_if_possible() {
   command -v apt-get >/dev/null || return 0
-  local package missing=()
+  local package missing=() known=()
   for package in "$@"; do
     dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
-  if ! { update_package_lists && install "${missing[@]}"; }; then say "not installable: ${missing[*]}"; fi
+  update_package_lists || true
+  for package in "${missing[@]}"; do
+    if apt-cache show "$package" >/dev/null 2>&1; then known+=("$package"); else say "no such package: $package"; fi
+  done
+  ((${#known[@]})) || return 0
+  install "${known[@]}" || say "not installed: ${known[*]}"
 }
 
 # Debian has clang-tidy-22 beside its clang-tidy, which is version 14: that takes more than twice the time and calls

@@ -92,11 +92,11 @@ records() { find "$1" -name '*.record.json' 2>/dev/null | wc -l; }
 # Waits until task $1 has measured a frame and is at the next.
 wait_for_a_frame_of() {
   local t
-  for t in {1..600}; do
+  for t in {1..2400}; do
     (($(records "$(shard "$1")") > 0)) && return
     sleep 0.05
   done
-  fail "task $1 measured no frame within 30 s: $(squeue -r; cat "$scratch"/log.* 2>/dev/null)"
+  fail "task $1 measured no frame within two minutes: $(squeue -r; cat "$scratch"/log.* 2>/dev/null)"
 }
 
 # Kills the program of task $1 as a node without memory would.
@@ -120,14 +120,14 @@ restarts_of() { scontrol show job "${job}_$1" | tr ' ' '\n' | sed -n 's/^Restart
 # Waits for all tasks; those that were requeued would wait for two minutes, and are let go at once.
 wait_for_job() {
   local t waiting
-  for t in {1..1200}; do
+  for t in {1..6000}; do
     [ -n "$(squeue -h -r -j "$job" -o %i 2>/dev/null)" ] || return 0
     for waiting in $(squeue -h -r -j "$job" -t PD -o '%i %r' | awk '$2 == "BeginTime" { print $1 }'); do
       scontrol update "jobid=$waiting" StartTime=now 2>/dev/null || true
     done
     sleep 0.1
   done
-  fail "the job did not end within two minutes: $(squeue -r)"
+  fail "the job did not end within ten minutes: $(squeue -r)"
 }
 
 # All files but records, which have times in them.
