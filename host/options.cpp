@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <map>
 #include <vector>
@@ -26,7 +27,7 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
-  std::optional<std::string> samples, frames, paths, suite_name;
+  std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats;
 };
@@ -56,6 +57,11 @@ void add_output(CLI::App &command, Written &written) {
       fmt::format("output directory [out/SETUP/{}, SETUP without its ending]", command.get_name()));
 }
 
+void add_frames(CLI::App &command, Written &written) {
+  command.add_option("--frames", written.frames,
+                     "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
+}
+
 void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
@@ -64,8 +70,20 @@ void add_writing(CLI::App &command, Written &written) {
                               fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
       ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
-  command.add_option("--frames", written.frames,
-                     "A:B, frames A to B - 1 of the setup's, the first is 0 [all]");
+  add_frames(command, written);
+  command.add_option("--shard", written.shard,
+                     "I/N, I from 0 to N - 1: only frames whose number modulo N is I; or `slurm`, what "
+                     "Slurm says of an array's task");
+  command.add_flag(
+      "--resume", written.options.capture.resume,
+      "keep the frames that the same run has left in the directory, measure those that are missing");
+}
+
+void add_merging(CLI::App &command, Written &written) {
+  command.add_option("DIR", written.options.merged, "directories with frames of the same run")->required();
+  command.add_option("-o,--output", written.options.capture.output_directory,
+                     "output directory [none: the manifest of DIR is made again]");
+  add_frames(command, written);
 }
 
 void add_paths(CLI::App &command, Written &written) {
@@ -168,12 +186,17 @@ void add_commands(CLI::App &app, Written &written) {
   add_setup(*noise, written);
   add_output(*noise, written);
 
+  CLI::App *merge = app.add_subcommand(
+      "merge", "bring the frames of several directories, as --shard leaves them, together in one");
+  add_merging(*merge, written);
+
   CLI::App *import_calibration = app.add_subcommand(
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");
   add_importing(*import_calibration, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command : {render, deform, check, bench, tradeoff, noise, import_calibration, devices})
+  for (CLI::App *command :
+       {render, deform, check, bench, tradeoff, noise, merge, import_calibration, devices})
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
 }
@@ -205,6 +228,45 @@ FrameRange frame_range_of(const std::string &text) {
     throw Error(ExitCode::usage,
                 "--frames: expected A:B, whole numbers, A below B, found " + in_quotes(text));
   return {*first, *end};
+}
+
+// What Slurm says of an array's tasks in the environment.
+std::uint32_t slurm_number(const std::string &name) {
+  const char *text = std::getenv(name.c_str()); // NOLINT(concurrency-mt-unsafe): no other thread has begun
+  const auto number = whole_number(text ? text : "");
+  if (!number)
+    throw Error(ExitCode::usage,
+                fmt::format("--shard slurm: {}: expected a whole number in the environment, as in a task of "
+                            "`sbatch --array`, found {}",
+                            name, text ? in_quotes(text) : "nothing"));
+  return *number;
+}
+
+Shard slurm_shard() {
+  const std::uint32_t task = slurm_number("SLURM_ARRAY_TASK_ID"),
+                      first = slurm_number("SLURM_ARRAY_TASK_MIN"),
+                      count = slurm_number("SLURM_ARRAY_TASK_COUNT");
+  const char *step = std::getenv("SLURM_ARRAY_TASK_STEP"); // NOLINT(concurrency-mt-unsafe): likewise
+  if (step && std::string_view(step) != "1")
+    throw Error(ExitCode::usage,
+                fmt::format("--shard slurm: SLURM_ARRAY_TASK_STEP: expected 1, found {}", in_quotes(step)));
+  if (task < first || task - first >= count)
+    throw Error(ExitCode::usage, fmt::format("--shard slurm: task {} of {} from {} on: expected an array "
+                                             "without gaps, as `sbatch --array=0-7`",
+                                             task, count, first));
+  return {task - first, count};
+}
+
+Shard shard_of(const std::string &text) {
+  if (text == "slurm")
+    return slurm_shard();
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = whole_number(std::string_view(text).substr(0, slash));
+  const auto count = whole_number(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index >= *count)
+    throw Error(ExitCode::usage, "--shard: expected I/N, whole numbers, I from 0 to N - 1, or slurm, found " +
+                                     in_quotes(text));
+  return {*index, *count};
 }
 
 SampleChoice sample_choice_of(const std::string &text) {
@@ -260,7 +322,12 @@ Options checked(Written written, const std::string &command) {
     capture.paths = paths_of(*written.paths, names_the_reference(capture.device));
   if (written.frames)
     capture.frames = frame_range_of(*written.frames);
-  if (capture.output_directory.empty())
+  if (written.shard)
+    capture.shard = shard_of(*written.shard);
+  if (command == "merge" && capture.output_directory.empty() && options.merged.size() > 1)
+    throw Error(ExitCode::usage,
+                fmt::format("merge: expected -o beside {} directories", options.merged.size()));
+  if (capture.output_directory.empty() && command != "merge")
     capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);

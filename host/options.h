@@ -21,13 +21,15 @@ struct SuiteOptions {
 };
 
 struct Options {
-  std::string command;                 // its name: "render"
-  CaptureRequest capture;              // all but import-calibration and devices; directories are filled in
-  bool mode_written = false;           // bench: one mode instead of all
-  std::optional<SuiteOptions> suite;   // bench --suite
-  std::filesystem::path calibration;   // import-calibration, and the two below
-  std::optional<double> pixel_pitch_m; // along the columns, instead of the default
-  std::string sensor_name;             // instead of the file's; empty where it is not given
+  std::string command; // its name: "render"
+  // All but import-calibration and devices; merge only frames and directory. Directories are filled in.
+  CaptureRequest capture;
+  bool mode_written = false;                 // bench: one mode instead of all
+  std::optional<SuiteOptions> suite;         // bench --suite
+  std::vector<std::filesystem::path> merged; // merge; into capture's output directory, if there is one
+  std::filesystem::path calibration;         // import-calibration, and the two below
+  std::optional<double> pixel_pitch_m;       // along the columns, instead of the default
+  std::string sensor_name;                   // instead of the file's; empty where it is not given
   bool json = false;
 };
 

@@ -27,12 +27,17 @@ SequenceRate measure_sequence_rate(const Setup &setup, const BenchRequest &reque
   const auto frames_per_s = [&](const std::string &what, const std::set<Format> &formats) {
     const auto start = std::chrono::steady_clock::now();
     const Camera &camera = exposures.camera();
-    FrameSequence sequence(several, {0, frames}, directory.path() / "frames",
-                           {"render", camera.device(), camera.driver(), request.accuracy, several.as_used});
+    FrameSequence sequence(several, {{0, frames}, directory.path() / "frames"},
+                           {.command = "render",
+                            .device = camera.device(),
+                            .driver = camera.driver(),
+                            .accuracy = request.accuracy,
+                            .setup = several.as_used});
     const auto measure = [&](const SensorFrame &at) {
       const std::string label = fmt::format("{}, {}", what, at.label);
       return rendered_frame(exposures.share(take(label, at.sensor, at.frame, at.next_s)), at, formats);
     };
+    sequence.begin();
     sequence.write(measure, bytes_of_largest_frame(several, true));
     return frames / (1e-3 * ms_since(start));
   };

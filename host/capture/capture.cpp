@@ -17,7 +17,27 @@ FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
                 fmt::format("--frames {}:{}: expected B at most {}, the frames of {}", frames.first,
                             frames.end, setup.frames.count, setup.file.string()));
   require_names_for_files(setup.start.sensors);
-  return frames;
+  return request.shard.of(frames);
+}
+
+nlohmann::ordered_json inputs_json(const std::vector<FileRead> &inputs) {
+  return array_of(inputs, [](const FileRead &file) {
+    return nlohmann::ordered_json{{"file", file.path}, {"bytes", file.bytes}, {"xxh3_128", file.hash}};
+  });
+}
+
+RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::string &command,
+                const Camera &camera) {
+  RunHead head{.command = command,
+               .device = camera.device(),
+               .driver = camera.driver(),
+               .accuracy = request.accuracy,
+               .paths = request.paths,
+               .setup = setup.as_used,
+               .inputs = inputs_json(setup.inputs)};
+  for (const Format format : request.formats)
+    head.formats.push_back(format_name(format));
+  return head;
 }
 
 } // namespace
@@ -69,9 +89,10 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
     : setup_(std::move(setup)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       max_error_m_(request.accuracy.max_error_m),
       exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths),
-      sequence_(setup_, frames_, request.output_directory,
-                {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
-                 setup_.as_used}) {}
+      sequence_(setup_,
+                {frames_, request.output_directory,
+                 request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again},
+                head_of(request, setup_, command, exposures_.camera())) {}
 
 std::string Capture::device_text() const {
   return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());
@@ -88,9 +109,22 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
 
 void Capture::write(const FrameSequence::Measure &measure, std::size_t part_bytes,
                     double exposures_of_sample) {
-  bar_.emplace(exposures_of_sample * frames_.count() * samples_of_frame(setup_));
-  sequence_.write(measure, part_bytes);
+  const double work_of_frame = exposures_of_sample * samples_of_frame(setup_);
+  bar_.emplace(sequence_.begin() * work_of_frame);
+  const auto measure_next = [&](const SensorFrame &at) {
+    if (at.sensor == 0)
+      bar_->reach(at.frames_done * work_of_frame);
+    return measure(at);
+  };
+  sequence_.write(measure_next, part_bytes);
   bar_.reset(); // before anything is printed
+}
+
+void Capture::for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const {
+  sequence_.for_each_record([&](const nlohmann::ordered_json &record) {
+    for (const auto &of_sensor : record.at("sensors"))
+      use(of_sensor);
+  });
 }
 
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
@@ -109,7 +143,8 @@ MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, cons
                             const std::set<Format> &formats) {
   auto frame = std::make_shared<const FrameToWrite>(
       FrameToWrite{taken->sensor, at.frame, channels_of(taken->measurement), taken});
-  return {record_of(*taken, at), [frame = std::move(frame), formats] { return files_of(frame, formats); }};
+  return {record_of(*taken, at),
+          [frame = std::move(frame), formats](FrameRecord &) { return files_of(frame, formats); }};
 }
 
 std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps) {

@@ -23,7 +23,9 @@ struct CaptureRequest {
   std::uint32_t paths = 0;             // of the reference, as Extras
   Accuracy accuracy;
   std::optional<FrameRange> frames; // instead of all of the setup's
+  Shard shard;                      // of these
   std::filesystem::path output_directory;
+  bool resume = false; // frames that are whole there stay
   std::set<Format> formats;
 };
 
@@ -47,9 +49,12 @@ public:
   Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps);
 
   const Setup &setup() const { return setup_; }
-  std::uint32_t first_frame() const { return frames_.first; }
+  std::uint32_t frame_count() const { return frames_.count(); } // that were asked for
   const std::set<Format> &formats() const { return formats_; }
   const FrameSequence &sequence() const { return sequence_; } // with what it has written
+  // Of the frames in the directory that were asked for, sensor by sensor, as its records have them. As
+  // FrameSequence::for_each_record().
+  void for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const;
   // "device    NAME (DRIVER)" and an empty line.
   std::string device_text() const;
 

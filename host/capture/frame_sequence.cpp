@@ -3,25 +3,31 @@
 #include "engine/model/error.h"
 #include "host/capture/pipeline.h"
 #include "host/capture/progress.h"
-#include "host/report/report.h"
+#include "host/input/file/content_hash.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
+#include <iterator>
 #include <tbb/info.h>
+#include <thread>
 
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t waiting_bytes = std::size_t{1} << 30;
+using nlohmann::ordered_json;
 
-void add_manifest(OutputSet &files, const RunRecord &run) {
-  files.add(manifest_name, [&](OutputFile &file) { write_manifest(file, run); });
+constexpr std::size_t waiting_bytes = std::size_t{1} << 30;
+constexpr auto time_between_looks = std::chrono::milliseconds(50); // at frames of other processes
+
+// As it will be read from its file, where text that is not UTF-8 is replaced.
+RunIdentity identity_of(const RunHead &run) {
+  const std::string text = json_text(head_json(run));
+  return {ordered_json::parse(text), content_hash(text)};
 }
 
-std::string whole_text(const std::vector<FrameRecord> &frames) {
-  const std::uint32_t first = frames.front().frame, last = frames.back().frame;
-  return first == last ? fmt::format("frame {} is whole and stays", first)
-                       : fmt::format("frames {} to {} are whole and stay", first, last);
+std::string frames_text(std::uint32_t first, std::uint32_t last) {
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
 } // namespace
@@ -31,107 +37,185 @@ std::size_t parts_waiting(std::size_t part_bytes) {
   return std::min(busy, waiting_bytes / std::max(part_bytes, std::size_t{1}));
 }
 
-FrameSequence::FrameSequence(const Setup &setup, const FrameRange &frames,
-                             const std::filesystem::path &directory, RunRecord run)
-    : setup_(setup), frames_(frames), files_(std::make_unique<OutputSet>(directory)),
-      directory_(files_->directory()), run_(std::move(run)) {}
+FrameSequence::FrameSequence(const Setup &setup, SequenceRequest request, const RunHead &run)
+    : setup_(setup), request_(std::move(request)), run_(run) {}
+
+std::uint32_t FrameSequence::begin() {
+  folder_.emplace(request_.directory, identity_of(run_), request_.frames, request_.earlier,
+                  throw_if_interrupted);
+  request_.directory = folder_->path();
+  if (!folder_->has_locks())
+    fmt::print(stderr,
+               "pmdsim: warning: {}: its file system has no locks, no other process may write there\n",
+               request_.directory.string());
+  const std::vector<std::uint32_t> recorded = recorded_frames(request_.directory);
+  for (std::uint32_t i = 0; i < request_.frames.count(); ++i)
+    if (const std::uint32_t frame = request_.frames.at(i);
+        !std::ranges::binary_search(recorded, frame) || !folder_->whole(frame))
+      to_do_.push_back(frame);
+  to_do_at_start_ = static_cast<std::uint32_t>(to_do_.size());
+  return to_do_at_start_;
+}
 
 void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
   try {
-    write_all(measure, part_bytes);
+    make_all(measure, part_bytes);
+    throw_if_interrupted();
+    folder_->write_manifest();
   } catch (const Error &error) {
-    const bool has_manifest = keep_whole_frames();
-    if (run_.frames.empty())
+    files_.clear(); // first, as the disk may be full
+    const bool has_manifest = folder_->keep_whole_frames();
+    if (made_.count == 0)
       throw;
-    throw Error(error.code(), fmt::format("{}; {} in {}{}", error.what(), whole_text(run_.frames),
-                                          directory_.string(), has_manifest ? "" : ", without a manifest"));
+    throw Error(error.code(),
+                fmt::format("{}; {} in {}{}", error.what(), whole_text(), request_.directory.string(),
+                            has_manifest ? "" : ", without a manifest"));
   } catch (...) {
-    keep_whole_frames();
+    files_.clear();
+    folder_->keep_whole_frames();
     throw;
   }
 }
 
-// A part, not a frame, goes through the pipeline: frames of several large sensors would not fit side by side.
-void FrameSequence::write_all(const Measure &measure, std::size_t part_bytes) {
-  run_pipeline(
-      frames_.count() * setup_.start.sensors.size(), parts_waiting(part_bytes),
-      [&](std::size_t i) { return measure(part(i)); },
-      [&](std::size_t, const MeasuredPart &measured) {
-        return WrittenPart{measured.record, write_files(directory_, measured.files())};
-      },
-      [&](std::size_t i, WrittenPart written) { add(part(i), std::move(written)); });
-}
-
-void FrameSequence::add(const SensorFrame &at, WrittenPart part) {
-  if (!files_)
-    files_ = std::make_unique<OutputSet>(directory_);
-  for (const auto &file : part.files)
-    part.record.outputs.push_back(file->path().filename().string());
-  files_->add(std::move(part.files));
-  run_.frames.push_back(std::move(part.record));
-  if (at.sensor + 1 == setup_.start.sensors.size())
-    publish(at.frame);
-}
-
-void FrameSequence::publish(std::uint32_t frame) {
-  if (frame + 1 == frames_.end)
-    add_manifest(*files_, run_);
-  throw_if_interrupted();
-  // An earlier run's manifest must not speak for this one's frames, however this one ends.
-  files_->publish(frame == frames_.first ? std::vector<std::string>{manifest_name}
-                                         : std::vector<std::string>{});
-  files_.reset();
-  whole_ = run_.frames.size();
-}
-
-// Whether there is a manifest of them.
-bool FrameSequence::keep_whole_frames() noexcept {
-  files_.reset(); // first, as the disk may be full
-  run_.frames.erase(run_.frames.begin() + static_cast<std::ptrdiff_t>(whole_), run_.frames.end());
-  if (run_.frames.empty())
-    return false;
-  try {
-    OutputSet files(directory_);
-    add_manifest(files, run_);
-    files.publish();
-    return true;
-  } catch (const std::exception &) { // the error that brought us here is the one to tell
-    return false;
+void FrameSequence::make_all(const Measure &measure, std::size_t part_bytes) {
+  while (!to_do_.empty()) {
+    const bool any = make_free_ones(measure, part_bytes);
+    std::erase_if(taken_, [&](std::uint32_t frame) { return folder_->whole(frame).has_value(); });
+    to_do_ = std::exchange(taken_, {});
+    throw_if_interrupted();
+    if (!any && !to_do_.empty())
+      std::this_thread::sleep_for(time_between_looks);
   }
 }
 
-SensorFrame FrameSequence::part(std::size_t index) const {
-  const std::size_t sensors = setup_.start.sensors.size(), sensor = index % sensors;
-  const auto frame = frames_.first + static_cast<std::uint32_t>(index / sensors);
-  const std::string label = frames_.count() > 1
-                                ? fmt::format("frame {}/{}, ", frame - frames_.first + 1, frames_.count())
+// Whether there were any. A part, not a frame, goes through the pipeline: frames of several large sensors
+// would not fit side by side.
+bool FrameSequence::make_free_ones(const Measure &measure, std::size_t part_bytes) {
+  struct Part {
+    SensorFrame at;
+    MeasuredPart measured;
+  };
+  std::optional<std::uint32_t> frame;
+  bool any = false;
+  run_pipeline(
+      [&](std::size_t i) {
+        if (i % sensor_count() == 0)
+          frame = claim_next();
+        any = any || frame;
+        return frame.has_value();
+      },
+      parts_waiting(part_bytes),
+      [&](std::size_t i) {
+        const SensorFrame at = part(*frame, i % sensor_count());
+        return Part{at, measure(at)};
+      },
+      [&](std::size_t, Part part) {
+        FrameRecord record = std::move(part.measured.record);
+        const std::vector<FileToWrite> files = part.measured.files(record);
+        return WrittenPart{std::move(part.at), std::move(record), write_files(request_.directory, files)};
+      },
+      [&](std::size_t, WrittenPart written) { add(std::move(written)); });
+  return any;
+}
+
+std::optional<std::uint32_t> FrameSequence::claim_next() {
+  while (!to_do_.empty()) {
+    throw_if_interrupted();
+    const std::uint32_t frame = to_do_.front();
+    to_do_.pop_front();
+    switch (folder_->claim(frame)) {
+    case RunFolder::Claim::granted:
+      return frame;
+    case RunFolder::Claim::taken:
+      taken_.push_back(frame);
+      break;
+    case RunFolder::Claim::whole:
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+void FrameSequence::add(WrittenPart part) {
+  for (const auto &file : part.files)
+    part.record.outputs.push_back({file->path().filename().string(), file->size_bytes()});
+  std::ranges::move(part.files, std::back_inserter(files_));
+  parts_.push_back(std::move(part.record));
+  if (part.at.sensor + 1 == sensor_count())
+    publish();
+}
+
+void FrameSequence::publish() {
+  OutputSet files(request_.directory);
+  files.add(std::exchange(files_, {}));
+  const std::vector<FrameRecord> parts = std::exchange(parts_, {});
+  throw_if_interrupted();
+  folder_->publish(files, record_json(folder_->run().hash, parts));
+  const std::uint32_t frame = parts.front().frame;
+  if (made_.count == 0) {
+    made_.first = frame;
+    for (const FrameRecord &part : parts)
+      for (const NamedFile &file : part.outputs)
+        made_.names_of_first.push_back(file.name);
+  } else if (frame != made_.last + 1) {
+    made_.in_a_row = false;
+  }
+  made_.last = frame;
+  ++made_.count;
+}
+
+SensorFrame FrameSequence::part(std::uint32_t frame, std::size_t sensor) const {
+  const FrameRange &frames = request_.frames;
+  const std::string label = frames.count() > 1
+                                ? fmt::format("frame {}/{}, ", frames.index_of(frame) + 1, frames.count())
                                 : "measuring ";
   SensorFrame part{frame, setup_.frames.time_s(frame), sensor, label + setup_.start.sensors[sensor].name};
-  if (const std::uint32_t next = sensor + 1 < sensors ? frame : frame + 1; next < frames_.end)
-    part.next_s = setup_.frames.time_s(next);
+  if (sensor + 1 < sensor_count())
+    part.next_s = part.time_s;
+  else if (const auto next = next_after(frame))
+    part.next_s = setup_.frames.time_s(*next);
+  part.frames_done = to_do_at_start_ - static_cast<std::uint32_t>(to_do_.size() + taken_.size()) - 1;
   return part;
 }
 
-std::vector<std::string> FrameSequence::paths() const {
-  std::vector<std::string> paths;
-  for (const FrameRecord &frame : run_.frames)
-    for (const std::string &name : frame.outputs)
-      paths.push_back(path_of(name));
-  paths.push_back(path_of(manifest_name));
-  return paths;
+// The next that is likely to be ours.
+std::optional<std::uint32_t> FrameSequence::next_after(std::uint32_t frame) const {
+  const auto is_free = [&](std::uint32_t other) { return other > frame && folder_->seems_free(other); };
+  const auto next = std::ranges::find_if(to_do_, is_free);
+  return next == to_do_.end() ? std::nullopt : std::optional(*next);
+}
+
+void FrameSequence::for_each_record(const std::function<void(const ordered_json &)> &use) const {
+  for (std::uint32_t i = 0; i < request_.frames.count(); ++i) {
+    const std::uint32_t frame = request_.frames.at(i);
+    const auto record = read_record(request_.directory, frame, folder_->run().hash);
+    if (!record)
+      throw Error(ExitCode::output,
+                  fmt::format("{}: cannot be read: it has gone", path_of(record_name(frame))));
+    use(*record);
+  }
+}
+
+std::string FrameSequence::whole_text() const {
+  if (!made_.in_a_row)
+    return fmt::format("{} frames are whole and stay", made_.count);
+  return fmt::format("{} {}", frames_text(made_.first, made_.last),
+                     made_.count == 1 ? "is whole and stays" : "are whole and stay");
 }
 
 std::string FrameSequence::written_text() const {
   std::string text = "written:\n";
-  for (const FrameRecord &frame : run_.frames)
-    if (frame.frame == frames_.first)
-      for (const std::string &name : frame.outputs)
-        text += fmt::format("  {}\n", path_of(name));
-  if (frames_.count() > 2)
-    text += fmt::format("  and the same of frames {} to {}\n", frames_.first + 1, frames_.end - 1);
-  else if (frames_.count() == 2)
-    text += fmt::format("  and the same of frame {}\n", frames_.first + 1);
-  return text + fmt::format("  {}\n", path_of(manifest_name));
+  for (const std::string &name : made_.names_of_first)
+    text += fmt::format("  {}\n", path_of(name));
+  if (made_.count > 1)
+    text += made_.in_a_row ? fmt::format("  and the same of {}\n", frames_text(made_.first + 1, made_.last))
+                           : fmt::format("  and the same of {} frames more\n", made_.count - 1);
+  text += fmt::format("  {}\n", path_of(manifest_name));
+  if (const std::uint32_t kept = request_.frames.count() - to_do_at_start_; kept > 0)
+    text += fmt::format("{} frame{} there before\n", kept, kept == 1 ? " was" : "s were");
+  if (const std::uint32_t others = to_do_at_start_ - made_.count; others > 0)
+    text += fmt::format("{} frame{} made by other processes\n", others, others == 1 ? " was" : "s were");
+  return text;
 }
 
 } // namespace pmdsim

@@ -1,90 +1,110 @@
 #pragma once
-// The frames that a command leaves in a directory: each whole, all its sensors' files at once, in order, and
-// a manifest of those that are there. While frames are written the next are measured.
+// The frames that a command leaves in a directory: each whole, all its sensors' files at once and then its
+// record, in order, and a manifest of those that are there. While frames are written the next are measured.
+// Several processes may do that in one directory at once (host/output/run/run_folder.h); each frame is made
+// by one of them.
 
 #include "host/input/setup/setup.h"
 #include "host/output/files/manifest.h"
 #include "host/output/files/output_set.h"
+#include "host/output/run/run_folder.h"
 
+#include <deque>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pmdsim {
 
-inline constexpr const char *manifest_name = "manifest.json";
-
-// Frames `first` to `end` - 1.
-struct FrameRange {
-  std::uint32_t first = 0, end = 1;
-
-  std::uint32_t count() const { return end - first; }
-};
-
 // One sensor's part of a frame.
 struct SensorFrame {
   std::uint32_t frame; // its number in the setup
   double time_s;
-  std::size_t sensor;             // its index in the setup
-  std::string label;              // for people: "frame 3/20, pmd"
-  std::optional<double> next_s{}; // when the frame of the part after this one begins, if there is one
+  std::size_t sensor; // its index in the setup
+  std::string label;  // for people: "frame 3/20, pmd"
+  std::optional<double>
+      next_s{}; // when the frame of the part after this one most likely begins, if there is one
+  std::uint32_t frames_done = 0; // of those that were to be made at the start, by whichever process
 };
 
 // A measured part of a frame.
 struct MeasuredPart {
   FrameRecord record; // `outputs` aside
-  // Gives the files to write, once; holds the measurement, or shares it.
-  std::function<std::vector<FileToWrite>()> files;
+  // Gives the files to write, once; holds the measurement, or shares it. May complete the record.
+  std::function<std::vector<FileToWrite>(FrameRecord &)> files;
 };
 
 // How many such parts may wait to be written while the next is measured, each of `part_bytes`: as many as
 // keep the processor busy, and no more than fit into 1 GiB; none where a single one does not fit.
 std::size_t parts_waiting(std::size_t part_bytes);
 
+// What is asked of a sequence.
+struct SequenceRequest {
+  FrameRange frames{};
+  std::filesystem::path directory;
+  RunFolder::Earlier earlier = RunFolder::Earlier::made_again; // frames of an earlier run that was the same
+};
+
 class FrameSequence {
 public:
-  // `run` is without frames yet. Creates the directory. Throws Error (output) where that fails or nothing
-  // can be written there.
-  FrameSequence(const Setup &setup, const FrameRange &frames, const std::filesystem::path &directory,
-                RunRecord run);
+  // `setup` must outlive it.
+  FrameSequence(const Setup &setup, SequenceRequest request, const RunHead &run);
+
+  // Enters the directory; how many frames are to be made. Once, and before write(). Throws Error as
+  // RunFolder, or (interrupted).
+  std::uint32_t begin();
 
   using Measure = std::function<MeasuredPart(const SensorFrame &)>;
-  // Measures frame by frame, and sensor by sensor in each, one at a time though not always on the same
-  // thread, and writes the parts on threads of its own; `part_bytes` is what the largest part holds. Where
-  // either fails, Error (interrupted) among others, whole frames stay with a manifest that lists just these;
-  // without any, nothing stays.
+  // Measures those frames that no other process makes, frame by frame, and sensor by sensor in each, one at a
+  // time though not always on the same thread, and writes the parts on threads of its own; `part_bytes` is
+  // what the largest part holds. Then waits for the others'. Where any of that fails, Error (interrupted)
+  // among others, whole frames stay with a manifest that lists just these; without any, nothing stays.
   void write(const Measure &measure, std::size_t part_bytes);
 
-  const RunRecord &run() const { return run_; }
+  const RunHead &run() const { return run_; }
+  // The record of each frame that was asked for, in order, whoever made it. Throws Error (output) where one
+  // is missing.
+  void for_each_record(const std::function<void(const nlohmann::ordered_json &)> &use) const;
   // A name with the directory in front.
-  std::string path_of(const std::string &name) const { return (directory_ / name).string(); }
-  // The paths of all files, the manifest last.
-  std::vector<std::string> paths() const;
-  // "written:" and the paths below it, those of the first frame for all.
+  std::string path_of(const std::string &name) const { return (request_.directory / name).string(); }
+  // "written:" and the paths below it, those of the first frame that this process made for all.
   std::string written_text() const;
 
 private:
   // Written under temporary names.
   struct WrittenPart {
+    SensorFrame at;
     FrameRecord record;
     WrittenFiles files;
   };
+  // Frames that this process has published.
+  struct Made {
+    std::uint32_t first = 0, last = 0, count = 0;
+    bool in_a_row = true;
+    std::vector<std::string> names_of_first{};
+  };
 
-  void write_all(const Measure &measure, std::size_t part_bytes);
-  SensorFrame part(std::size_t index) const;
-  void add(const SensorFrame &at, WrittenPart part);
-  void publish(std::uint32_t frame);
-  bool keep_whole_frames() noexcept;
+  void make_all(const Measure &measure, std::size_t part_bytes);
+  bool make_free_ones(const Measure &measure, std::size_t part_bytes);
+  std::optional<std::uint32_t> claim_next();
+  SensorFrame part(std::uint32_t frame, std::size_t sensor) const;
+  std::optional<std::uint32_t> next_after(std::uint32_t frame) const;
+  void add(WrittenPart part);
+  void publish();
+  std::string whole_text() const;
+  std::size_t sensor_count() const { return setup_.start.sensors.size(); }
 
   const Setup &setup_;
-  FrameRange frames_;
-  std::unique_ptr<OutputSet> files_; // of the frame that is published next
-  std::filesystem::path directory_;
-  RunRecord run_;
-  std::size_t whole_ = 0; // of the run's frames, those that are published
+  SequenceRequest request_;
+  RunHead run_;
+  std::optional<RunFolder> folder_;         // once it has begun
+  std::deque<std::uint32_t> to_do_, taken_; // by this process, as far as is known; by others
+  std::uint32_t to_do_at_start_ = 0;
+  WrittenFiles files_;             // of the frame that is published next, and
+  std::vector<FrameRecord> parts_; // its sensors' records
+  Made made_;
 };
 
 } // namespace pmdsim

@@ -7,6 +7,7 @@
 #include "host/report/report.h"
 
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace pmdsim {
 namespace {
@@ -21,6 +22,20 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
 }
 
 } // namespace
+
+std::string format_name(Format format) {
+  switch (format) {
+  case Format::exr:
+    return "exr";
+  case Format::npy:
+    return "npy";
+  case Format::png:
+    return "png";
+  case Format::csv:
+    return "csv";
+  }
+  throw std::logic_error("a format without a name");
+}
 
 void require_names_for_files(const std::vector<Sensor> &sensors) {
   for (const Sensor &sensor : sensors)

@@ -15,6 +15,8 @@
 namespace pmdsim {
 
 enum class Format { exr, npy, png, csv };
+// As the command line has it.
+std::string format_name(Format format);
 
 // Throws Error (input) where a sensor's name cannot be part of a file's name; to be asked before measuring.
 void require_names_for_files(const std::vector<Sensor> &sensors);

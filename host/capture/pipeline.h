@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <tbb/global_control.h>
@@ -42,33 +43,39 @@ struct PipelineItem {
   }
 };
 
-// For each i below `count`: `make(i)`, one at a time and in order; `work(i, what it made)`, several at once;
-// `finish(i, what came of it)`, one at a time and in order again. All on TBB's threads and the calling one,
-// each call on any of them. Beside the thing that is made at most `waiting` others are alive; with none, one
-// is finished before the next is made.
+// For each i from 0 on, as long as `has(i)`: `make(i)`, one at a time and in order; `work(i, what it made)`,
+// several at once; `finish(i, what came of it)`, one at a time and in order again. All on TBB's threads and
+// the calling one, each call on any of them. Beside the thing that is made at most `waiting` others are
+// alive; with none, one is finished before the next is made. `has` is called once for each i, before it is
+// made.
 //
 // Where a call throws, all things before that one are finished, and neither it nor any after it; the
 // exception comes out when nothing runs any more.
-template <class Make, class Work, class Finish>
-void run_pipeline(std::size_t count, std::size_t waiting, const Make &make, const Work &work,
+template <class Has, class Make, class Work, class Finish>
+void run_pipeline(const Has &has, std::size_t waiting, const Make &make, const Work &work,
                   const Finish &finish) {
   using Made = std::invoke_result_t<Make, std::size_t>;
   using Worked = std::invoke_result_t<Work, std::size_t, Made>;
   using Item = PipelineItem<Made, Worked>;
   using Handle = std::shared_ptr<Item>;
-  FirstFailure first_failure(count);
+  FirstFailure first_failure(std::numeric_limits<std::size_t>::max());
   std::exception_ptr failure;
   std::size_t next = 0;
 
   const auto make_next = [&](tbb::flow_control &control) -> Handle {
-    if (next == count || first_failure < next) {
+    Handle item = std::make_shared<Item>(Item{next, {}, {}, {}});
+    // Isolated: what waits in there for TBB's threads of its own takes up nothing of the pipeline's.
+    tbb::this_task_arena::isolate([&] {
+      item->attempt(first_failure, [&] {
+        if (has(item->index))
+          item->made.emplace(make(item->index));
+      });
+    });
+    if (!item->made && !item->failure) {
       control.stop();
       return {};
     }
-    Handle item = std::make_shared<Item>(Item{next++, {}, {}, {}});
-    // Isolated: what waits in there for TBB's threads of its own takes up nothing of the pipeline's.
-    tbb::this_task_arena::isolate(
-        [&] { item->attempt(first_failure, [&] { item->made.emplace(make(item->index)); }); });
+    ++next;
     return item;
   };
   const auto work_on = [&](const Handle &item) -> Handle {

@@ -18,7 +18,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 
 void remember(int) { interrupted = true; }
 
-constexpr auto least_interval = std::chrono::milliseconds(100);
+constexpr auto interval_of_bar = std::chrono::milliseconds(100);
+constexpr auto interval_of_lines = std::chrono::minutes(1);
 constexpr const char *clear_line = "\r\x1b[K";
 
 std::string time_text(double time_s) {
@@ -26,6 +27,14 @@ std::string time_text(double time_s) {
     return fmt::format("{:.0f} s", std::ceil(time_s));
   return time_s <= 7200.0 ? fmt::format("{:.0f} min", std::ceil(time_s / 60.0))
                           : fmt::format("{:.1f} h", time_s / 3600.0);
+}
+
+// "50 %, 12 s left".
+std::string share_text(double done, double elapsed_s) {
+  std::string text = fmt::format("{:.0f} %", 100.0 * done);
+  if (done > 0.0)
+    text += ", " + time_text(elapsed_s * (1.0 - done) / done) + " left";
+  return text;
 }
 
 } // namespace
@@ -36,6 +45,9 @@ void stop_on_signals() {
   action.sa_flags = SA_RESTART; // writes under way go on; the flag is looked at between them
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 void throw_if_interrupted() {
@@ -46,8 +58,13 @@ void throw_if_interrupted() {
 ProgressBar::ProgressBar(double work) : work_(work), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_)
+  if (on_terminal_ && last_shown_)
     std::fputs(clear_line, stderr);
+}
+
+void ProgressBar::reach(double work) {
+  done_ = work;
+  step_ = 0.0;
 }
 
 void ProgressBar::begin(std::string label, double work) {
@@ -58,16 +75,17 @@ void ProgressBar::begin(std::string label, double work) {
 
 void ProgressBar::update(double fraction) {
   const auto now = Clock::now();
-  if (!on_terminal_ || (shown_ && now - last_shown_ < least_interval))
+  if (on_terminal_ ? last_shown_ && now - *last_shown_ < interval_of_bar
+                   : now - last_shown_.value_or(start_) < interval_of_lines)
     return;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fputs(
-      fmt::format("{}{} {}", clear_line, label_, progress_text((done_ + fraction * step_) / work_, elapsed_s))
-          .c_str(),
-      stderr);
+  const double share = (done_ + fraction * step_) / work_;
+  const std::string text = on_terminal_
+                               ? fmt::format("{}{} {}", clear_line, label_, progress_text(share, elapsed_s))
+                               : progress_line(label_, share, elapsed_s);
+  std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
   last_shown_ = now;
-  shown_ = true;
 }
 
 std::function<void(double)> interruptible_progress(ProgressBar &bar) {
@@ -81,10 +99,11 @@ std::string progress_text(double fraction, double elapsed_s) {
   constexpr std::size_t width = 20; // so that a line of a terminal holds label, bar and time
   const double done = std::clamp(fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(done * width);
-  std::string text = fmt::format("[{:#<{}}{:-<{}}] {:.0f} %", "", filled, "", width - filled, 100.0 * done);
-  if (done > 0.0)
-    text += ", " + time_text(elapsed_s * (1.0 - done) / done) + " left";
-  return text;
+  return fmt::format("[{:#<{}}{:-<{}}] {}", "", filled, "", width - filled, share_text(done, elapsed_s));
+}
+
+std::string progress_line(const std::string &label, double fraction, double elapsed_s) {
+  return fmt::format("pmdsim: {}: {}\n", label, share_text(std::clamp(fraction, 0.0, 1.0), elapsed_s));
 }
 
 } // namespace pmdsim

@@ -1,22 +1,24 @@
 #pragma once
-// The progress of a long command, and its interruption: a bar on stderr with the time left, only where stderr
-// is a terminal, and SIGINT and SIGTERM, which become an Error at the next safe point, so that destructors
-// clean up.
+// The progress of a long command, and its interruption: on stderr a bar with the time left, or a line a
+// minute where it is no terminal; and SIGINT, SIGTERM and SIGHUP, which become an Error at the next safe
+// point, so that destructors clean up.
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace pmdsim {
 
-// Installs the handlers of the signals; once, at the start.
+// Installs the handlers of the signals; once, at the start. SIGHUP stays ignored where nohup has made it so.
 void stop_on_signals();
 
 // Throws Error (interrupted) where a signal has come.
 void throw_if_interrupted();
 
 // A bar of a command's steps, one after the other. It is shown from the first update on, and cleared when it
-// dies. Debian 12 has no library for it.
+// dies. Where stderr is no terminal it is a line a minute, from the first minute's end on. Debian 12 has no
+// library for it.
 class ProgressBar {
 public:
   // `work` is that of all steps together, in any unit.
@@ -25,6 +27,8 @@ public:
   ProgressBar(const ProgressBar &) = delete;
   ProgressBar &operator=(const ProgressBar &) = delete;
 
+  // So much is done by now, by this command or others.
+  void reach(double work);
   // Begins the next step; all before it are done.
   void begin(std::string label, double work);
   // `fraction` of the step done, 0 to 1. Cheap enough to be called often.
@@ -36,9 +40,8 @@ private:
   std::string label_;
   double work_, done_ = 0.0, step_ = 0.0; // of all steps, of those before the current one, of the current one
   bool on_terminal_;
-  bool shown_ = false;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point last_shown_;
+  std::optional<Clock::time_point> last_shown_;
 };
 
 // For what reports its progress: updates the bar and throws Error (interrupted) once a signal has come. `bar`
@@ -47,5 +50,7 @@ std::function<void(double)> interruptible_progress(ProgressBar &bar);
 
 // "[##########----------] 50 %, 12 s left"; no time where nothing is done yet.
 std::string progress_text(double fraction, double elapsed_s);
+// For a log: "pmdsim: frame 3/20, pmd: 50 %, 12 s left\n".
+std::string progress_line(const std::string &label, double fraction, double elapsed_s);
 
 } // namespace pmdsim

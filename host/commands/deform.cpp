@@ -22,7 +22,7 @@ using Maps = std::vector<std::vector<float>>;
 
 // The report of one sensor's frame, to scripts and people.
 struct DeformedFrame {
-  FrameRecord record;                              // its accuracy is the deformation's
+  FrameRecord record{};                            // its accuracy is the deformation's
   std::vector<DeformationStatistics> statistics{}; // of each frequency
 };
 
@@ -108,23 +108,6 @@ std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, De
   return pair;
 }
 
-// Deformations and their statistics are computed where the frame is written, while the next is measured.
-std::deque<DeformedFrame> deform(Capture &capture) {
-  std::deque<DeformedFrame> deformed; // its elements stay where they are, as writers fill them in
-  const auto measure = [&](const SensorFrame &at) -> MeasuredPart {
-    DeformedFrame &told = deformed.emplace_back();
-    const std::shared_ptr<TakenPair> pair = take_pair(capture, at, told);
-    return {record_of(pair->bistatic, at), [pair, &told, &formats = capture.formats()] {
-              pair->deformations_mm = deformations_mm(*pair);
-              for (const std::vector<float> &deformation : pair->deformations_mm)
-                told.statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
-              return deformation_files(pair, told.record.frame, formats);
-            }};
-  };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2), 2.0);
-  return deformed;
-}
-
 const std::array<std::pair<const char *, double DeformationStatistics::*>, 5> figures{
     {{"mean", &DeformationStatistics::mean_mm},
      {"min", &DeformationStatistics::min_mm},
@@ -139,7 +122,7 @@ ordered_json statistics_json(const DeformationStatistics &statistics) {
   return json;
 }
 
-ordered_json frame_json(const DeformedFrame &frame) {
+ordered_json deformed_json(const DeformedFrame &frame) {
   const FrameRecord &record = frame.record;
   ordered_json json{{"sensor", record.sensor.name},
                     {"frame", record.frame},
@@ -152,30 +135,66 @@ ordered_json frame_json(const DeformedFrame &frame) {
   return json;
 }
 
-ordered_json report_json(const std::deque<DeformedFrame> &frames, const FrameSequence &sequence) {
-  return {{"deformation_mm", statistics_json(frames.front().statistics.front())},
-          {"frames", array_of(frames, frame_json)},
-          {"outputs", sequence.paths()}};
-}
-
-// The first frame's, sensor by sensor.
-std::vector<const DeformedFrame *> first_of(const std::deque<DeformedFrame> &frames) {
-  std::vector<const DeformedFrame *> first;
-  for (const DeformedFrame &frame : frames)
-    if (frame.record.frame == frames.front().record.frame)
-      first.push_back(&frame);
+// Deformations and their statistics are computed where the frame is written, while the next is measured.
+// Returns the sensors' parts of the first frame that is made here.
+std::deque<DeformedFrame> deform(Capture &capture) {
+  std::deque<DeformedFrame> first; // its elements stay where they are, as writers fill them in
+  const auto measure = [&](const SensorFrame &at) -> MeasuredPart {
+    auto told = std::make_shared<DeformedFrame>();
+    const std::shared_ptr<TakenPair> pair = take_pair(capture, at, *told);
+    DeformedFrame *kept =
+        first.empty() || first.front().record.frame == at.frame ? &first.emplace_back(*told) : nullptr;
+    return {record_of(pair->bistatic, at),
+            [pair, told, kept, &formats = capture.formats()](FrameRecord &record) {
+              pair->deformations_mm = deformations_mm(*pair);
+              for (const std::vector<float> &deformation : pair->deformations_mm)
+                told->statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
+              record.told = deformed_json(*told);
+              if (kept)
+                kept->statistics = told->statistics;
+              return deformation_files(pair, told->record.frame, formats);
+            }};
+  };
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2), 2.0);
   return first;
 }
 
+// Where there are no frames, as in a shard of few, there is no first one.
+ordered_json first_statistics_json(const Capture &capture) {
+  ordered_json first;
+  capture.for_each_sensor_frame([&](const ordered_json &of_sensor) {
+    if (first.is_null())
+      first = of_sensor.at("told").at("deformation_mm").at(0);
+  });
+  return first;
+}
+
+void print_deform_json(const Capture &capture) {
+  const FrameSequence &sequence = capture.sequence();
+  JsonPieces pieces([](std::string_view text) { print(std::string(text)); },
+                    {{"deformation_mm", first_statistics_json(capture)}});
+  pieces.list("frames", [&](const JsonPieces::Add &add) {
+    capture.for_each_sensor_frame([&](const ordered_json &of_sensor) { add(of_sensor.at("told")); });
+  });
+  pieces.list("outputs", [&](const JsonPieces::Add &add) {
+    capture.for_each_sensor_frame([&](const ordered_json &of_sensor) {
+      for (const std::string name : of_sensor.at("manifest").at("outputs"))
+        add(sequence.path_of(name));
+    });
+    add(sequence.path_of(manifest_name));
+  });
+  pieces.end();
+}
+
 // One row a sensor and frequency.
-std::string table_text(const std::vector<const DeformedFrame *> &frames) {
+std::string table_text(const std::deque<DeformedFrame> &frames) {
   std::size_t width = 0;
   std::vector<std::pair<std::string, DeformationStatistics>> rows;
-  for (const DeformedFrame *frame : frames)
-    for (std::size_t i = 0; i < frame->statistics.size(); ++i) {
-      const Sensor &sensor = frame->record.sensor;
+  for (const DeformedFrame &frame : frames)
+    for (std::size_t i = 0; i < frame.statistics.size(); ++i) {
+      const Sensor &sensor = frame.record.sensor;
       rows.emplace_back(fmt::format("{}, {}", sensor.name, frequency_text(sensor.modulation_hz[i])),
-                        frame->statistics[i]);
+                        frame.statistics[i]);
       width = std::max(width, rows.back().first.size());
     }
   std::string text(width, ' ');
@@ -189,15 +208,17 @@ std::string table_text(const std::vector<const DeformedFrame *> &frames) {
   return text + '\n';
 }
 
-std::string report_text(const std::deque<DeformedFrame> &frames, const Capture &capture) {
-  const std::vector<const DeformedFrame *> first = first_of(frames);
-  std::string text =
-      capture.device_text() + "deformation (bistatic - monostatic distance), mm\n" + table_text(first);
-  if (first.size() < frames.size())
-    text += fmt::format("of frame {}; --json tells of all\n", first.front()->record.frame);
-  for (const DeformedFrame *frame : first)
-    if (const std::string said = accuracy_text(frame->record.mode, frame->record.accuracy); !said.empty())
-      text += fmt::format("\n{}\n{}", frame->record.sensor.name, said);
+// `first` is empty where nothing was left to do here.
+std::string report_text(const std::deque<DeformedFrame> &first, const Capture &capture) {
+  std::string text = capture.device_text();
+  if (!first.empty()) {
+    text += "deformation (bistatic - monostatic distance), mm\n" + table_text(first);
+    if (capture.frame_count() > 1)
+      text += fmt::format("of frame {}; --json tells of all\n", first.front().record.frame);
+  }
+  for (const DeformedFrame &frame : first)
+    if (const std::string said = accuracy_text(frame.record.mode, frame.record.accuracy); !said.empty())
+      text += fmt::format("\n{}\n{}", frame.record.sensor.name, said);
   return text + "\n" + capture.sequence().written_text();
 }
 
@@ -207,8 +228,11 @@ void run_deform(const Options &options) {
   Setup setup = requested_setup(options.capture);
   leave_out_electronics(setup);
   Capture capture(options.capture, std::move(setup), "deform", false);
-  const std::deque<DeformedFrame> deformed = deform(capture);
-  print(options.json ? json_text(report_json(deformed, capture.sequence())) : report_text(deformed, capture));
+  const std::deque<DeformedFrame> first = deform(capture);
+  if (options.json)
+    print_deform_json(capture);
+  else
+    print(report_text(first, capture));
 }
 
 } // namespace pmdsim

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace pmdsim {
@@ -48,36 +49,34 @@ std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
 }
 
 // Beside its own files a frame names the manifest, which says how to read them.
-ordered_json frame_json(const FrameRecord &frame, const FrameSequence &sequence) {
-  ordered_json paths = array_of(frame.outputs, [&](const auto &name) { return sequence.path_of(name); });
-  paths.push_back(sequence.path_of(manifest_name));
-  ordered_json json{{"sensor", frame.sensor.name},
-                    {"frame", frame.frame},
-                    {"time_s", frame.time_s},
-                    {"frame_ms", frame.frame_ms},
-                    {"passes_ms", passes_json(frame.passes)}};
-  json.update(accuracy_json(frame));
-  if (frame.bounces)
-    json["bounces"] = bounces_json(*frame.bounces);
-  json["outputs"] = paths;
+ordered_json frame_told(const ordered_json &of_sensor, const FrameSequence &sequence) {
+  ordered_json json = told_json(of_sensor);
+  json["outputs"] = array_of(of_sensor.at("manifest").at("outputs"),
+                             [&](const std::string &name) { return sequence.path_of(name); });
+  json["outputs"].push_back(sequence.path_of(manifest_name));
   return json;
 }
 
-ordered_json report_json(const FrameSequence &sequence) {
-  const RunRecord &run = sequence.run();
-  const auto json_of = [&](const FrameRecord &frame) { return frame_json(frame, sequence); };
-  return {{"device", run.device},
-          {"mode", mode_name(run.accuracy.mode)},
-          {"frames", array_of(run.frames, json_of)}};
+void print_render_json(const Capture &capture) {
+  const RunHead &run = capture.sequence().run();
+  JsonPieces pieces([](std::string_view text) { print(std::string(text)); },
+                    {{"device", run.device}, {"mode", mode_name(run.accuracy.mode)}});
+  pieces.list("frames", [&](const JsonPieces::Add &add) {
+    capture.for_each_sensor_frame(
+        [&](const ordered_json &of_sensor) { add(frame_told(of_sensor, capture.sequence())); });
+  });
+  pieces.end();
 }
 
-// Writes all frames and returns what is to be said of the first.
+// Writes all frames and returns what is to be said of the first that is made here.
 std::string render(Capture &capture) {
   std::string text;
+  std::optional<std::uint32_t> first;
   const auto measure = [&](const SensorFrame &at) {
     const auto taken = capture.share(capture.take(at, Light::beside_lens, at.next_s));
-    if (at.frame == capture.first_frame())
+    if (at.frame == first.value_or(at.frame))
       text += frame_text(*taken, at.frame);
+    first = first.value_or(at.frame);
     return rendered_frame(taken, at, capture.formats());
   };
   capture.write(measure, bytes_of_largest_frame(capture.setup(), true));
@@ -89,8 +88,10 @@ std::string render(Capture &capture) {
 void run_render(const Options &options) {
   Capture capture(options.capture, "render", true);
   const std::string text = render(capture);
-  print(options.json ? json_text(report_json(capture.sequence()))
-                     : capture.device_text() + text + capture.sequence().written_text());
+  if (options.json)
+    print_render_json(capture);
+  else
+    print(capture.device_text() + text + capture.sequence().written_text());
 }
 
 } // namespace pmdsim

@@ -98,6 +98,9 @@ nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, d
   nlohmann::ordered_json json = frame_json({taken.sensor, frame, time_s, measured.frame_ms, measured.passes,
                                             taken.mode, measured.accuracy, measured.bounces});
   json.erase("outputs");
+  json["frame_ms"] = measured.frame_ms;
+  json["passes_ms"] = passes_json(measured.passes);
+  json["check_ms"] = measured.accuracy.check_ms;
   const std::string warning = unpromised_text(measured.accuracy, max_error_m);
   json["warnings"] = warning.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json{warning};
   return json;

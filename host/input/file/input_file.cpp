@@ -1,5 +1,7 @@
 #include "host/input/file/input_file.h"
 
+#include "host/input/file/files_read.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -68,6 +70,7 @@ std::string front_of(const Stream &stream, std::size_t length_bytes, const std::
   if (std::fread(bytes.data(), 1, length_bytes, stream.get()) != length_bytes)
     throw refused(file, std::ferror(stream.get()) ? reason(errno) : "became shorter while it was read",
                   named_at);
+  FilesRead::note(file, bytes);
   return bytes;
 }
 

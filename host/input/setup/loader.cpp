@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace pmdsim {
@@ -154,15 +155,13 @@ void warn(const SceneSource &source, Setup &setup) {
     std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
 }
 
-// `setup` has its as_used and no more.
-void fill(const SceneSource &source, const Place &root, Trajectories trajectories, Setup &setup) {
+// `setup` has its as_used and its frames; `scene` is that of the source at their start.
+void fill(const SceneSource &source, GltfScene scene, const Place &root, Trajectories trajectories, Setup &setup) {
   setup.file = root.file;
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;
   setup.shadows = setup.as_used.at("shadows") == "auto" ? Shadows::automatic : Shadows::off;
   setup.bounces = bounces_of(setup.as_used, root);
-  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
-  GltfScene scene = source.at(setup.frames.start_s);
   set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
   setup.start.scene = std::move(scene.scene);
   warn(source, setup);
@@ -174,14 +173,14 @@ constexpr const char *given_scene = "(given)"; // as the setup's "scene"
 
 } // namespace
 
-struct SetupLoader::Files {
-  const GltfFile &get(const std::filesystem::path &file, const Place &named_at) {
-    const auto known = scenes.find(file);
-    return known != scenes.end() ? known->second
-                                 : scenes.emplace(file, load_gltf(file, named_at)).first->second;
-  }
+// A scene's file, and all files that were read for it.
+struct KnownScene {
+  GltfFile gltf;
+  std::vector<FileRead> inputs;
+};
 
-  std::map<std::filesystem::path, GltfFile> scenes;
+struct SetupLoader::Files {
+  std::map<std::filesystem::path, KnownScene> scenes;
 };
 
 SetupLoader::SetupLoader() : files_(std::make_unique<Files>()) {}
@@ -191,21 +190,36 @@ SetupLoader &SetupLoader::operator=(SetupLoader &&) noexcept = default;
 
 Setup SetupLoader::load(const SetupDocument &document) {
   const Place root{document.file};
+  const std::filesystem::path folder = document.file.parent_path();
   check_frames(document, root);
   Setup setup;
   setup.as_used = checked_setup(document);
-  const std::filesystem::path file =
-      document.file.parent_path() / setup.as_used.at("scene").get<std::string>();
-  const GltfFile &gltf = files_->get(file, root / "scene");
+  const FilesRead beside_scene(folder);
   const Trajectories trajectories = read_trajectories(setup.as_used, root);
+  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+
+  const std::filesystem::path file = folder / setup.as_used.at("scene").get<std::string>();
+  auto known = files_->scenes.find(file);
+  std::optional<FilesRead> of_scene;
+  if (known == files_->scenes.end()) {
+    of_scene.emplace(folder);
+    known = files_->scenes.emplace(file, KnownScene{load_gltf(file, root / "scene"), {}}).first;
+  }
+  const GltfFile &gltf = known->second.gltf;
   const auto at = [gltf, trajectories, root, used = setup.as_used](double time_s) {
     return gltf.at(time_s, placed_nodes(used, root, trajectories, time_s));
   };
-  fill({file, at, &gltf}, root, trajectories, setup);
+  GltfScene scene = at(setup.frames.start_s); // which reads textures
+  if (of_scene)
+    known->second.inputs = of_scene->list();
+  of_scene.reset();
+  fill({file, at, &gltf}, std::move(scene), root, trajectories, setup);
+  setup.inputs = known->second.inputs;
+  std::ranges::copy(beside_scene.list(), std::back_inserter(setup.inputs));
   return setup;
 }
 
-Setup SetupLoader::load(const SetupDocument &document, std::shared_ptr<const Scene> scene) {
+Setup SetupLoader::load(const SetupDocument &document, std::shared_ptr<const Scene> given) {
   const Place root{document.file};
   check_frames(document, root);
   SetupDocument with_scene = document;
@@ -217,8 +231,10 @@ Setup SetupLoader::load(const SetupDocument &document, std::shared_ptr<const Sce
   setup.as_used = checked_setup(with_scene);
   if (!setup.as_used.at("nodes").empty())
     throw input_error(root / "nodes", "expected none, as the scene that is given has no nodes");
-  const auto at = [scene](double) { return GltfScene{given_scene, *scene, {}}; };
-  fill({given_scene, at, nullptr}, root, read_trajectories(setup.as_used, root), setup);
+  const Trajectories trajectories = read_trajectories(setup.as_used, root);
+  setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+  const auto at = [given](double) { return GltfScene{given_scene, *given, {}}; };
+  fill({given_scene, at, nullptr}, at(setup.frames.start_s), root, trajectories, setup);
   return setup;
 }
 

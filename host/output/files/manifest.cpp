@@ -16,7 +16,8 @@ ordered_json asked_json(const Accuracy &accuracy) {
   };
   return {{"mode", mode_name(accuracy.mode)},
           {"max_error_m", bound(accuracy.max_error_m)},
-          {"max_amplitude_error", bound(accuracy.max_amplitude_error)}};
+          {"max_amplitude_error", bound(accuracy.max_amplitude_error)},
+          {"precision", accuracy.precision ? ordered_json(precision_name(*accuracy.precision)) : nullptr}};
 }
 
 // All lines but the first begin with `spaces` more.
@@ -96,6 +97,22 @@ ordered_json passes_json(const std::vector<PassTime> &passes) {
   return json;
 }
 
+ordered_json head_json(const RunHead &run) {
+  ordered_json head{{"program", "pmdsim"},
+                    {"version", PMDSIM_VERSION},
+                    {"command", run.command},
+                    {"device", run.device},
+                    {"driver", run.driver}};
+  head.update(asked_json(run.accuracy));
+  if (run.paths > 0)
+    head["paths"] = run.paths;
+  head["formats"] = run.formats;
+  head["inputs"] = run.inputs;
+  head["setup"] = run.setup;
+  head["points"] = how_to_make_points();
+  return head;
+}
+
 ordered_json frame_json(const FrameRecord &record) {
   ordered_json frame{{"sensor", record.sensor.name},
                      {"frame", record.frame},
@@ -106,36 +123,33 @@ ordered_json frame_json(const FrameRecord &record) {
                      {"waveform", waveform_json(record.sensor.waveform)},
                      {"taps", record.sensor.taps},
                      {"tap_interval_s", record.sensor.tap_interval_s},
-                     {"camera", camera_json(record.sensor)},
-                     {"frame_ms", record.frame_ms},
-                     {"passes_ms", passes_json(record.passes)}};
+                     {"camera", camera_json(record.sensor)}};
   frame.update(accuracy_json(record));
+  frame.erase("check_ms");
   if (record.bounces)
     frame["bounces"] = bounces_json(*record.bounces);
-  frame["outputs"] = record.outputs;
+  frame["outputs"] = array_of(record.outputs, [](const NamedFile &file) { return file.name; });
   return frame;
-}
-
-void write_manifest(OutputFile &file, const RunRecord &run) {
-  ordered_json head{{"program", "pmdsim"},
-                    {"version", PMDSIM_VERSION},
-                    {"command", run.command},
-                    {"device", run.device},
-                    {"driver", run.driver}};
-  head.update(asked_json(run.accuracy));
-  head["setup"] = run.setup;
-  head["points"] = how_to_make_points();
-  std::string text = json_text(head);
-  text.erase(text.find_last_of('}') - 1); // the end of the object and its line
-  file.write(text + ",\n  \"frames\": [");
-  const char *separator = "\n    ";
-  for (const FrameRecord &record : run.frames)
-    file.write(std::exchange(separator, ",\n    ") + indented(frame_json(record), 4));
-  file.write("\n  ]\n}\n");
 }
 
 std::string json_text(const ordered_json &json) {
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
+
+JsonPieces::JsonPieces(Sink sink, const ordered_json &head) : sink_(std::move(sink)) {
+  const std::string text = json_text(head);
+  sink_(std::string_view(text).substr(0, text.find_last_of('}') - 1)); // without its end and that line's
+}
+
+void JsonPieces::list(const std::string &key, const std::function<void(const Add &)> &fill) {
+  sink_(",\n  " + ordered_json(key).dump() + ": [");
+  bool any = false;
+  fill([&](const ordered_json &element) {
+    sink_((std::exchange(any, true) ? ",\n    " : "\n    ") + indented(element, 4));
+  });
+  sink_(any ? "\n  ]" : "]");
+}
+
+void JsonPieces::end() { sink_("\n}\n"); }
 
 } // namespace pmdsim

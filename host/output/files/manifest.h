@@ -13,14 +13,22 @@
 
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
-#include "host/output/files/output_file.h"
 
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
+
+// A file that is written: its name without directory.
+struct NamedFile {
+  std::string name;
+  std::uint64_t bytes = 0;
+};
 
 // One sensor's frame and the files that hold it.
 struct FrameRecord {
@@ -32,15 +40,19 @@ struct FrameRecord {
   Mode mode = Mode::exact; // that it was taken in
   AccuracyReport accuracy;
   std::optional<BouncesReport> bounces{}; // nothing without
-  std::vector<std::string> outputs{};     // file names without directory
+  std::vector<NamedFile> outputs{};
+  nlohmann::ordered_json told{}; // what the command tells of it beyond that
 };
 
-struct RunRecord {
+// What a run is, its frames aside: all that decides what they hold.
+struct RunHead {
   std::string command; // "render" or "deform"
   std::string device, driver;
   Accuracy accuracy;            // asked for
+  std::uint32_t paths = 0;      // asked of the reference; 0: as many as it chooses
   nlohmann::ordered_json setup; // as used
-  std::vector<FrameRecord> frames{};
+  nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
+  std::vector<std::string> formats{};
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
@@ -89,16 +101,32 @@ nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 // elements, lines, products, claimed_m (null where nothing is claimed).
 nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
-// What the manifest says of a frame.
-nlohmann::ordered_json frame_json(const FrameRecord &record);
-
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
-// As json_text() would, frame by frame: a long run's manifest is large. Throws Error (output).
-void write_manifest(OutputFile &file, const RunRecord &run);
+// What stands in a manifest before its frames: program, version, command, device, driver, mode and errors
+// that were asked for, formats, inputs, setup, points.
+nlohmann::ordered_json head_json(const RunHead &run);
+// A frame as it stands there: what is the same whenever and wherever the run is made, so without times.
+nlohmann::ordered_json frame_json(const FrameRecord &record);
 
 // Indented, with a final newline; a NaN becomes null.
 std::string json_text(const nlohmann::ordered_json &json);
+
+// An object's json_text(), piece by piece, as a long run's lists are large.
+class JsonPieces {
+public:
+  using Sink = std::function<void(std::string_view)>;
+  // Writes what is in `head`, which has at least one key.
+  JsonPieces(Sink sink, const nlohmann::ordered_json &head);
+
+  // Writes a list; `fill` is called with what adds an element.
+  using Add = std::function<void(const nlohmann::ordered_json &)>;
+  void list(const std::string &key, const std::function<void(const Add &)> &fill);
+  void end();
+
+private:
+  Sink sink_;
+};
 
 } // namespace pmdsim

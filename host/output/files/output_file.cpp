@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <random>
+#include <sys/stat.h>
 #include <sys/uio.h>
 #include <system_error>
 #include <unistd.h>
@@ -24,13 +25,26 @@ Error write_error(const std::filesystem::path &path, int error_number) {
                                         std::generic_category().message(error_number))};
 }
 
-// Hidden, and random because another run may write to the same directory.
-std::filesystem::path temporary_name(const std::filesystem::path &path) {
-  std::random_device random;
-  return path.parent_path() / fmt::format(".{}.{:08x}.partial", path.filename().string(), random());
-}
+constexpr std::string_view temporary_ending = ".partial";
+constexpr std::size_t random_digits = 8;
 
 } // namespace
+
+std::filesystem::path temporary_name(const std::filesystem::path &path) {
+  std::random_device random;
+  return path.parent_path() /
+         fmt::format(".{}.{:0{}x}{}", path.filename().string(), random(), random_digits, temporary_ending);
+}
+
+std::optional<std::string> name_of_temporary(const std::string &temporary) {
+  constexpr std::size_t added = 1 + random_digits + temporary_ending.size(); // behind the name
+  if (temporary.size() <= 1 + added || temporary.front() != '.' || !temporary.ends_with(temporary_ending))
+    return std::nullopt;
+  const std::string random = temporary.substr(temporary.size() - added, 1 + random_digits);
+  if (random.front() != '.' || random.find_first_not_of("0123456789abcdef", 1) != std::string::npos)
+    return std::nullopt;
+  return temporary.substr(1, temporary.size() - 1 - added);
+}
 
 OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path)), temporary_(temporary_name(path_)) {
@@ -106,6 +120,11 @@ std::uint64_t OutputFile::tell() const {
 
 void OutputFile::close() {
   if (std::fflush(stream_) != 0 && first_error_ == 0)
+    first_error_ = errno;
+  struct stat status {};
+  if (::fstat(::fileno(stream_), &status) == 0)
+    size_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  else if (first_error_ == 0)
     first_error_ = errno;
   if (std::fclose(std::exchange(stream_, nullptr)) != 0 && first_error_ == 0)
     first_error_ = errno;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -40,6 +42,8 @@ public:
   // Throws what can be foreseen of publish(): that the name belongs to a directory.
   void check_publishable() const;
   void publish();
+  // Of the closed file.
+  std::uint64_t size_bytes() const { return size_bytes_; }
   // Takes a published file back; for when a later file of the same set fails.
   void withdraw() noexcept;
 
@@ -52,8 +56,15 @@ private:
   std::filesystem::path path_;
   std::filesystem::path temporary_; // empty once renamed or removed
   std::FILE *stream_ = nullptr;     // null once closed
-  int first_error_ = 0;             // errno of the first write that failed
+  std::uint64_t size_bytes_ = 0;
+  int first_error_ = 0; // errno of the first write that failed
 };
+
+// Hidden and beside `path`, and another each time, as several processes may write to one directory:
+// ".NAME.0123abcd.partial".
+std::filesystem::path temporary_name(const std::filesystem::path &path);
+// The name without what temporary_name() has added; nothing where that would not have given it.
+std::optional<std::string> name_of_temporary(const std::string &temporary);
 
 // Whatever is no directory; nothing is done where there is none. Throws Error (output) as an OutputFile does.
 void remove_file(const std::filesystem::path &path);

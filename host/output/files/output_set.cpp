@@ -3,43 +3,15 @@
 #include "engine/model/error.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <fmt/format.h>
 #include <iterator>
-#include <ranges>
-#include <system_error>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 namespace pmdsim {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path &directory, const std::error_code &error) {
-  throw Error(ExitCode::output,
-              fmt::format("{}: output directory cannot be written: {}", directory.string(), error.message()));
-}
-
-std::vector<fs::path> missing_directories(const fs::path &directory) {
-  std::vector<fs::path> missing;
-  std::error_code ignored;
-  for (fs::path path = directory; !path.empty() && !fs::exists(path, ignored); path = path.parent_path())
-    missing.insert(missing.begin(), path);
-  return missing;
-}
-
-void remove_if_empty(const std::vector<fs::path> &directories) {
-  std::error_code ignored;
-  for (const fs::path &path : std::views::reverse(directories))
-    fs::remove(path, ignored);
-}
-
-// A trailing slash would make parent_path() name the same directory again.
-fs::path without_trailing_slash(const fs::path &path) {
-  return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
-}
 
 std::unique_ptr<OutputFile> write_file(const fs::path &directory, const FileToWrite &file) {
   if (file.name.find('/') != std::string::npos)
@@ -60,27 +32,8 @@ WrittenFiles write_files(const fs::path &directory, const std::vector<FileToWrit
   return written;
 }
 
-OutputSet::OutputSet(const fs::path &directory)
-    : directory_(without_trailing_slash(directory)), created_(missing_directories(directory_)) {
-  std::error_code error;
-  fs::create_directories(directory_, error);
-  if (!error && ::access(directory_.c_str(), W_OK | X_OK) != 0)
-    error = std::error_code(errno, std::generic_category());
-  if (error) {
-    remove_if_empty(created_);
-    fail(directory_, error);
-  }
-}
-
-OutputSet::~OutputSet() {
-  if (published_)
-    return;
-  files_.clear();
-  remove_if_empty(created_);
-}
-
 void OutputSet::add(const std::string &name, const std::function<void(OutputFile &)> &write) {
-  files_.push_back(write_file(directory_, {name, write}));
+  files_.push_back(write_file(directory(), {name, write}));
 }
 
 void OutputSet::add(WrittenFiles files) { std::ranges::move(files, std::back_inserter(files_)); }
@@ -97,7 +50,7 @@ void OutputSet::publish(const std::vector<std::string> &obsolete) {
   for (const auto &file : files_)
     file->check_publishable();
   for (const std::string &name : obsolete)
-    remove_file(directory_ / name);
+    remove_file(directory() / name);
   std::size_t renamed = 0;
   try {
     for (; renamed < files_.size(); ++renamed)
@@ -107,7 +60,7 @@ void OutputSet::publish(const std::vector<std::string> &obsolete) {
       files_[i]->withdraw();
     throw;
   }
-  published_ = true;
+  directory_.stay();
 }
 
 } // namespace pmdsim

@@ -1,6 +1,7 @@
 #pragma once
 // Files that get their names in a directory together: all of them, or none.
 
+#include "host/output/files/output_directory.h"
 #include "host/output/files/output_file.h"
 
 #include <filesystem>
@@ -26,15 +27,11 @@ WrittenFiles write_files(const std::filesystem::path &directory, const std::vect
 
 class OutputSet {
 public:
-  // Creates the directory and its parents. Throws Error (output) where that fails or nothing can be written
-  // there.
-  explicit OutputSet(const std::filesystem::path &directory);
-  // Unpublished: removes the temporaries and those directories that the constructor made.
-  ~OutputSet();
-  OutputSet(const OutputSet &) = delete;
-  OutputSet &operator=(const OutputSet &) = delete;
+  // As OutputDirectory, whose new directories stay once the set is published. A set that dies unpublished
+  // removes its temporaries.
+  explicit OutputSet(const std::filesystem::path &directory) : directory_(directory) {}
 
-  const std::filesystem::path &directory() const { return directory_; }
+  const std::filesystem::path &directory() const { return directory_.path(); }
 
   // Writes one file by calling `write`; it gets its name only by publish(). `name` is a plain file name.
   void add(const std::string &name, const std::function<void(OutputFile &)> &write);
@@ -50,10 +47,8 @@ public:
   void publish(const std::vector<std::string> &obsolete = {});
 
 private:
-  std::filesystem::path directory_;
-  std::vector<std::filesystem::path> created_; // outermost first
+  OutputDirectory directory_; // removed, where it is empty, after the files
   WrittenFiles files_;
-  bool published_ = false;
 };
 
 } // namespace pmdsim

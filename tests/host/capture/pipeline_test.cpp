@@ -44,6 +44,11 @@ private:
   std::atomic<int> *alive_;
 };
 
+// Whether there is an i-th of `count` things.
+auto below(std::size_t count) {
+  return [count](std::size_t i) { return i < count; };
+}
+
 std::vector<std::size_t> up_to(std::size_t count) {
   std::vector<std::size_t> all(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -68,7 +73,7 @@ struct Failing {
     };
     try {
       run_pipeline(
-          10, waiting,
+          below(10), waiting,
           [&](std::size_t i) {
             fail_at(Step::make, i);
             return i;
@@ -93,7 +98,7 @@ TEST_CASE("things are made and finished in order, however long the work on each 
   const auto waiting = GENERATE(as<std::size_t>{}, 0, 1, 2, 7);
   std::vector<std::size_t> made, finished;
   run_pipeline(
-      40, waiting,
+      below(40), waiting,
       [&](std::size_t i) {
         made.push_back(i);
         return 10 * i;
@@ -113,7 +118,7 @@ TEST_CASE("things are made and finished in order, however long the work on each 
 TEST_CASE("the next thing is made while one is worked on") {
   std::atomic<bool> next_is_made = false, seen = false;
   run_pipeline(
-      2, 1,
+      below(2), 1,
       [&](std::size_t i) {
         if (i == 1)
           next_is_made = true;
@@ -131,7 +136,7 @@ TEST_CASE("the next thing is made while one is worked on") {
 TEST_CASE("two things are worked on at once") {
   std::array<std::atomic<bool>, 2> begun{}, seen{};
   run_pipeline(
-      2, 2, [](std::size_t i) { return i; },
+      below(2), 2, [](std::size_t i) { return i; },
       [&](std::size_t i, std::size_t) {
         begun[i] = true;
         seen[i] = comes(begun[1 - i]);
@@ -147,7 +152,7 @@ TEST_CASE("no more things are alive than may wait, and the one that is made") {
   std::atomic<int> alive = 0;
   std::atomic<int> most = 0;
   run_pipeline(
-      50, static_cast<std::size_t>(waiting),
+      below(50), static_cast<std::size_t>(waiting),
       [&](std::size_t) {
         Counted made(alive);
         most = std::max<int>(most, alive);
@@ -165,7 +170,7 @@ TEST_CASE("no more things are alive than may wait, and the one that is made") {
 TEST_CASE("what is made goes as soon as it is worked on") {
   std::atomic<int> alive = 0;
   run_pipeline(
-      5, 0, [&](std::size_t) { return Counted(alive); }, [](std::size_t, const Counted &) { return 0; },
+      below(5), 0, [&](std::size_t) { return Counted(alive); }, [](std::size_t, const Counted &) { return 0; },
       [&](std::size_t, int) { CHECK(alive == 0); });
 }
 
@@ -183,7 +188,7 @@ TEST_CASE("after a failure nothing more is made than what was on its way") {
   std::atomic<std::size_t> made = 0;
   const auto run = [&] {
     run_pipeline(
-        1000, 2,
+        below(1000), 2,
         [&](std::size_t i) {
           ++made;
           return i;
@@ -195,8 +200,35 @@ TEST_CASE("after a failure nothing more is made than what was on its way") {
   CHECK(made < 20);
 }
 
+TEST_CASE("whether there is another thing is asked once each, before it is made, and may fail") {
+  std::vector<std::string> asked_and_made;
+  std::vector<std::size_t> finished;
+  const auto run = [&](std::size_t failing) {
+    run_pipeline(
+        [&](std::size_t i) {
+          asked_and_made.push_back("has " + std::to_string(i));
+          if (i == failing)
+            throw std::runtime_error("no answer");
+          return i < 2;
+        },
+        1,
+        [&](std::size_t i) {
+          asked_and_made.push_back("make " + std::to_string(i));
+          return i;
+        },
+        [](std::size_t, std::size_t made) { return made; },
+        [&](std::size_t i, std::size_t) { finished.push_back(i); });
+  };
+  run(3);
+  CHECK(asked_and_made == std::vector<std::string>{"has 0", "make 0", "has 1", "make 1", "has 2"});
+  CHECK(finished == up_to(2));
+  finished.clear();
+  CHECK_THROWS_WITH(run(1), "no answer");
+  CHECK(finished == up_to(1));
+}
+
 TEST_CASE("a pipeline of nothing does nothing") {
   run_pipeline(
-      0, 3, [](std::size_t i) { return i; }, [](std::size_t, std::size_t made) { return made; },
+      below(0), 3, [](std::size_t i) { return i; }, [](std::size_t, std::size_t made) { return made; },
       [](std::size_t, std::size_t) { FAIL("there is nothing to finish"); });
 }

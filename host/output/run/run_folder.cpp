@@ -1,0 +1,261 @@
+#include "host/output/run/run_folder.h"
+
+#include "engine/model/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <regex>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ByteLocks::Kind;
+
+// The bytes of run.json that are locked, by what they mean.
+constexpr std::uint64_t living = 0; // shared: is at work here; exclusive: alone
+constexpr std::uint64_t writing_manifest = 1;
+constexpr std::uint64_t first_frame = 16; // and those after it: that frame is being made
+constexpr auto waiting_time = std::chrono::milliseconds(10);
+
+Error unwritable(const fs::path &path, int error_number) {
+  return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
+                                        std::generic_category().message(error_number))};
+}
+
+// Removes a file that is to have gone by the end of a scope.
+struct Removed {
+  fs::path path;
+  ~Removed() { ::unlink(path.c_str()); }
+};
+
+std::optional<ByteLocks> opened(const fs::path &file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor >= 0)
+    return ByteLocks(descriptor);
+  if (errno != ENOENT)
+    throw unwritable(file, errno);
+  return std::nullopt;
+}
+
+// False where there is a file of that name. Without hard links the name is taken, whoever has it.
+bool give_name(const ByteLocks &file, const fs::path &temporary, const fs::path &name, bool replacing) {
+  if (!replacing) {
+    if (::link(temporary.c_str(), name.c_str()) == 0)
+      return true;
+    if (errno == EEXIST)
+      return file.is_at(name); // NFS may say so of what it has just done
+  }
+  if (::rename(temporary.c_str(), name.c_str()) != 0)
+    throw unwritable(name, errno);
+  return true;
+}
+
+// Whether a run leaves files of that name, its own or a frame's.
+bool is_of_a_run(const std::string &name) {
+  static const std::regex names(R"(run\.json|manifest\.json|\d{4,}\.record\.json|.+_\d{4,}\..+)");
+  return std::regex_match(name, names);
+}
+
+} // namespace
+
+RunFolder::RunFolder(const fs::path &directory, RunIdentity run, const FrameRange &frames, Earlier earlier,
+                     const std::function<void()> &wait)
+    : directory_(directory), run_(std::move(run)) {
+  while (!enter(frames, earlier)) {
+    std::this_thread::sleep_for(waiting_time);
+    wait();
+  }
+}
+
+RunFolder RunFolder::of_existing(const fs::path &directory, const std::function<void()> &wait) {
+  return {directory, read_run_file(directory).run, {}, Earlier::kept, wait};
+}
+
+RunFolder::~RunFolder() {
+  try {
+    leave();
+  } catch (const std::exception &) { // leftovers are the next one's to clear
+  }
+}
+
+// False where it is to be tried again, as another process begins or ends.
+bool RunFolder::enter(const FrameRange &frames, Earlier earlier) {
+  std::optional<ByteLocks> there = opened(path() / run_file_name);
+  if (!there) {
+    std::optional<ByteLocks> mine = new_run_file(false);
+    if (!mine)
+      return false;
+    clear(false, frames, earlier);
+    settle(std::move(*mine));
+    return true;
+  }
+  const bool alone = there->try_lock(living, Kind::exclusive);
+  if (!alone && !there->try_lock(living, Kind::shared))
+    return false;
+  if (!there->is_at(path() / run_file_name))
+    return false;
+  return alone ? enter_alone(std::move(*there), frames, earlier) : enter_beside_others(std::move(*there));
+}
+
+// The run's file is a new one each time, as it tells who has begun; the old one stays locked until then.
+bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier earlier) {
+  const std::optional<RunFile> found = parsed_run_file(there.content());
+  const bool same_run = found && found->run == run_;
+  if (!same_run && earlier == Earlier::kept)
+    throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", path().string(),
+                                             found ? difference_text(found->run, run_)
+                                                   : fmt::format("its {} cannot be read", run_file_name)));
+  std::optional<ByteLocks> mine = new_run_file(true);
+  clear(same_run, frames, earlier);
+  settle(std::move(*mine));
+  return true;
+}
+
+bool RunFolder::enter_beside_others(ByteLocks there) {
+  const std::optional<RunFile> found = parsed_run_file(there.content());
+  if (found && found->run == run_) {
+    joined_ = true;
+    locks_ = std::move(there);
+    return true;
+  }
+  if (there.try_lock(living, Kind::exclusive)) // they have ended meanwhile
+    return false;
+  throw Error(ExitCode::output,
+              fmt::format("{}: another run is being written there{}", path().string(),
+                          found ? fmt::format(", begun by process {} on {}: {}", found->beginner.process,
+                                              found->beginner.host, difference_text(found->run, run_))
+                                : std::string()));
+}
+
+// Nobody else can be in the folder before its lock is shared. Nothing where another was faster.
+std::optional<ByteLocks> RunFolder::new_run_file(bool replacing) const {
+  const fs::path name = path() / run_file_name, temporary = temporary_name(name);
+  const int descriptor = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor < 0)
+    throw unwritable(name, errno);
+  ByteLocks file(descriptor);
+  const Removed removed{temporary};
+  file.write(run_file_text(run_, this_process()), name);
+  file.try_lock(living, Kind::exclusive);
+  if (!give_name(file, temporary, name, replacing))
+    return std::nullopt;
+  return file;
+}
+
+void RunFolder::settle(ByteLocks mine) {
+  if (mine.works())
+    remove_leftovers();
+  mine.try_lock(living, Kind::shared);
+  locks_ = std::move(mine);
+}
+
+void RunFolder::clear(bool same_run, const FrameRange &frames, Earlier earlier) const {
+  bool any = !same_run;
+  for (const std::uint32_t frame : recorded_frames(path()))
+    if (!same_run || (earlier == Earlier::made_again && frames.contains(frame))) {
+      remove_file(path() / record_name(frame));
+      any = true;
+    }
+  if (any)
+    remove_file(path() / manifest_name);
+}
+
+void RunFolder::remove_leftovers() const {
+  std::vector<fs::path> leftovers;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(path(), ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    const auto name = name_of_temporary(entry->path().filename());
+    if (name && is_of_a_run(*name))
+      leftovers.push_back(entry->path());
+  }
+  for (const fs::path &leftover : leftovers)
+    remove_file(leftover);
+}
+
+std::optional<nlohmann::ordered_json> RunFolder::whole(std::uint32_t frame) const {
+  auto record = read_record(path(), frame, run_.hash);
+  if (record && !has_its_files(path(), *record))
+    record.reset();
+  return record;
+}
+
+RunFolder::Claim RunFolder::claim(std::uint32_t frame) {
+  if (!locks_->try_lock(first_frame + frame, Kind::exclusive))
+    return Claim::taken;
+  if (!whole(frame))
+    return Claim::granted;
+  give_back(frame);
+  return Claim::whole;
+}
+
+void RunFolder::give_back(std::uint32_t frame) { locks_->unlock(first_frame + frame); }
+
+bool RunFolder::seems_free(std::uint32_t frame) const {
+  return !locks_->is_held_by_another(first_frame + frame) &&
+         ::access((path() / record_name(frame)).c_str(), F_OK) != 0;
+}
+
+void RunFolder::publish(OutputSet &files, const nlohmann::ordered_json &record) {
+  const auto frame = record.at("frame").get<std::uint32_t>();
+  const std::string name = record_name(frame);
+  files.add(name, [&](OutputFile &file) { file.write(json_text(record)); });
+  files.publish({name}); // a record of files that have gone must not speak for those that come
+  directory_.stay();
+  give_back(frame);
+}
+
+std::size_t RunFolder::write_manifest() {
+  std::size_t frames = 0;
+  locks_->lock(writing_manifest, Kind::exclusive);
+  OutputSet files(path());
+  files.add(manifest_name, [&](OutputFile &file) {
+    nlohmann::ordered_json head = run_.head;
+    head["run"] = run_.hash;
+    JsonPieces pieces([&](std::string_view text) { file.write(text); }, head);
+    pieces.list("frames", [&](const JsonPieces::Add &add) {
+      for (const std::uint32_t frame : recorded_frames(path()))
+        if (const auto record = read_record(path(), frame, run_.hash)) {
+          ++frames;
+          for (const auto &sensor : record->at("sensors"))
+            add(sensor.at("manifest"));
+        }
+    });
+    pieces.end();
+  });
+  files.publish();
+  directory_.stay();
+  has_manifest_ = true;
+  locks_->unlock(writing_manifest);
+  return frames;
+}
+
+bool RunFolder::keep_whole_frames() noexcept {
+  try {
+    if (!recorded_frames(path()).empty())
+      write_manifest();
+    return true;
+  } catch (const std::exception &) { // the error that brought us here is the one to tell
+    return false;
+  }
+}
+
+void RunFolder::leave() {
+  if (!locks_ || !locks_->try_lock(living, Kind::exclusive) || !locks_->works())
+    return;
+  remove_leftovers();
+  if (!has_manifest_ && recorded_frames(path()).empty()) {
+    remove_file(path() / manifest_name);
+    remove_file(path() / run_file_name);
+  }
+}
+
+} // namespace pmdsim
