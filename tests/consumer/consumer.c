@@ -42,7 +42,8 @@ int main(void) {
   if (pmdsim_frame_find(frame, "distance_m", &distance))
     return failed("distance_m");
   const float middle_m = ((const float *)distance.values)[4 * distance.columns + 4];
-  printf("C, pmdsim %s: %u x %u pixels, %.4f m\n", pmdsim_version(), distance.columns, distance.rows, middle_m);
+  printf("C, pmdsim %s: %u x %u pixels, %.4f m\n", pmdsim_version(), distance.columns, distance.rows,
+         middle_m);
   pmdsim_frame_destroy(frame);
   pmdsim_simulator_destroy(simulator);
   return fabsf(middle_m - 2) < 5e-3F ? 0 : 1;

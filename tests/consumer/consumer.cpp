@@ -1,5 +1,5 @@
-// A program in C++ with libpmdsim: a wall that is moved from 2 m to 1.5 m away, measured by 8 x 8 pixels at either
-// place. Ends with 1 where the middle does not see it there, to some millimetres.
+// A program in C++ with libpmdsim: a wall that is moved from 2 m to 1.5 m away, measured by 8 x 8 pixels at
+// either place. Ends with 1 where the middle does not see it there, to some millimetres.
 #include <cmath>
 #include <cstdint>
 #include <iostream>
@@ -35,7 +35,8 @@ int main() {
     simulator.load_mesh(setup, mesh);
     const float far_m = middle_m(simulator);
     // The camera goes half a metre ahead, which is -z.
-    simulator.set(R"({"sensors/pmd/pose": {"position_m": [0, 0, -0.5], "look_at_m": [0, 0, -2], "up": [0, 1, 0]}})");
+    simulator.set(
+        R"({"sensors/pmd/pose": {"position_m": [0, 0, -0.5], "look_at_m": [0, 0, -2], "up": [0, 1, 0]}})");
     const float near_m = middle_m(simulator);
     std::cout << "C++, pmdsim " << pmdsim_version() << ": " << far_m << " m, " << near_m << " m\n";
     return std::abs(far_m - 2) < 5e-3F && std::abs(near_m - 1.5F) < 5e-3F ? 0 : 1;
