@@ -3,6 +3,7 @@
 #include "host/accuracy_options.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
+#include "host/manual/manual.h"
 #include "host/setup_options.h"
 
 #include <CLI/CLI.hpp>
@@ -145,7 +146,7 @@ std::string channel_list() {
   for (const ChannelRow &row : channel_rows) {
     const std::string name =
         is_of_taps(row) ? fmt::format("{0}0, {0}1, ...", row.name) : std::string(row.name);
-    text += fmt::format("  {:<16}{:<14}{}\n", name, row.unit, row.about);
+    text += fmt::format("  {:<26}{:<14}{}\n", name, row.unit, row.about);
   }
   return text;
 }
@@ -362,6 +363,40 @@ Options checked(Written written, const std::string &command) {
   return options;
 }
 
+// The command line about itself, for the build, which makes manual pages and completions of it; --help hides
+// it.
+void add_manual(CLI::App &app, std::vector<std::string> &what) {
+  CLI::App *manual = app.add_subcommand("manual", "print manual pages and completions");
+  manual->group("");
+  manual->add_option("WHAT", what, "commands, man, man COMMAND, bash, zsh or fish")
+      ->required()
+      ->expected(1, 2);
+}
+
+std::string manual_of(const CommandTable &table, const std::vector<std::string> &what) {
+  const std::string &kind = what.front();
+  const CommandRow *command = what.size() > 1 ? find_command(table, what.back()) : nullptr;
+  if (kind == "man" && command)
+    return man_page(table, *command, PMDSIM_VERSION);
+  if (what.size() > 1)
+    throw Error(ExitCode::usage, "manual: expected man and a command, found " + in_quotes(what.back()));
+  if (kind == "commands") {
+    std::string names;
+    for (const CommandRow &row : table.commands)
+      names += row.name + '\n';
+    return names;
+  }
+  if (kind == "man")
+    return man_page(table, PMDSIM_VERSION);
+  if (kind == "bash")
+    return bash_completion(table);
+  if (kind == "zsh")
+    return zsh_completion(table);
+  if (kind == "fish")
+    return fish_completion(table);
+  throw Error(ExitCode::usage, "manual: expected commands, man, bash, zsh or fish, found " + in_quotes(kind));
+}
+
 // The failure in one line, as CLI11's messages may have more; of an unknown command CLI11 says only that one
 // is missing.
 std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
@@ -384,12 +419,18 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
   app.require_subcommand(1);
   Written written;
   add_commands(app, written);
+  std::vector<std::string> manual;
+  add_manual(app, manual);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() != 0)
       throw Error(ExitCode::usage, parse_failure(app, error));
     app.exit(error);
+    return std::nullopt;
+  }
+  if (!manual.empty()) {
+    fmt::print("{}", manual_of(table_of(app), manual));
     return std::nullopt;
   }
   return checked(written, app.get_subcommands().front()->get_name());
