@@ -63,12 +63,12 @@ TEST_CASE("bounces are those of the scene, light and sensor that were prepared l
   CHECK(same(after, fresh));
 }
 
-TEST_CASE("a frame does not depend on one before it that has taken finer elements") {
+TEST_CASE("a frame does not depend on one before it that has taken finer elements", "[long]") {
   const Setup setup = load_setup(PMDSIM_SCENES "/corner.json");
   const Bounces fine{all_bounces, 0.4e-3};
   Sensor wide = setup.start.sensors.front();
-  wide.resolution = {20, 15};
-  wide.pixel_pitch_m *= 8.0;
+  wide.resolution = {40, 30};
+  wide.pixel_pitch_m *= 4.0;
   Sensor close = wide;
   close.focal_length_m = 0.05;
   const auto frame = [&](Simulator &simulator, const Sensor &sensor) {
