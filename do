@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | lint [--long]
+# All the set-up there is: ./do demo | run ARGS | test [--long|--smoke] | bench [ARGS] | build | package | wheel |
+# lint [--long]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build/release
@@ -16,6 +17,12 @@ packages=(
   catch2 python3-numpy
 )
 
+# What long tests of packages, manual pages and clusters need; they are skipped where there are no such packages.
+packages_of_long_tests=(
+  mmdebstrap groff-base man-db zsh fish
+  slurm-wlm munge python3-distributed python3-dask
+)
+
 say() { printf '%s\n' "do: $*" >&2; }
 
 usage() {
@@ -28,6 +35,8 @@ usage: ./do COMMAND
              --long   all tests there are, and lint --long
   bench      measure the throughput of the paper's ring and how time grows; ./do bench SETUP for a setup alone
   build      install what is missing and build
+  package    build and make a Debian package of program, library and Python module: build/pmdsim_VERSION_ARCHITECTURE.deb
+  wheel      build and make a Python wheel that carries the library: build/pmdsim-VERSION-py3-none-PLATFORM.whl
   lint       check the formatting and look for mistakes with clang-tidy
              --long   each source by itself, with clang's analyzer
 END
@@ -58,6 +67,22 @@ install_missing() {
   ((${#missing[@]})) || return 0
   update_package_lists
   install "${missing[@]}"
+}
+
+# Installs those of $@ that are missing, as far as there are such packages; what needs the others says so itself.
+install_if_possible() {
+  command -v apt-get >/dev/null || return 0
+  local package missing=() known=()
+  for package in "$@"; do
+    dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  update_package_lists || true
+  for package in "${missing[@]}"; do
+    if apt-cache show "$package" >/dev/null 2>&1; then known+=("$package"); else say "no such package: $package"; fi
+  done
+  ((${#known[@]})) || return 0
+  install "${known[@]}" || say "not installed: ${known[*]}"
 }
 
 # Debian has clang-tidy-22 beside its clang-tidy, which is version 14: that takes more than twice the time and calls
@@ -91,6 +116,29 @@ build_target() {
   configure release
   say "building (a few minutes the first time)"
   cmake --build "$build" --target "$1" >&2
+}
+
+# Debian's own tools make packages; stripped, since nobody debugs with them.
+make_package() {
+  install_if_possible dpkg-dev file
+  build_target all
+  rm -f "$root"/build/pmdsim_*.deb
+  (cd "$build" && cpack --config CPackConfig.cmake) >&2
+  ls "$root"/build/pmdsim_*.deb
+}
+
+# From copies, as setuptools writes beside what it reads.
+make_wheel() {
+  local folder=$root/build/wheel
+  install_if_possible python3-build python3-setuptools python3-wheel binutils
+  build_target libpmdsim
+  rm -rf "$folder" "$root"/build/pmdsim-*.whl
+  mkdir -p "$folder"
+  cp -r "$root/host/python/." "$folder/source"
+  strip --strip-unneeded -o "$folder/libpmdsim.so.0" "$build/lib/libpmdsim.so.0"
+  PMDSIM_LIBRARY=$folder/libpmdsim.so.0 /usr/bin/python3 -m build --wheel --no-isolation -o "$root/build" \
+    "$folder/source" >&2
+  ls "$root"/build/pmdsim-*.whl
 }
 
 demo() {
@@ -170,6 +218,9 @@ test)
   --smoke) run_smoke_tests ;;
   --long)
     lint_long
+    install_if_possible "${packages_of_long_tests[@]}"
+    make_package
+    make_wheel
     run_tests --label-exclude smoke
     ;;
   '') run_tests --label-exclude 'long|smoke' ;;
@@ -181,6 +232,8 @@ bench)
   exec "$program" bench "$@"
   ;;
 build) build_target all ;;
+package) make_package ;;
+wheel) make_wheel ;;
 lint)
   case ${1:-} in
   --long) lint_long ;;

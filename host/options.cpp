@@ -3,6 +3,8 @@
 #include "host/accuracy_options.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
+#include "host/manual/manual.h"
+#include "host/setup_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,13 +29,14 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
+  WrittenSetups setups;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats, channels;
 };
 
-void add_setup(CLI::App &command, Written &written) {
-  command.add_option("SETUP", written.options.capture.setup, "setup file (JSON)")->required();
+void add_setup(CLI::App &command, Written &written, Setups setups = Setups::one) {
+  add_setups(command, written.setups, setups);
 }
 
 void add_samples(CLI::App &command, Written &written) {
@@ -143,7 +146,7 @@ std::string channel_list() {
   for (const ChannelRow &row : channel_rows) {
     const std::string name =
         is_of_taps(row) ? fmt::format("{0}0, {0}1, ...", row.name) : std::string(row.name);
-    text += fmt::format("  {:<16}{:<14}{}\n", name, row.unit, row.about);
+    text += fmt::format("  {:<26}{:<14}{}\n", name, row.unit, row.about);
   }
   return text;
 }
@@ -151,7 +154,7 @@ std::string channel_list() {
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
-  add_setup(*render, written);
+  add_setup(*render, written, Setups::several);
   add_writing(*render, written);
   add_measuring(*render, written);
   add_paths(*render, written);
@@ -169,10 +172,7 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *bench =
       app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");
-  bench->add_option(
-      "SETUP", written.options.capture.setup,
-      "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
-      "and frequencies: some minutes]");
+  add_setup(*bench, written, Setups::none_or_one);
   add_measuring(*bench, written);
   add_suite(*bench, written);
 
@@ -317,10 +317,22 @@ void check_comparing(const Written &written) {
     throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
 }
 
+void take_setups(const WrittenSetups &written, Options &options) {
+  options.variants = written.variants;
+  if (written.setups.size() > 1 || written.variants)
+    options.setups = written.setups;
+  if (!written.setups.empty())
+    options.capture.setup = written.setups.front();
+  options.capture.changes = changes_of(written.changes);
+  if (written.poses)
+    options.capture.poses = poses_of(*written.poses);
+}
+
 Options checked(Written written, const std::string &command) {
   Options &options = written.options;
   CaptureRequest &capture = options.capture;
   options.command = command;
+  take_setups(written.setups, options);
   check_importing(options);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
@@ -339,7 +351,9 @@ Options checked(Written written, const std::string &command) {
     throw Error(ExitCode::usage,
                 fmt::format("merge: expected -o beside {} directories", options.merged.size()));
   if (capture.output_directory.empty() && command != "merge")
-    capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
+    capture.output_directory = options.setups.size() > 1
+                                   ? std::filesystem::path("out") / command
+                                   : std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);
   if (!written.channels.empty())
@@ -347,6 +361,40 @@ Options checked(Written written, const std::string &command) {
   for (const std::string &format : written.formats)
     capture.formats.insert(format_names.at(format));
   return options;
+}
+
+// The command line about itself, for the build, which makes manual pages and completions of it; --help hides
+// it.
+void add_manual(CLI::App &app, std::vector<std::string> &what) {
+  CLI::App *manual = app.add_subcommand("manual", "print manual pages and completions");
+  manual->group("");
+  manual->add_option("WHAT", what, "commands, man, man COMMAND, bash, zsh or fish")
+      ->required()
+      ->expected(1, 2);
+}
+
+std::string manual_of(const CommandTable &table, const std::vector<std::string> &what) {
+  const std::string &kind = what.front();
+  const CommandRow *command = what.size() > 1 ? find_command(table, what.back()) : nullptr;
+  if (kind == "man" && command)
+    return man_page(table, *command, PMDSIM_VERSION);
+  if (what.size() > 1)
+    throw Error(ExitCode::usage, "manual: expected man and a command, found " + in_quotes(what.back()));
+  if (kind == "commands") {
+    std::string names;
+    for (const CommandRow &row : table.commands)
+      names += row.name + '\n';
+    return names;
+  }
+  if (kind == "man")
+    return man_page(table, PMDSIM_VERSION);
+  if (kind == "bash")
+    return bash_completion(table);
+  if (kind == "zsh")
+    return zsh_completion(table);
+  if (kind == "fish")
+    return fish_completion(table);
+  throw Error(ExitCode::usage, "manual: expected commands, man, bash, zsh or fish, found " + in_quotes(kind));
 }
 
 // The failure in one line, as CLI11's messages may have more; of an unknown command CLI11 says only that one
@@ -371,12 +419,18 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
   app.require_subcommand(1);
   Written written;
   add_commands(app, written);
+  std::vector<std::string> manual;
+  add_manual(app, manual);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() != 0)
       throw Error(ExitCode::usage, parse_failure(app, error));
     app.exit(error);
+    return std::nullopt;
+  }
+  if (!manual.empty()) {
+    fmt::print("{}", manual_of(table_of(app), manual));
     return std::nullopt;
   }
   return checked(written, app.get_subcommands().front()->get_name());

@@ -25,6 +25,9 @@ struct SuiteOptions {
 
 struct Options {
   std::string command; // its name: "render"
+  // render: several setups, or variants of them; else there is one, in `capture`.
+  std::vector<std::filesystem::path> setups;
+  std::optional<std::filesystem::path> variants;
   // All but import-calibration and devices; merge only frames and directory. Directories are filled in.
   CaptureRequest capture;
   bool mode_written = false;                 // bench: one mode instead of all

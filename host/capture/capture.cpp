@@ -45,8 +45,21 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
 
 } // namespace
 
+SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file) {
+  SetupDocument document = read_setup_document(file);
+  if (request.poses)
+    change(document, changes_for(*request.poses, document));
+  change(document, request.changes);
+  return document;
+}
+
 Setup requested_setup(const CaptureRequest &request) {
-  Setup setup = load_setup(request.setup);
+  SetupLoader loader;
+  return requested_setup(request, requested_document(request, request.setup), loader);
+}
+
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
+  Setup setup = loader.load(document);
   if (request.paths > 0 && !setup.bounces.any())
     throw Error(ExitCode::usage, fmt::format("--paths: no light bounces in {}, expected \"bounces\" above 0",
                                              setup.file.string()));
@@ -89,10 +102,10 @@ void leave_out_electronics(Setup &setup) {
 }
 
 Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
-                 const WantedChannels &measured)
+                 const WantedChannels &measured, const std::shared_ptr<Camera> &camera)
     : setup_(std::move(setup)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
       channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
-      exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths, measured),
+      exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_,
                 {frames_, request.output_directory,
                  request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again},

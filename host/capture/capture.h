@@ -6,6 +6,7 @@
 #include "host/capture/frame_sequence.h"
 #include "host/capture/frame_writer.h"
 #include "host/capture/progress.h"
+#include "host/capture/variants.h"
 #include "host/input/setup/setup.h"
 
 #include <filesystem>
@@ -18,9 +19,11 @@ namespace pmdsim {
 
 struct CaptureRequest {
   std::filesystem::path setup;
-  std::optional<SampleChoice> samples; // instead of the setup's
-  std::string device;                  // as Camera's
-  std::uint32_t paths = 0;             // of the reference, as Extras
+  nlohmann::json changes = nlohmann::json::object(); // of the setup, as change() takes them
+  std::optional<PosesFromFile> poses;                // likewise
+  std::optional<SampleChoice> samples;               // instead of the setup's
+  std::string device;                                // as Camera's
+  std::uint32_t paths = 0;                           // of the reference, as Extras
   Accuracy accuracy;
   std::optional<FrameRange> frames; // instead of all of the setup's
   Shard shard;                      // of these
@@ -33,6 +36,10 @@ struct CaptureRequest {
 // The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error: input,
 // usage (paths are asked for where no light bounces).
 Setup requested_setup(const CaptureRequest &request);
+// The document of that, changed already.
+SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file);
+// The same of a document, by a loader that others of the same scenes may use.
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
 // Leaves out what the camera does behind the lens (electronics, scatter, unwrapping), for commands that
@@ -49,7 +56,12 @@ public:
   // Of `setup`, which is the requested one, changed.
   // Measured are the channels that `measured` wants, beside those of the request.
   Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
-          const WantedChannels &measured);
+          const WantedChannels &measured)
+      : Capture(request, std::move(setup), command, keep_taps, measured,
+                std::make_shared<Camera>(request.device)) {}
+  // With a camera that nobody else uses meanwhile.
+  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
+          const WantedChannels &measured, const std::shared_ptr<Camera> &camera);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t frame_count() const { return frames_.count(); } // that were asked for

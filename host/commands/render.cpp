@@ -1,4 +1,6 @@
+#include "engine/model/error.h"
 #include "host/capture/capture.h"
+#include "host/capture/variant_table.h"
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/report/report.h"
@@ -90,9 +92,78 @@ std::string render(Capture &capture) {
   return text;
 }
 
+// Writes all frames; their records tell what is in the table of variants.
+void render_variant(Capture &capture, const std::string &name) {
+  const auto measure = [&](const SensorFrame &at) {
+    const auto taken = capture.share(capture.take(at, Light::beside_lens, at.next_s, ", variant " + name));
+    MeasuredPart part = rendered_frame(taken, at, capture.formats());
+    return MeasuredPart{part.record, [taken, files = std::move(part.files)](FrameRecord &record) {
+                          record.told = frame_summary(taken->measurement);
+                          return files(record);
+                        }};
+  };
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), true, capture.channels()));
+}
+
+ordered_json variant_json(const Variant &variant, const Capture &capture) {
+  ordered_json frames = ordered_json::array();
+  capture.for_each_sensor_frame(
+      [&](const ordered_json &of_sensor) { frames.push_back(frame_told(of_sensor, capture.sequence())); });
+  return {{"name", variant.name}, {"changes", variant.changes}, {"frames", frames}};
+}
+
+// What is wrong with any of them is told before the first is measured. Returns those of the shard.
+std::vector<Variant> checked_variants(const Options &options, SetupLoader &loader) {
+  std::vector<SetupDocument> documents;
+  for (const std::filesystem::path &file : options.setups)
+    documents.push_back(requested_document(options.capture, file));
+  const std::vector<Variant> all = variants_of(documents, options.variants);
+  std::vector<Variant> own;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    try {
+      loader.load(all[i].document);
+    } catch (const Error &error) {
+      throw Error(error.code(), fmt::format("{}, in variant {}", error.what(), all[i].name), error.where());
+    }
+    if (i % options.capture.shard.count == options.capture.shard.index)
+      own.push_back(all[i]);
+  }
+  return own;
+}
+
+void run_variants(const Options &options) {
+  SetupLoader loader;
+  const std::vector<Variant> variants = checked_variants(options, loader);
+  const auto camera = std::make_shared<Camera>(options.capture.device);
+  const std::filesystem::path &directory = options.capture.output_directory;
+  VariantTable table(variants);
+  ordered_json json{{"device", camera->device()},
+                    {"mode", mode_name(options.capture.accuracy.mode)},
+                    {"variants", ordered_json::array()}};
+  for (const Variant &variant : variants) {
+    CaptureRequest request = options.capture;
+    request.shard = {};
+    request.output_directory = directory / variant.name;
+    Capture capture(request, requested_setup(request, variant.document, loader), "render", true,
+                    request.channels, camera);
+    render_variant(capture, variant.name);
+    capture.for_each_sensor_frame([&](const ordered_json &of_sensor) { table.add(variant, of_sensor); });
+    if (options.json)
+      json["variants"].push_back(variant_json(variant, capture));
+  }
+  json["table"] = table.write(directory);
+  print(options.json
+            ? json_text(json)
+            : fmt::format("device    {} ({})\n\n{}\nwritten:\n  {}, a folder for each variant beside it\n",
+                          camera->device(), camera->driver(), table.text(),
+                          json["table"].get<std::string>()));
+}
+
 } // namespace
 
 void run_render(const Options &options) {
+  if (!options.setups.empty())
+    return run_variants(options);
   Capture capture(options.capture, "render", true);
   const std::string text = render(capture);
   if (options.json)

@@ -12,7 +12,7 @@ namespace pmdsim {
 
 struct ReadChannel {
   std::string name; // "distance_m", of several frequencies "f1.distance_m"
-  std::string unit; // "" where there is none, or none is known
+  std::string unit; // by the name; "" where there is none, or none is known
   // Row-major, row 0 at the top, rows * columns; every bit as in the file.
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };

@@ -1,26 +1,19 @@
 #include "host/input/frame/frame_bytes.h"
 
-#include "host/hdf5/hdf5.h"
+#include "host/hdf5/memory_file.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <hdf5_hl.h>
 #include <optional>
 
 namespace pmdsim {
 namespace {
 
-constexpr std::size_t max_unit_bytes = 1000;
-
 class H5Reader {
 public:
-  explicit H5Reader(const FrameBytes &frame) : frame_(frame) {
-    // HDF5 reads where the bytes lie, and does not free them.
-    constexpr unsigned as_they_are = H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE;
-    file_ = opened(
-        H5LTopen_file_image(const_cast<char *>(frame.content.data()), frame.content.size(), as_they_are),
-        H5Fclose);
+  explicit H5Reader(const FrameBytes &frame) : frame_(frame), file_(opened_in_memory(frame.content)) {
+    check(file_.id() < 0 ? -1 : 0);
   }
 
   ReadFrame frame() const {
@@ -118,7 +111,8 @@ private:
     const auto is_any = [&](hid_t one, hid_t other) {
       return H5Tequal(type.id(), one) > 0 || H5Tequal(type.id(), other) > 0;
     };
-    const std::string unit = unit_of_dataset(dataset).value_or(unit_of(name));
+    // Not its attribute: HDF5 1.10 reads beyond damaged ones.
+    const std::string unit = unit_of(name);
     if (is_any(H5T_IEEE_F32LE, H5T_IEEE_F32BE))
       return {name, unit, read<float>(dataset, H5T_NATIVE_FLOAT, values)};
     if (is_any(H5T_STD_U32LE, H5T_STD_U32BE))
@@ -131,23 +125,6 @@ private:
     std::vector<Value> values(count);
     check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
     return values;
-  }
-
-  // Where it is text of a fixed length, as we write it.
-  static std::optional<std::string> unit_of_dataset(hid_t dataset) {
-    if (H5Aexists(dataset, "units") <= 0)
-      return std::nullopt;
-    const Hdf5Handle attribute(H5Aopen(dataset, "units", H5P_DEFAULT), H5Aclose);
-    const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose);
-    const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
-    const std::size_t bytes = H5Tget_size(type.id());
-    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 ||
-        H5Sget_simple_extent_npoints(space.id()) != 1 || bytes > max_unit_bytes)
-      return std::nullopt;
-    std::string text(bytes, '\0');
-    if (H5Aread(attribute.id(), type.id(), text.data()) < 0)
-      return std::nullopt;
-    return text.substr(0, text.find('\0'));
   }
 
   const FrameBytes &frame_;

@@ -22,6 +22,7 @@ namespace {
 // Large chunks go into the file as they are, past HDF5's cache, and small parts can still be read.
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 constexpr std::size_t page_bytes = 4096;
+constexpr unsigned most_links = 65535; // that HDF5 keeps in one place
 constexpr std::size_t room_for_names = std::size_t{1} << 18; // and attributes, and what HDF5 needs
 
 using Bytes = std::unique_ptr<void, decltype([](void *bytes) { std::free(bytes); })>;
@@ -87,6 +88,8 @@ public:
     // No times: the same frame is the same bytes. And the channels stay in their order.
     check(H5Pset_obj_track_times(creation.id(), false));
     check(H5Pset_link_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED));
+    // And their names in one place: no trees, which are more than a few names are worth.
+    check(H5Pset_link_phase_change(creation.id(), most_links, 0));
     file_ = made(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   }
 

@@ -45,13 +45,16 @@ std::optional<ByteLocks> opened(const fs::path &file) {
   return std::nullopt;
 }
 
-// False where there is a file of that name. Without hard links the name is taken, whoever has it.
+// False where there is a file of that name, or where one who was alone in the folder took the temporary file
+// for a dead process's. Without hard links the name is taken, whoever has it.
 bool give_name(const ByteLocks &file, const fs::path &temporary, const fs::path &name, bool replacing) {
   if (!replacing) {
     if (::link(temporary.c_str(), name.c_str()) == 0)
       return true;
     if (errno == EEXIST)
       return file.is_at(name); // NFS may say so of what it has just done
+    if (errno == ENOENT)
+      return false;
   }
   if (::rename(temporary.c_str(), name.c_str()) != 0)
     throw unwritable(name, errno);

@@ -35,9 +35,9 @@ struct WrittenFrame {
   ChannelSet channels() const {
     return {resolution,
             {{"distance_m", "m", std::span(distances), 0},
+             {"tap2", "W/(m² sr)", std::span(distances), 0},
              {"distance_m", "m", std::span(distances), 1},
-             {"object_id", "", std::span(ids)},
-             {"tap2", "W/(m² sr)", std::span(distances), 0}}};
+             {"object_id", "", std::span(ids)}}};
   }
   void write(const std::filesystem::path &path) const {
     OutputFile file(path);
@@ -111,7 +111,7 @@ TEST_CASE("a frame comes back with all its bits, names, units and its size") {
       CHECK(read.resolution == size);
       const ChannelSet expected = written.channels();
       REQUIRE(read.channels.size() == expected.channels.size());
-      for (std::size_t i = 0; i < read.channels.size(); ++i) { // whose names are sorted
+      for (std::size_t i = 0; i < read.channels.size(); ++i) { // sorted by name, as in EXR files
         CHECK(read.channels[i].name == expected.channels[i].name());
         CHECK(read.channels[i].unit == expected.channels[i].unit);
         CHECK(has_values(read.channels[i], expected.channels[i]));
@@ -201,16 +201,19 @@ TEST_CASE("a frame that ends too early is refused, wherever it ends") {
   }
 }
 
-TEST_CASE("EXR files of any bytes are read or refused") {
+TEST_CASE("frames of any bytes are read or refused") {
   const pmdsim::test::TemporaryFolder folder;
-  WrittenFrame({9, 70}).write(folder.path() / "frame.exr");
-  const std::string whole = bytes_of(folder.path() / "frame.exr");
   std::mt19937 random(7);
-  for (int i = 0; i < 500; ++i) {
-    INFO("change " << i);
-    std::string changed = whole;
-    for (int k = 0; k < 1 + i % 4; ++k) // most of them in the header and the table of chunks
-      changed[random() % (i % 2 == 0 ? std::size_t{450} : changed.size())] = static_cast<char>(random());
-    check_survives(folder.write("changed.exr", changed));
+  for (const std::string name : {"frame.exr", "frame.h5"}) {
+    WrittenFrame({9, 70}).write(folder.path() / name);
+    const std::string whole = bytes_of(folder.path() / name);
+    const std::size_t before_values = name == "frame.exr" ? 450 : 7000;
+    for (int i = 0; i < 500; ++i) {
+      INFO(name << ", change " << i);
+      std::string changed = whole;
+      for (int k = 0; k < 1 + i % 4; ++k)
+        changed[random() % (i % 2 == 0 ? before_values : changed.size())] = static_cast<char>(random());
+      check_survives(folder.write("changed", changed));
+    }
   }
 }
