@@ -135,7 +135,7 @@ wait_for_job() {
 data_of() { (cd "$1" && find . -type f ! -name '*.record.json' ! -name run.json -print0 | sort -z | xargs -0 sha256sum); }
 
 write_setup
-"$program" render "$scratch/setup.json" -o "$scratch/one" --format npy >/dev/null
+"$program" render "$scratch/setup.json" -o "$scratch/one" --format npy >"$scratch/log" 2>&1 || fail "$(cat "$scratch/log")"
 start_cluster
 export PMDSIM=$program
 job=$(sbatch --parsable --array=0-7 --cpus-per-task=1 -o "$scratch/log.%a" "$source_root/host/clusters/pmdsim.sbatch" \
