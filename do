@@ -13,8 +13,8 @@ packages=(
   libglm-dev libeigen3-dev libfftw3-dev libembree-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev libfccp-dev libyaml-cpp-dev libxxhash-dev
   libcli11-dev libfmt-dev
   libmeshoptimizer-dev libpng-dev libturbojpeg0-dev
-  libopenexr-dev libisal-dev libdeflate-dev libcairo2-dev fonts-dejavu-core libtbb-dev
-  catch2
+  libopenexr-dev libisal-dev libdeflate-dev libarchive-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libtbb-dev
+  catch2 python3-numpy
 )
 
 # What long tests of packages, manual pages and clusters need; they are skipped where there are no such packages.

@@ -4,6 +4,7 @@
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
 #include "host/manual/manual.h"
+#include "host/setup_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,8 +18,9 @@
 namespace pmdsim {
 namespace {
 
-const std::map<std::string, Format> format_names{
-    {"exr", Format::exr}, {"npy", Format::npy}, {"png", Format::png}, {"csv", Format::csv}};
+const std::map<std::string, Format> format_names{{"exr", Format::exr}, {"npz", Format::npz},
+                                                 {"h5", Format::h5},   {"npy", Format::npy},
+                                                 {"png", Format::png}, {"csv", Format::csv}};
 // The formats of the commands that write frames.
 const std::map<std::string, std::vector<std::string>> default_formats{{"render", {"exr", "png"}},
                                                                       {"deform", {"exr", "png", "csv"}}};
@@ -27,13 +29,14 @@ const std::map<std::string, std::vector<std::string>> default_formats{{"render",
 struct Written {
   Options options;
   WrittenAccuracy accuracy;
+  WrittenSetups setups;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
-  std::vector<std::string> formats;
+  std::vector<std::string> formats, channels;
 };
 
-void add_setup(CLI::App &command, Written &written) {
-  command.add_option("SETUP", written.options.capture.setup, "setup file (JSON)")->required();
+void add_setup(CLI::App &command, Written &written, Setups setups = Setups::one) {
+  add_setups(command, written.setups, setups);
 }
 
 void add_samples(CLI::App &command, Written &written) {
@@ -66,10 +69,16 @@ void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
       .add_option("--format", written.formats,
-                  fmt::format("what to write: exr, npy, png, csv, separated by commas [{}]",
+                  fmt::format("what to write: exr, npz, h5, npy, png, csv, separated by commas [{}]",
                               fmt::join(default_formats.at(command.get_name()), ",")))
       ->delimiter(',')
-      ->check(CLI::IsMember({"exr", "npy", "png", "csv"}));
+      ->check(CLI::IsMember({"exr", "npz", "h5", "npy", "png", "csv"}));
+  command
+      .add_option(
+          "--channels", written.channels,
+          "only these, by names separated by commas, e.g. distance_m,lit; without the numbers of taps, "
+          "with or without the prefix of a frequency. What no other needs is not computed [all]")
+      ->delimiter(',');
   add_frames(command, written);
   command.add_option("--shard", written.shard,
                      "I/N, I from 0 to N - 1: only frames whose number modulo N is I; or `slurm`, what "
@@ -145,7 +154,7 @@ std::string channel_list() {
 void add_commands(CLI::App &app, Written &written) {
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
-  add_setup(*render, written);
+  add_setup(*render, written, Setups::several);
   add_writing(*render, written);
   add_measuring(*render, written);
   add_paths(*render, written);
@@ -163,10 +172,7 @@ void add_commands(CLI::App &app, Written &written) {
 
   CLI::App *bench =
       app.add_subcommand("bench", "throughput: frames/s, interactions/s, time per pass, beside native code");
-  bench->add_option(
-      "SETUP", written.options.capture.setup,
-      "setup file (JSON) [the paper's ring, and sweeps of resolution, diodes, samples, triangles "
-      "and frequencies: some minutes]");
+  add_setup(*bench, written, Setups::none_or_one);
   add_measuring(*bench, written);
   add_suite(*bench, written);
 
@@ -291,6 +297,11 @@ std::uint32_t paths_of(const std::string &text, bool on_reference) {
   return static_cast<std::uint32_t>(*paths);
 }
 
+WantedChannels wanted_channels(const std::vector<std::string> &names, const std::string &command) {
+  return WantedChannels(names, command == "deform" ? std::vector<std::string>{deformation_channel}
+                                                   : std::vector<std::string>{});
+}
+
 // Checks the commands that compare a device with the reference.
 void check_comparing(const Written &written) {
   const Options &options = written.options;
@@ -306,10 +317,22 @@ void check_comparing(const Written &written) {
     throw Error(ExitCode::usage, "--device reference: tradeoff compares a device with it; expected a device");
 }
 
+void take_setups(const WrittenSetups &written, Options &options) {
+  options.variants = written.variants;
+  if (written.setups.size() > 1 || written.variants)
+    options.setups = written.setups;
+  if (!written.setups.empty())
+    options.capture.setup = written.setups.front();
+  options.capture.changes = changes_of(written.changes);
+  if (written.poses)
+    options.capture.poses = poses_of(*written.poses);
+}
+
 Options checked(Written written, const std::string &command) {
   Options &options = written.options;
   CaptureRequest &capture = options.capture;
   options.command = command;
+  take_setups(written.setups, options);
   check_importing(options);
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
@@ -328,9 +351,13 @@ Options checked(Written written, const std::string &command) {
     throw Error(ExitCode::usage,
                 fmt::format("merge: expected -o beside {} directories", options.merged.size()));
   if (capture.output_directory.empty() && command != "merge")
-    capture.output_directory = std::filesystem::path("out") / capture.setup.stem() / command;
+    capture.output_directory = options.setups.size() > 1
+                                   ? std::filesystem::path("out") / command
+                                   : std::filesystem::path("out") / capture.setup.stem() / command;
   if (written.formats.empty() && default_formats.contains(command))
     written.formats = default_formats.at(command);
+  if (!written.channels.empty())
+    capture.channels = wanted_channels(written.channels, command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_names.at(format));
   return options;

@@ -11,6 +11,9 @@
 
 namespace pmdsim {
 
+// The channel that `deform` makes itself, as --channels names it.
+inline constexpr const char *deformation_channel = "deformation_mm";
+
 // bench --suite: procedural scenes.
 struct SuiteOptions {
   std::vector<std::string> kinds;    // all but the awkward ones where there are none
@@ -22,6 +25,9 @@ struct SuiteOptions {
 
 struct Options {
   std::string command; // its name: "render"
+  // render: several setups, or variants of them; else there is one, in `capture`.
+  std::vector<std::filesystem::path> setups;
+  std::optional<std::filesystem::path> variants;
   // All but import-calibration and devices; merge only frames and directory. Directories are filled in.
   CaptureRequest capture;
   bool mode_written = false;                 // bench: one mode instead of all

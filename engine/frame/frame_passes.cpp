@@ -412,8 +412,8 @@ FramePasses make_passes(const vulkan::Device &device, const SimulatorOptions &op
   const auto planes = planes_of(facts, request);
   const auto backscatter = one_backscatter(facts.camera, planes);
   const FramePath path = choose_path(facts, plan, request, windows.size(), backscatter, options.allowed);
-  facts.modulation.complex_returns =
-      facts.counts_electrons && path.host_pixels && !facts.modulation.keeps_terms;
+  facts.modulation.complex_returns = options.allowed.complex_returns && facts.counts_electrons &&
+                                     path.host_pixels && !facts.modulation.keeps_terms;
   const std::uint32_t words = visibility_words(facts, windows);
   const std::uint32_t largest_strip = std::min(facts.largest_strip, samples_of_words(words));
   const std::vector<PlannedStrip> strips =

@@ -31,6 +31,7 @@ struct PathForms {
   bool host_sum = true;               // of depth records that are not summed beforehand, likewise
   bool host_pixels = true;            // from depth records to channels at once, likewise
   bool incident_field = true;         // within an error, the sums of those between nodes, not at each
+  bool complex_returns = true;        // of which a strip's electrons are counted, not of amplitude and phase
 };
 
 struct SimulatorOptions {

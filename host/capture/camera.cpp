@@ -32,6 +32,7 @@ void set_extras(const Extras &extras, SimulatorOptions &options) {
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
   options.count_electrons = extras.electrons_at_once;
+  options.allowed.complex_returns = !extras.electrons_of_polar;
   const PathForms all;
   options.allowed.point_polynomials = all.point_polynomials && !extras.diodes_in_a_loop;
   options.allowed.direct_pixels = all.direct_pixels && !extras.diodes_in_a_loop;
@@ -97,17 +98,7 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
     reference::count_electrons(frame, sensor_, extras_.taps, measurement, progress_at_end(progress));
   } else {
     measurement = measure_device(progress, number);
-    if (add && measurement.has_electrons)
-      throw std::logic_error("light is added to a frame whose electrons are counted");
-    if (add)
-      add(measurement);
-    const bool reads_taps = add || sensor_.waveform.kind != Waveform::Kind::sine;
-    if (!sensor_.scatter.empty()) {
-      if (sensor_.electronics && !reads_taps) // electrons make new ones
-        for (Return &of_frequency : measurement.returns)
-          of_frequency.taps.clear();
-      scatter(sensor_, measurement);
-    }
+    add_and_scatter(add, measurement);
     if (sensor_.electronics && !measurement.has_electrons)
       count_electrons(sensor_,
                       {.reads_taps = static_cast<bool>(add),
@@ -118,6 +109,27 @@ Measurement Camera::measure(const Progress &progress, const ExposureNumber &numb
   if (sensor_.unwrap_range_m > 0.0)
     unwrap_distances(sensor_, measurement);
   return measurement;
+}
+
+Measurement Camera::measure_noiseless(const Progress &progress, const ExposureNumber &number,
+                                      const AddLight &add) {
+  Measurement measurement = measure_light(progress, number);
+  add_and_scatter(add, measurement);
+  return measurement;
+}
+
+void Camera::add_and_scatter(const AddLight &add, Measurement &measurement) const {
+  if (add && measurement.has_electrons)
+    throw std::logic_error("light is added to a frame whose electrons are counted");
+  if (add)
+    add(measurement);
+  if (sensor_.scatter.empty())
+    return;
+  const bool reads_taps = add || sensor_.waveform.kind != Waveform::Kind::sine;
+  if (sensor_.electronics && !reads_taps) // electrons make new ones
+    for (Return &of_frequency : measurement.returns)
+      of_frequency.taps.clear();
+  scatter(sensor_, measurement);
 }
 
 Measurement Camera::measure_light(const Progress &progress, const ExposureNumber &number) {

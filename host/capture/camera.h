@@ -15,11 +15,12 @@ namespace pmdsim {
 
 // Extras that a measurement shall have beside its other channels.
 struct Extras {
-  bool sample_triangles = false;  // Measurement::sample_triangle_id, not from the reference
-  bool reached = false;           // Measurement::sample_visibility, not from the reference
-  bool taps = false;              // Return::taps, and those in electrons
-  bool electrons_at_once = false; // SimulatorOptions::count_electrons: nothing is added to the frames' light
-  bool diodes_in_a_loop = false;  // nothing is summed beforehand, and the sum is a pass of its own
+  bool sample_triangles = false;   // Measurement::sample_triangle_id, not from the reference
+  bool reached = false;            // Measurement::sample_visibility, not from the reference
+  bool taps = false;               // Return::taps, and those in electrons
+  bool electrons_at_once = false;  // SimulatorOptions::count_electrons: nothing is added to the frames' light
+  bool electrons_of_polar = false; // then of amplitude and phase, as beside noiseless channels: the same bits
+  bool diodes_in_a_loop = false;   // nothing is summed beforehand, and the sum is a pass of its own
   // Where light bounces, the paths that the reference follows for each pixel; 0: as many as it chooses.
   std::uint32_t paths = 0;
 };
@@ -55,8 +56,11 @@ public:
   using AddLight = std::function<void(Measurement &)>;
   Measurement measure(const Progress &progress = {}, const ExposureNumber &number = {},
                       const AddLight &add = {});
-  // The same before the electronics. Neither this nor `add` is for a camera with Extras::electrons_at_once,
-  // whose frames throw std::logic_error where their electrons are counted already.
+  // The same without electrons and unwrapping: the light that the electronics would read.
+  Measurement measure_noiseless(const Progress &progress = {}, const ExposureNumber &number = {},
+                                const AddLight &add = {});
+  // And without scatter. Neither this, nor measure_noiseless(), nor `add` is for a frame whose electrons the
+  // device counts (Extras::electrons_at_once): they throw std::logic_error.
   Measurement measure_light(const Progress &progress = {}, const ExposureNumber &number = {});
   // As Simulator::reuse().
   void reuse(Measurement &&frame);
@@ -66,6 +70,8 @@ private:
   std::function<reference::Frame(const Progress &)> reference_frame_; // of what is prepared
   // A frame as the device or the reference leaves it.
   Measurement measure_device(const Progress &progress, const ExposureNumber &number);
+  // What the light goes through before the electronics read it.
+  void add_and_scatter(const AddLight &add, Measurement &measurement) const;
   Measurement measurement_of(const reference::Frame &frame, const ExposureNumber &number) const;
 
   Extras extras_;

@@ -9,7 +9,8 @@
 namespace pmdsim {
 namespace {
 
-// Throws Error: (usage) where the setup has not so many, (input) where a sensor's frames cannot become files.
+// Throws Error: (usage) where the setup has not so many, or not the channels, (input) where a sensor's frames
+// cannot become files.
 FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
   const FrameRange frames = request.frames.value_or(FrameRange{0, setup.frames.count});
   if (frames.end > setup.frames.count)
@@ -17,6 +18,7 @@ FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
                 fmt::format("--frames {}:{}: expected B at most {}, the frames of {}", frames.first,
                             frames.end, setup.frames.count, setup.file.string()));
   require_names_for_files(setup.start.sensors);
+  request.channels.require_in(setup, request.accuracy);
   return request.shard.of(frames);
 }
 
@@ -37,13 +39,27 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
                .inputs = inputs_json(setup.inputs)};
   for (const Format format : request.formats)
     head.formats.push_back(format_name(format));
+  head.channels = request.channels.names();
   return head;
 }
 
 } // namespace
 
+SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file) {
+  SetupDocument document = read_setup_document(file);
+  if (request.poses)
+    change(document, changes_for(*request.poses, document));
+  change(document, request.changes);
+  return document;
+}
+
 Setup requested_setup(const CaptureRequest &request) {
-  Setup setup = load_setup(request.setup);
+  SetupLoader loader;
+  return requested_setup(request, requested_document(request, request.setup), loader);
+}
+
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
+  Setup setup = loader.load(document);
   if (request.paths > 0 && !setup.bounces.any())
     throw Error(ExitCode::usage, fmt::format("--paths: no light bounces in {}, expected \"bounces\" above 0",
                                              setup.file.string()));
@@ -85,10 +101,11 @@ void leave_out_electronics(Setup &setup) {
                "are compared\n");
 }
 
-Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps)
+Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
+                 const WantedChannels &measured, const std::shared_ptr<Camera> &camera)
     : setup_(std::move(setup)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
-      max_error_m_(request.accuracy.max_error_m),
-      exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths),
+      channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
+      exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_,
                 {frames_, request.output_directory,
                  request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again},
@@ -142,16 +159,17 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats) {
   auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{taken->sensor, at.frame, channels_of(taken->measurement), taken});
+      FrameToWrite{taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken});
   return {record_of(*taken, at),
           [frame = std::move(frame), formats](FrameRecord &) { return files_of(frame, formats); }};
 }
 
-std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps) {
+std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted,
+                                   std::size_t maps) {
   std::size_t most = 0;
   for (const Sensor &sensor : setup.start.sensors) {
     const std::size_t values = maps * sensor.modulation_hz.size() * sensor.pixel_count();
-    most = std::max(most, bytes_of_frame(sensor, keep_taps, setup.bounces) + values * sizeof(float));
+    most = std::max(most, bytes_of_frame(sensor, keep_taps, setup.bounces, wanted) + values * sizeof(float));
   }
   return most;
 }

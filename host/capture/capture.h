@@ -6,6 +6,7 @@
 #include "host/capture/frame_sequence.h"
 #include "host/capture/frame_writer.h"
 #include "host/capture/progress.h"
+#include "host/capture/variants.h"
 #include "host/input/setup/setup.h"
 
 #include <filesystem>
@@ -18,20 +19,27 @@ namespace pmdsim {
 
 struct CaptureRequest {
   std::filesystem::path setup;
-  std::optional<SampleChoice> samples; // instead of the setup's
-  std::string device;                  // as Camera's
-  std::uint32_t paths = 0;             // of the reference, as Extras
+  nlohmann::json changes = nlohmann::json::object(); // of the setup, as change() takes them
+  std::optional<PosesFromFile> poses;                // likewise
+  std::optional<SampleChoice> samples;               // instead of the setup's
+  std::string device;                                // as Camera's
+  std::uint32_t paths = 0;                           // of the reference, as Extras
   Accuracy accuracy;
   std::optional<FrameRange> frames; // instead of all of the setup's
   Shard shard;                      // of these
   std::filesystem::path output_directory;
   bool resume = false; // frames that are whole there stay
   std::set<Format> formats;
+  WantedChannels channels;
 };
 
 // The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error: input,
 // usage (paths are asked for where no light bounces).
 Setup requested_setup(const CaptureRequest &request);
+// The document of that, changed already.
+SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file);
+// The same of a document, by a loader that others of the same scenes may use.
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
 // Leaves out what the camera does behind the lens (electronics, scatter, unwrapping), for commands that
@@ -44,14 +52,22 @@ public:
   // `command` is what the manifest calls it. Without `keep_taps` as Exposures. Throws Error: nothing is
   // measured in vain where a file cannot be written.
   Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
-      : Capture(request, requested_setup(request), command, keep_taps) {}
+      : Capture(request, requested_setup(request), command, keep_taps, request.channels) {}
   // Of `setup`, which is the requested one, changed.
-  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps);
+  // Measured are the channels that `measured` wants, beside those of the request.
+  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
+          const WantedChannels &measured)
+      : Capture(request, std::move(setup), command, keep_taps, measured,
+                std::make_shared<Camera>(request.device)) {}
+  // With a camera that nobody else uses meanwhile.
+  Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
+          const WantedChannels &measured, const std::shared_ptr<Camera> &camera);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t frame_count() const { return frames_.count(); } // that were asked for
   const std::set<Format> &formats() const { return formats_; }
-  const FrameSequence &sequence() const { return sequence_; } // with what it has written
+  const WantedChannels &channels() const { return channels_; } // of the request
+  const FrameSequence &sequence() const { return sequence_; }  // with what it has written
   // Of the frames in the directory that were asked for, sensor by sensor, as its records have them. As
   // FrameSequence::for_each_record().
   void for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const;
@@ -70,6 +86,7 @@ private:
   Setup setup_;
   FrameRange frames_;
   std::set<Format> formats_;
+  WantedChannels channels_;
   double max_error_m_; // asked for
   Exposures exposures_;
   FrameSequence sequence_;
@@ -79,12 +96,13 @@ private:
 // A manifest's record of a part of a frame.
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 
-// A frame as `render` leaves it: every channel of what was measured. Its files hold on to `taken`.
+// A frame as `render` leaves it: every channel of what was taken. Its files hold on to `taken`.
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats);
 
-// The bytes of the setup's largest frame, with or without its taps, and with so many maps more of each
-// frequency.
-std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, std::size_t maps = 0);
+// The bytes of the setup's largest frame of the wanted channels, with or without its taps, and with so many
+// maps more of each frequency.
+std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted = {},
+                                   std::size_t maps = 0);
 
 } // namespace pmdsim

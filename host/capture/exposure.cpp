@@ -70,30 +70,12 @@ double samples_of_frame(const Setup &setup) {
   return std::accumulate(setup.start.sensors.begin(), setup.start.sensors.end(), 0.0, add);
 }
 
-namespace {
-
-// As far as the setup tells.
-bool is_there(const ChannelRow &row, const Sensor &sensor, const Bounces &bounces) {
-  switch (row.slot.area) {
-  case DeviceSlot::Area::none:
-    return bounces.any();
-  case DeviceSlot::Area::mean:
-  case DeviceSlot::Area::electrons:
-    return sensor.electronics.has_value();
-  case DeviceSlot::Area::unwrapped:
-    return sensor.unwrap_range_m > 0.0;
-  default:
-    return true;
-  }
-}
-
-} // namespace
-
-std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces) {
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces,
+                           const WantedChannels &wanted) {
   const std::size_t frequencies = sensor.modulation_hz.size(), taps = keep_taps ? sensor.taps : 0;
   std::size_t channels = 0;
   for (const ChannelRow &row : channel_rows)
-    if (is_there(row, sensor, bounces))
+    if (wanted.has(row) && has_channel(row, sensor, bounces))
       channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
   return channels * sizeof(float) * sensor.pixel_count();
 }
@@ -141,16 +123,31 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 }
 
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
-                     std::uint32_t paths)
-    : Exposures(setup, std::make_shared<Camera>(device), keep_taps, accuracy, paths) {}
+                     std::uint32_t paths, const WantedChannels &wanted)
+    : Exposures(setup, std::make_shared<Camera>(device), keep_taps, accuracy, paths, wanted) {}
 
 Exposures::Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps,
-                     const Accuracy &accuracy, std::uint32_t paths)
-    : setup_(setup), keep_taps_(keep_taps), accuracy_(accuracy), camera_(std::move(camera)),
-      others_(setup, camera_->wanted(), paths), instants_(setup) {
-  camera_->give({.taps = keep_taps || exposes_any_tap_by_tap(setup),
+                     const Accuracy &accuracy, std::uint32_t paths, const WantedChannels &wanted)
+    : setup_(setup), wanted_(wanted), leaves_noiseless_(leaves_noiseless(wanted, setup.start.sensors)),
+      keep_taps_(keep_taps && wanted.have_taps()), accuracy_(accuracy), camera_(std::move(camera)),
+      others_(setup, camera_->wanted(), paths, are_others_asked_for()), instants_(setup) {
+  camera_->give({.taps = keep_taps_ || exposes_any_tap_by_tap(setup),
                  .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
+                 .electrons_of_polar = leaves_noiseless_,
                  .paths = paths});
+}
+
+bool Exposures::are_others_asked_for() const {
+  return std::ranges::any_of(setup_.start.sensors,
+                             [&](const Sensor &sensor) { return part(sensor) >= FramePart::light; });
+}
+
+// All of a frame whose taps are exposures of their own, but for what its first one tells.
+FramePart Exposures::part(const Sensor &sensor) const {
+  if (!exposes_tap_by_tap(setup_, sensor))
+    return part_of(wanted_, sensor, setup_.bounces, accuracy_);
+  const FramePart part = part_of(wanted_, sensor, setup_.bounces, {});
+  return part <= FramePart::visibility ? part : FramePart::electrons;
 }
 
 const Instant &Exposures::instant_at(double time_s) {
@@ -166,39 +163,77 @@ void Exposures::prepare(View view, const Accuracy &accuracy) {
     return;
   prepared_.reset();
   const Instant &instant = instant_at(view.time_s);
-  Sensor sensor = instant.sensors[view.sensor];
+  const FramePart part = this->part(instant.sensors[view.sensor]);
+  Sensor sensor = reduced_to(wanted_, part, leaves_noiseless_, instant.sensors[view.sensor]);
   if (view.frequency)
     sensor.modulation_hz = {sensor.modulation_hz[*view.frequency]};
-  const bool is_in_lens = view.light == Light::in_lens;
+  const bool is_in_lens = view.light == Light::in_lens || part == FramePart::truth;
   const std::vector in_lens{monostatic_illuminator(sensor.world_from_camera)};
+  const Bounces bounces = part >= FramePart::light ? setup_.bounces : Bounces{};
   // Light in the lens reaches whatever the lens sees; what bounces comes from elsewhere, too.
-  const Shadows shadows = is_in_lens && !setup_.bounces.any() ? Shadows::off : setup_.shadows;
+  const Shadows shadows = is_in_lens && !bounces.any() ? Shadows::off : setup_.shadows;
   camera_->prepare(instant.scene, sensor, is_in_lens ? in_lens : instant.illuminators, setup_.backscatter,
-                   shadows, accuracy, setup_.bounces);
-  if (others_.reach(sensor))
+                   shadows, accuracy, bounces);
+  if (part >= FramePart::light && others_.reach(sensor))
     others_.prepare(instant, sensor);
   prepared_ = view;
+}
+
+// A frame of one exposure, or what the first exposure of a frame tells.
+Measurement Exposures::take_at_once(const View &view, const Sensor &sensor, const ExposureNumber &number,
+                                    const Progress &progress, const std::optional<double> &next_s) {
+  const FramePart part = this->part(sensor);
+  prepare(view, view.frequency ? Accuracy{.mode = Mode::exact, .precision = accuracy_.precision} : accuracy_);
+  if (next_s)
+    instants_.expect(*next_s);
+  const auto add = [&](Measurement &measured) { others_.add_to(sensor, view.time_s, measured); };
+  const bool is_reached = part >= FramePart::light && others_.reach(sensor);
+  const auto added = is_reached ? Camera::AddLight(add) : nullptr;
+  if (part == FramePart::electrons)
+    return camera_->measure(progress, number, added);
+  Measurement frame = camera_->measure_noiseless(progress, number, added);
+  name_light(part, sensor, frame);
+  return frame;
 }
 
 TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                            std::optional<double> next_s) {
   const double time_s = setup_.frames.time_s(number);
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
-  if (exposes_tap_by_tap(setup_, frame.sensor)) {
+  if (!wanted_.are_all()) { // what was left of the frames before
+    const std::scoped_lock lock(spare_mutex_);
+    camera_->reuse(std::exchange(spare_, {}));
+  }
+  const bool is_tap_by_tap = exposes_tap_by_tap(setup_, frame.sensor);
+  if (is_tap_by_tap && part(frame.sensor) > FramePart::visibility) {
     frame = take_tap_by_tap(sensor, number, light, progress, next_s);
   } else {
-    prepare({sensor, std::nullopt, time_s, light}, accuracy_);
-    if (next_s)
-      instants_.expect(*next_s);
-    const auto add = [&](Measurement &measured) { others_.add_to(frame.sensor, time_s, measured); };
-    frame.measurement = camera_->measure(progress, {static_cast<std::uint32_t>(sensor), number, 0},
-                                         others_.reach(frame.sensor) ? Camera::AddLight(add) : nullptr);
+    const std::optional<std::size_t> first_tap = is_tap_by_tap ? std::optional<std::size_t>(0) : std::nullopt;
+    if (is_tap_by_tap)
+      frame.mode = Mode::exact;
+    frame.measurement = take_at_once({sensor, first_tap, time_s, light}, frame.sensor,
+                                     {static_cast<std::uint32_t>(sensor), number, 0}, progress, next_s);
   }
   if (!keep_taps_)
     for (Return &of : frame.measurement.returns)
       for (auto *taps : {&of.taps, &of.tap_a_e, &of.tap_b_e, &of.tap_a_dn, &of.tap_b_dn})
         taps->clear();
+  leave_unwanted(frame.measurement);
   return frame;
+}
+
+void Exposures::leave_unwanted(Measurement &frame) {
+  if (wanted_.are_all())
+    return;
+  const std::scoped_lock lock(spare_mutex_);
+  move_unwanted(wanted_, frame, spare_);
+}
+
+void Exposures::reuse(Measurement &&frame) {
+  if (wanted_.are_all())
+    return camera_->reuse(std::move(frame));
+  const std::scoped_lock lock(spare_mutex_);
+  move_missing(frame, spare_);
 }
 
 std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
@@ -231,7 +266,8 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
                        std::vector<float> &correlation) {
     others_.add_to(frame.sensor, frequency, tap, exposure_s, exposure, correlation);
   };
-  frame.measurement = measure_tap_by_tap(frame.sensor, time_s, expose, keep_taps_,
+  const Sensor sensor_of_taps = reduced_to(wanted_, FramePart::electrons, leaves_noiseless_, frame.sensor);
+  frame.measurement = measure_tap_by_tap(sensor_of_taps, time_s, expose, keep_taps_,
                                          others_.reach(frame.sensor) ? AddToExposure(add) : nullptr);
   return frame;
 }

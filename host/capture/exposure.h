@@ -4,10 +4,12 @@
 
 #include "host/capture/camera.h"
 #include "host/capture/other_cameras.h"
+#include "host/capture/wanted_channels.h"
 
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,9 +60,10 @@ bool exposes_any_tap_by_tap(const Setup &setup);
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);
 
-// Bytes of all channels of one frame, with or without its taps and what light that bounces adds; shadows
-// included, whether or not there are.
-std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces);
+// Bytes of the wanted channels of one frame, with or without its taps and what light that bounces adds;
+// shadows included, whether or not there are.
+std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces,
+                           const WantedChannels &wanted = {});
 
 // Times of the same pass add up; a pass that is new comes last.
 void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes);
@@ -93,16 +96,17 @@ public:
   // Throws Error (no_device). Without `keep_taps` frames have no taps, however they are taken. Frames whose
   // taps are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each
   // exposure's error is no bound of the phase and distance that follow from a tap of each.
-  // `paths` as Extras.
+  // `paths` as Extras. Of the channels of a frame only those that are wanted are there, and what no other
+  // needs is not computed; they have the bits that they have in a whole frame.
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {},
-            std::uint32_t paths = 0);
+            std::uint32_t paths = 0, const WantedChannels &wanted = {});
   // With a camera that others may have used before, and nobody does meanwhile.
   Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps, const Accuracy &accuracy,
-            std::uint32_t paths);
+            std::uint32_t paths, const WantedChannels &wanted);
 
   const Camera &camera() const { return *camera_; }
   // As Simulator::reuse().
-  void reuse(Measurement &&frame) { camera_->reuse(std::move(frame)); }
+  void reuse(Measurement &&frame);
   // A frame whose memory is reused once nobody holds it any more; this must outlive it.
   std::shared_ptr<const TakenFrame> share(TakenFrame &&frame);
 
@@ -123,18 +127,26 @@ private:
     bool operator==(const View &) const = default;
   };
 
+  bool are_others_asked_for() const;
+  FramePart part(const Sensor &sensor) const;
   const Instant &instant_at(double time_s);
+  Measurement take_at_once(const View &view, const Sensor &sensor, const ExposureNumber &number,
+                           const Progress &progress, const std::optional<double> &next_s);
   TakenFrame take_tap_by_tap(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                              const std::optional<double> &next_s);
   void prepare(View view, const Accuracy &accuracy);
+  void leave_unwanted(Measurement &frame);
 
   const Setup &setup_;
-  bool keep_taps_;
+  WantedChannels wanted_;
+  bool leaves_noiseless_, keep_taps_;
   Accuracy accuracy_;
   std::shared_ptr<Camera> camera_;
   OtherCameras others_;
   std::optional<View> prepared_;
   Instants instants_;
+  std::mutex spare_mutex_;
+  Measurement spare_; // memory of channels, where only some are wanted
 };
 
 } // namespace pmdsim

@@ -2,10 +2,12 @@
 
 #include "engine/model/error.h"
 #include "host/capture/progress.h"
+#include "host/output/files/h5_writer.h"
 #include "host/output/pictures/preview.h"
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"
 
+#include <array>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -24,17 +26,8 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
 } // namespace
 
 std::string format_name(Format format) {
-  switch (format) {
-  case Format::exr:
-    return "exr";
-  case Format::npy:
-    return "npy";
-  case Format::png:
-    return "png";
-  case Format::csv:
-    return "csv";
-  }
-  throw std::logic_error("a format without a name");
+  constexpr std::array names{"exr", "npz", "h5", "npy", "png", "csv"}; // in the order of Format
+  return names.at(static_cast<std::size_t>(format));
 }
 
 void require_names_for_files(const std::vector<Sensor> &sensors) {
@@ -69,6 +62,12 @@ std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &fra
   };
   if (formats.contains(Format::exr))
     add(stem + ".exr", [&set](OutputFile &file) { write_exr(file, set); });
+  if (formats.contains(Format::npz))
+    add(stem + ".npz", [&set](OutputFile &file) { write_npz(file, set); });
+  if (formats.contains(Format::h5))
+    add(stem + ".h5", [&at = *frame](OutputFile &file) {
+      write_h5(file, at.channels, {at.sensor, at.frame, at.time_s});
+    });
   if (formats.contains(Format::csv))
     add(stem + ".profile.csv",
         [&at = *frame](OutputFile &file) { write_profile_csv(file, at.channels, at.sensor); });

@@ -1,6 +1,6 @@
 #pragma once
-// The files of one frame: SENSOR_FRAME.exr, SENSOR_FRAME.CHANNEL.npy, SENSOR_FRAME.CHANNEL.png and
-// SENSOR_FRAME.profile.csv, as far as the command line asks for them.
+// The files of one frame: SENSOR_FRAME.exr, .npz and .h5, SENSOR_FRAME.CHANNEL.npy, SENSOR_FRAME.CHANNEL.png
+// and SENSOR_FRAME.profile.csv, as far as the command line asks for them.
 
 #include "engine/model/sensor.h"
 #include "host/output/files/channel.h"
@@ -14,7 +14,7 @@
 
 namespace pmdsim {
 
-enum class Format { exr, npy, png, csv };
+enum class Format { exr, npz, h5, npy, png, csv };
 // As the command line has it.
 std::string format_name(Format format);
 
@@ -27,6 +27,7 @@ std::string frame_file_stem(const Sensor &sensor, std::uint32_t frame);
 struct FrameToWrite {
   Sensor sensor;
   std::uint32_t frame;
+  double time_s; // when it began
   ChannelSet channels;
   std::shared_ptr<const void> measured; // what the channels look at
 };

@@ -18,10 +18,13 @@ std::vector<Illuminator> illuminators_at(double modulation_hz, const Instant &in
 
 } // namespace
 
-OtherCameras::OtherCameras(const Setup &setup, const std::string &device, std::uint32_t paths)
+OtherCameras::OtherCameras(const Setup &setup, const std::string &device, std::uint32_t paths,
+                           bool are_asked_for)
     : setup_(setup) {
-  const bool any_reached = std::ranges::any_of(
-      setup.start.sensors, [](const Sensor &sensor) { return sensor.electronics.has_value(); });
+  const bool any_reached =
+      are_asked_for && std::ranges::any_of(setup.start.sensors, [](const Sensor &sensor) {
+        return sensor.electronics.has_value();
+      });
   for (const OtherIlluminator &other : setup.start.others)
     if (any_reached &&
         std::ranges::find(cameras_, other.modulation_hz, &Other::modulation_hz) == cameras_.end())

@@ -15,8 +15,9 @@ namespace pmdsim {
 
 class OtherCameras {
 public:
-  // Of a setup, which must outlive it; `device` and `paths` as Camera's and Extras'.
-  OtherCameras(const Setup &setup, const std::string &device, std::uint32_t paths);
+  // Of a setup, which must outlive it; `device` and `paths` as Camera's and Extras'. None where nobody asks
+  // for their light.
+  OtherCameras(const Setup &setup, const std::string &device, std::uint32_t paths, bool are_asked_for = true);
 
   // Whether frames of the sensor have light of theirs.
   bool reach(const Sensor &sensor) const { return sensor.electronics && !cameras_.empty(); }

@@ -50,8 +50,10 @@ TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRe
     taking_.reset(); // its memory first
     auto setup = with_samples(setup_, request.samples);
     const Setup &of = *setup;
-    taking_.reset(new Taking{std::move(setup), request,
-                             Exposures(of, camera_, request.keep_taps, request.accuracy, request.paths)});
+    request.channels.require_in(of, request.accuracy);
+    taking_.reset(
+        new Taking{std::move(setup), request,
+                   Exposures(of, camera_, true, request.accuracy, request.paths, request.channels)});
   }
   return taking_->exposures.take(sensor, number, Light::beside_lens, progress);
 }

@@ -18,9 +18,12 @@ struct FrameRequest {
   Accuracy accuracy;
   std::optional<SampleChoice> samples; // instead of the setup's
   std::uint32_t paths = 0;             // of the reference, as Extras
-  bool keep_taps = true;
+  WantedChannels channels{};
 
-  bool operator==(const FrameRequest &) const = default;
+  bool operator==(const FrameRequest &other) const {
+    return accuracy == other.accuracy && samples == other.samples && paths == other.paths &&
+           channels.names() == other.channels.names();
+  }
 };
 
 class Session {

@@ -70,24 +70,32 @@ FileToWrite profile_plot(const std::shared_ptr<const FrameToWrite> &frame, const
           }};
 }
 
+// The distance is always measured.
+bool is_asked_for(const Channel &channel, const WantedChannels &channels) {
+  const ChannelRow &distance = row_of(&Return::distance_m);
+  return channel.quantity != distance.name || channels.has({distance, channel.frequency.value_or(0)});
+}
+
 std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair> &pair,
-                                           std::uint32_t frame_number, const std::set<Format> &formats) {
+                                           const FrameRecord &record, const Capture &capture) {
   const Measurement &bistatic = pair->bistatic.measurement;
   const Maps &deformations = pair->deformations_mm;
   ChannelSet set{bistatic.resolution, {}};
-  for (std::size_t i = 0; i < deformations.size(); ++i)
-    set.channels.push_back({"deformation_mm", "mm", std::span(deformations[i]),
-                            frequency_of(i, deformations.size()),
-                            Preview{"deformation", ColourScale::zero_centred}});
+  const bool has_deformation = capture.channels().has_own(deformation_channel);
+  for (std::size_t i = 0; has_deformation && i < deformations.size(); ++i)
+    set.channels.push_back(
+        {deformation_channel, "mm", std::span(deformations[i]), frequency_of(i, deformations.size()),
+         Preview{"deformation", ColourScale::zero_centred}, "bistatic minus monostatic distance, wrapped"});
   ChannelSet measured = channels_of(bistatic);
-  for (Channel &channel : measured.channels) {
-    channel.preview = std::nullopt;
-    set.channels.push_back(std::move(channel));
-  }
+  for (Channel &channel : measured.channels)
+    if (is_asked_for(channel, capture.channels())) {
+      channel.preview = std::nullopt;
+      set.channels.push_back(std::move(channel));
+    }
   const auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{pair->bistatic.sensor, frame_number, std::move(set), pair});
-  std::vector<FileToWrite> files = files_of(frame, formats);
-  if (formats.contains(Format::png))
+      FrameToWrite{pair->bistatic.sensor, record.frame, record.time_s, std::move(set), pair});
+  std::vector<FileToWrite> files = files_of(frame, capture.formats());
+  if (has_deformation && capture.formats().contains(Format::png))
     for (std::size_t i = 0; i < deformations.size(); ++i)
       files.push_back(profile_plot(frame, frame->channels.channels[i]));
   return files;
@@ -144,18 +152,17 @@ std::deque<DeformedFrame> deform(Capture &capture) {
     const std::shared_ptr<TakenPair> pair = take_pair(capture, at, *told);
     DeformedFrame *kept =
         first.empty() || first.front().record.frame == at.frame ? &first.emplace_back(*told) : nullptr;
-    return {record_of(pair->bistatic, at),
-            [pair, told, kept, &formats = capture.formats()](FrameRecord &record) {
+    return {record_of(pair->bistatic, at), [pair, told, kept, &capture](FrameRecord &record) {
               pair->deformations_mm = deformations_mm(*pair);
               for (const std::vector<float> &deformation : pair->deformations_mm)
                 told->statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
               record.told = deformed_json(*told);
               if (kept)
                 kept->statistics = told->statistics;
-              return deformation_files(pair, told->record.frame, formats);
+              return deformation_files(pair, told->record, capture);
             }};
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, 2), 2.0);
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, capture.channels(), 2), 2.0);
   return first;
 }
 
@@ -227,7 +234,8 @@ std::string report_text(const std::deque<DeformedFrame> &first, const Capture &c
 void run_deform(const Options &options) {
   Setup setup = requested_setup(options.capture);
   leave_out_electronics(setup);
-  Capture capture(options.capture, std::move(setup), "deform", false);
+  const WantedChannels measured = options.capture.channels.with(row_of(&Return::distance_m));
+  Capture capture(options.capture, std::move(setup), "deform", false, measured);
   const std::deque<DeformedFrame> first = deform(capture);
   if (options.json)
     print_deform_json(capture);

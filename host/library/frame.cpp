@@ -19,6 +19,17 @@ std::shared_ptr<FrameObject> frame_of(const pmdsim_frame *handle) {
   return frame;
 }
 
+ChannelSet channels_of(const ReadFrame &frame) {
+  ChannelSet set{frame.resolution, {}};
+  for (const ReadChannel &channel : frame.channels)
+    std::visit(
+        [&](const auto &values) {
+          set.channels.push_back({channel.name, channel.unit, std::span(values)});
+        },
+        channel.values);
+  return set;
+}
+
 void tell(const FrameObject &frame, std::size_t index, pmdsim_channel *channel) {
   const Channel &of = frame.channels.channels[index];
   const bool is_float = std::holds_alternative<std::span<const float>>(of.values);
@@ -66,6 +77,16 @@ pmdsim_frame *add_frame(std::shared_ptr<FrameObject> frame) {
 
 using namespace pmdsim;
 using namespace pmdsim::library;
+
+pmdsim_status pmdsim_frame_read(const char *file, pmdsim_frame **frame) {
+  return guarded([&] {
+    required(frame, "frame");
+    auto made = std::make_shared<FrameObject>();
+    made->read = read_frame(&required(file, "file"));
+    made->channels = channels_of(*made->read);
+    *frame = add_frame(std::move(made));
+  });
+}
 
 pmdsim_status pmdsim_frame_destroy(pmdsim_frame *frame) {
   return guarded([&] {

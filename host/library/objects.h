@@ -2,6 +2,7 @@
 // What the handles of the C interface stand for.
 
 #include "host/capture/session.h"
+#include "host/input/frame/frame_file.h"
 #include "host/library/handles.h"
 #include "host/library/pmdsim.h"
 #include "host/output/files/channel.h"
@@ -31,7 +32,8 @@ struct FrameObject {
   FrameObject &operator=(const FrameObject &) = delete;
   ~FrameObject();
 
-  std::optional<TakenFrame> taken; // nothing of a frame that was read
+  std::optional<TakenFrame> taken; // one or the other
+  std::optional<ReadFrame> read;
   std::weak_ptr<Camera> camera;    // whose memory it is in
   ChannelSet channels;
   std::vector<std::string> names; // beside the channels

@@ -85,11 +85,25 @@ std::uint32_t paths_of(std::uint32_t paths, bool on_reference) {
   return paths;
 }
 
+// NULL: all.
+WantedChannels channels_of(const char *text) {
+  if (!text)
+    return {};
+  std::vector<std::string> names;
+  for (std::string_view rest = text;;) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, end));
+    if (end == rest.size())
+      return WantedChannels(names);
+    rest.remove_prefix(end + 1);
+  }
+}
+
 FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
   const pmdsim_render_options options =
       given ? struct_of(given, sizeof(pmdsim_render_options), "options") : pmdsim_render_options{};
   return {accuracy_of(options, on_reference), samples_of(options.samples),
-          paths_of(options.paths, on_reference)};
+          paths_of(options.paths, on_reference), channels_of(options.channels)};
 }
 
 nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, double time_s,
@@ -128,7 +142,7 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     auto made = std::make_shared<FrameObject>();
     made->camera = session.camera();
     made->taken = session.take(sensor, frame, request, stop_when_cancelled);
-    made->channels = channels_of(made->taken->measurement);
+    made->channels = pmdsim::channels_of(made->taken->measurement);
     made->report = json_text(
         report_of(*made->taken, frame, session.setup().frames.time_s(frame), request.accuracy.max_error_m));
     *result = add_frame(std::move(made));

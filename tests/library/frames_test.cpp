@@ -126,6 +126,45 @@ TEST_CASE("A mesh is a scene") {
     pmdsim_frame_destroy(frame);
 }
 
+TEST_CASE("Channels that are asked for, alone and with the same bits") {
+  const Loaded loaded;
+  pmdsim_frame *all = loaded.render();
+  pmdsim_render_options options{};
+  options.struct_size = sizeof(options);
+  options.channels = "range_m,phase_rad";
+  pmdsim_frame *some = loaded.render(&options);
+  std::size_t count = 0;
+  REQUIRE(pmdsim_frame_channel_count(some, &count) == PMDSIM_OK);
+  CHECK(count == 2);
+  CHECK(floats_of(some, "phase_rad") == floats_of(all, "phase_rad"));
+  CHECK(floats_of(some, "range_m") == floats_of(all, "range_m"));
+  options.channels = "phase";
+  pmdsim_frame *none = nullptr;
+  CHECK(pmdsim_render(loaded.simulator, 0, 0, &options, &none) == PMDSIM_BAD_ARGUMENT);
+  for (pmdsim_frame *frame : {all, some})
+    pmdsim_frame_destroy(frame);
+}
+
+TEST_CASE("Files of frames are read") {
+  const Loaded loaded;
+  REQUIRE(run_pmdsim({"render", loaded.file, "-o", loaded.work / "out", "--format", "exr,h5"}).exit_code ==
+          0);
+  pmdsim_frame *rendered = loaded.render();
+  for (const char *ending : {"exr", "h5"}) {
+    INFO(ending);
+    pmdsim_frame *read = nullptr;
+    REQUIRE(pmdsim_frame_read((loaded.work / "out/pmd_0000." + ending).c_str(), &read) == PMDSIM_OK);
+    CHECK(floats_of(read, "phase_rad") == floats_of(rendered, "phase_rad"));
+    double room = 0.0;
+    CHECK(pmdsim_frame_directions(read, &room, 1) == PMDSIM_BAD_ARGUMENT);
+    CHECK(pmdsim_frame_destroy(read) == PMDSIM_OK);
+  }
+  pmdsim_frame *none = nullptr;
+  CHECK(pmdsim_frame_read(loaded.file.c_str(), &none) == PMDSIM_BAD_INPUT);
+  CHECK(std::string(pmdsim_error_file()) == loaded.file);
+  pmdsim_frame_destroy(rendered);
+}
+
 TEST_CASE("Directions and distances make points") {
   const Loaded loaded;
   pmdsim_frame *frame = loaded.render();

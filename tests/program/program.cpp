@@ -46,10 +46,14 @@ void redirect(const fs::path &file, int to) {
   for (const std::string &argument : arguments)
     pointers.push_back(const_cast<char *>(argument.c_str()));
   pointers.push_back(nullptr);
+  if (options.ignored != 0)
+    ::signal(options.ignored, SIG_IGN);
   ::alarm(longest_run_s);
   ::execv(PMDSIM_PROGRAM, pointers.data());
   ::_exit(126);
 }
+
+} // namespace
 
 void wait_for(const fs::path &file) {
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(longest_run_s);
@@ -57,30 +61,45 @@ void wait_for(const fs::path &file) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-} // namespace
-
-Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options) {
-  const Workspace streams;
-  const fs::path output = streams / "stdout", errors = streams / "stderr";
-  const pid_t child = ::fork();
-  if (child < 0)
+RunningPmdsim::RunningPmdsim(const std::vector<std::string> &arguments, const RunOptions &options)
+    : process_(::fork()) {
+  if (process_ < 0)
     throw std::runtime_error("fork failed");
-  if (child == 0)
-    become_program(arguments, options, output, errors);
-  if (options.interrupt_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
-    ::kill(child, options.signal);
-  } else if (!options.interrupt_when.empty()) {
-    wait_for(options.interrupt_when);
-    ::kill(child, options.signal);
-  }
+  if (process_ == 0)
+    become_program(arguments, options, streams_.path() / "stdout", streams_.path() / "stderr");
+}
+
+RunningPmdsim::~RunningPmdsim() {
+  if (process_ == 0)
+    return;
+  send(SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+}
+
+void RunningPmdsim::send(int signal) const { ::kill(process_, signal); }
+
+Run RunningPmdsim::wait() {
   int status = 0;
   rusage usage{};
-  while (::wait4(child, &status, 0, &usage) < 0)
+  while (::wait4(process_, &status, 0, &usage) < 0)
     if (errno != EINTR)
       throw std::runtime_error("wait4 failed");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content(output), content(errors),
+  process_ = 0;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          content(streams_.path() / "stdout"), content(streams_.path() / "stderr"),
           std::int64_t{usage.ru_maxrss} * 1024};
+}
+
+Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options) {
+  RunningPmdsim program(arguments, options);
+  if (options.interrupt_after_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
+    program.send(options.signal);
+  } else if (!options.interrupt_when.empty()) {
+    wait_for(options.interrupt_when);
+    program.send(options.signal);
+  }
+  return program.wait();
 }
 
 std::vector<std::string> Workspace::files(const std::string &below) const {

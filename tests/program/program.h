@@ -25,10 +25,30 @@ struct RunOptions {
   int signal = SIGINT;                              // what interrupts it
   int interrupt_after_ms = 0;                       // then; 0: never
   std::filesystem::path interrupt_when{};           // as soon as this exists; empty: never
+  int ignored = 0;                                  // a signal that it ignores from the start, as nohup does
 };
 
 // Ends the program after a minute: a hang is an exit code of 128 + SIGALRM.
 Run run_pmdsim(const std::vector<std::string> &arguments, const RunOptions &options = {});
+
+// The program while it runs beside the test, which ends it where the test does not wait.
+class RunningPmdsim {
+public:
+  explicit RunningPmdsim(const std::vector<std::string> &arguments, const RunOptions &options = {});
+  ~RunningPmdsim();
+  RunningPmdsim(const RunningPmdsim &) = delete;
+  RunningPmdsim &operator=(const RunningPmdsim &) = delete;
+
+  void send(int signal) const;
+  Run wait(); // once
+
+private:
+  TemporaryFolder streams_;
+  int process_; // 0: has ended
+};
+
+// Waits until it exists, at most a minute.
+void wait_for(const std::filesystem::path &file);
 
 // A temporary folder with the setups and the outputs of a test.
 class Workspace {

@@ -20,6 +20,7 @@ class Recordings(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
         cls.root = Path(cls.temporary.name)
         setup = small_setup(frames={"rate_hz": 10, "count": 3})
         setup["sensors"][0]["name"] = "front.left"
@@ -29,10 +30,6 @@ class Recordings(unittest.TestCase):
         (cls.root / "setup.json").write_text(json.dumps(setup))
         for name in ("npy", "npz", "h5", "exr"):
             write_by_program(cls.root / "setup.json", cls.root / name, "--format", name)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        cls.temporary.cleanup()
 
     def test_every_format_has_the_same_frames(self) -> None:
         with pmdsim.Simulator(self.setup) as simulator:

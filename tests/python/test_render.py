@@ -175,12 +175,33 @@ class Render(unittest.TestCase):
             self.assertEqual(other.distance_m.tobytes(), from_argument.distance_m.tobytes())
 
     def test_warnings(self) -> None:
+        """Each points at the line that calls, and comes once for a setup."""
+        change = {"sensors/0/waveform": {"harmonics": [0, 1]}}
+        warning = small_setup()
+        warning["sensors"][0]["waveform"] = {"harmonics": [0, 1]}
+        with pmdsim.Simulator(small_setup()) as simulator:
+            for action in (
+                lambda: pmdsim.render(small_setup(), set=change),
+                lambda: pmdsim.render(warning),
+                lambda: pmdsim.Simulator(warning).close(),
+                lambda: simulator.load(warning),
+                lambda: (simulator.load(small_setup()), simulator.set(change), simulator.set(change), simulator.render()),
+                lambda: list(pmdsim.sweep(small_setup(), {"sensors/0/waveform": [change["sensors/0/waveform"]]})),
+            ):
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    action()
+                self.assertEqual([(w.category, w.filename) for w in caught], [(pmdsim.PmdsimWarning, __file__)])
+
+    def test_a_frame_that_may_be_off_by_more_warns(self) -> None:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            pmdsim.render(small_setup(), set={"sensors/0/waveform": {"harmonics": [0, 1]}})
-        self.assertTrue(caught)
-        self.assertTrue(issubclass(caught[0].category, pmdsim.PmdsimWarning))
-        self.assertEqual(caught[0].filename, __file__)
+            frame = pmdsim.render(scenes / "light.json", max_error="1um", set={"sensors/0/resolution": [32, 32]})
+        if "error_bound_m" in frame:
+            self.assertEqual([w.filename for w in caught], [__file__])
+            self.assertEqual([str(w.message) for w in caught], frame.report["warnings"])
+        else:
+            self.assertEqual(caught, [])
 
     def test_what_there_is(self) -> None:
         self.assertIn("distance_m", [channel["name"] for channel in pmdsim.channels()])

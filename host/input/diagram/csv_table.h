@@ -47,7 +47,7 @@ public:
 
   // The field of the row read last; empty where the table has no such column.
   std::string_view text(std::size_t column) const { return fields_[column]; }
-  double number(std::size_t column, Range range = {}) const {
+  double number(std::size_t column, NumberRange range = {}) const {
     return number_of(text(column), names_[column], here(), range);
   }
 

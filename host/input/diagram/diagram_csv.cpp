@@ -11,8 +11,8 @@ constexpr std::array<const char *, 4> columns = {"angle_deg", "theta_deg", "phi_
 enum Column : std::size_t { angle, theta, phi, relative };
 using Table = CsvTable<columns.size()>;
 
-constexpr Range to_axis_deg{0.0, 180.0};
-constexpr Range about_axis_deg{0.0, 360.0};
+constexpr NumberRange to_axis_deg{0.0, 180.0};
+constexpr NumberRange about_axis_deg{0.0, 360.0};
 
 struct Row {
   double theta_deg, phi_deg;

@@ -25,9 +25,9 @@ constexpr std::array<const char *, 9> columns = {
 enum Column : std::size_t { x_m, y_m, z_m, axis_x, axis_y, axis_z, intensity_w_sr, pattern, roll_deg };
 using Table = CsvTable<columns.size()>;
 
-constexpr Range coordinates_m{-max_coordinate_m, max_coordinate_m};
-constexpr Range intensities_w_sr{0.0, max_intensity_w_sr};
-constexpr Range rolls_deg{-max_roll_deg, max_roll_deg};
+constexpr NumberRange coordinates_m{-max_coordinate_m, max_coordinate_m};
+constexpr NumberRange intensities_w_sr{0.0, max_intensity_w_sr};
+constexpr NumberRange rolls_deg{-max_roll_deg, max_roll_deg};
 
 glm::dvec3 unit_axis(const glm::dvec3 &axis, const TextPlace &place) {
   const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});

@@ -31,13 +31,13 @@ public:
     return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
   }
 
-  double number(std::string_view what, Range range = {}) {
+  double number(std::string_view what, NumberRange range = {}) {
     const std::string_view word = next_word();
     if (word.empty())
       throw input_error(here(), fmt::format("{}: expected a number, found the end of the file", what));
     return number_of(word, what, here(), range);
   }
-  std::size_t count(std::string_view what, Range range) {
+  std::size_t count(std::string_view what, NumberRange range) {
     const double value = number(what, range);
     if (value != std::floor(value))
       throw input_error(here(), fmt::format("{}: expected a whole number, found {}", what, value));
@@ -76,7 +76,7 @@ private:
   std::size_t place_line_ = 1;
 };
 
-constexpr Range angle_counts{1.0, static_cast<double>(max_diagram_values)};
+constexpr NumberRange angle_counts{1.0, static_cast<double>(max_diagram_values)};
 
 // Skips the label up to and with its last line, TILT=..., whatever is in it: only files of 1991 and later
 // begin with a line that names the standard, and have keywords. Returns what TILT is.
@@ -134,7 +134,8 @@ std::pair<std::size_t, std::size_t> read_head(IesText &text) {
   return {vertical, horizontal};
 }
 
-std::vector<double> read_angles(IesText &text, std::size_t count, Range range_deg, const char *what) {
+std::vector<double> read_angles(IesText &text, std::size_t count, NumberRange range_deg,
+                                const char *what) {
   std::vector<double> angles_deg;
   while (angles_deg.size() < count) {
     const double angle_deg = text.number(what, range_deg);

@@ -33,7 +33,7 @@ Pattern numbered(const LawName &law, double number) {
 const LawName &cosine = law_names[static_cast<std::size_t>(Pattern::Kind::cosine)];
 
 // The limits of the number behind a law's key.
-Range limits_of(const LawName &law) {
+NumberRange limits_of(const LawName &law) {
   static const json schema = json::parse(setup_schema_text);
   static const json &laws =
       schema.at("properties").at("illuminators").at("items").at("properties").at("pattern").at("anyOf");

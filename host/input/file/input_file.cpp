@@ -104,7 +104,7 @@ std::string read_text_file(const std::filesystem::path &file, const AnyPlace &na
   return text;
 }
 
-double number_of(std::string_view text, std::string_view what, const TextPlace &place, Range range) {
+double number_of(std::string_view text, std::string_view what, const TextPlace &place, NumberRange range) {
   double value = 0.0;
   const bool has_plus = text.starts_with('+') && !text.starts_with("+-"); // from_chars takes none
   const char *end = text.data() + text.size();

@@ -27,12 +27,13 @@ std::string read_front_of_regular_file(const std::filesystem::path &file, std::s
 std::string read_text_file(const std::filesystem::path &file, const AnyPlace &named_at);
 
 // Both ends belong to it.
-struct Range {
+struct NumberRange {
   double lowest = std::numeric_limits<double>::lowest(), highest = std::numeric_limits<double>::max();
 };
 
 // The number that `text` is, all of it; finite, with or without a sign. Throws Error (input) at `place`;
 // `what` says what the number is.
-double number_of(std::string_view text, std::string_view what, const TextPlace &place, Range range = {});
+double number_of(std::string_view text, std::string_view what, const TextPlace &place,
+                 NumberRange range = {});
 
 } // namespace pmdsim

@@ -84,6 +84,12 @@ SetupDocument parse_setup_document(std::string_view text, const std::filesystem:
   return {file, parse_json(text, file, Comments::allowed)};
 }
 
+std::string escaped(std::string name) {
+  for (std::size_t at = 0; (at = name.find_first_of("~/", at)) != std::string::npos; at += 2)
+    name.replace(at, 1, name[at] == '~' ? "~0" : "~1");
+  return name;
+}
+
 void change(SetupDocument &document, const json &values) {
   if (!values.is_object())
     throw input_error(Place{document.file}, "cannot set anything: expected an object of paths and values");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -15,6 +16,9 @@ struct SetupDocument {
 // Throws Error (input).
 SetupDocument read_setup_document(const std::filesystem::path &file);
 SetupDocument parse_setup_document(std::string_view text, const std::filesystem::path &file);
+
+// A name as a part of a JSON pointer.
+std::string escaped(std::string name);
 
 // Puts the values of an object into the document: its keys are JSON pointers, with or without the first
 // slash, where an element of an array may be given by its "name". What lies on the way is made where it is

@@ -156,7 +156,8 @@ void warn(const SceneSource &source, Setup &setup) {
 }
 
 // `setup` has its as_used and its frames; `scene` is that of the source at their start.
-void fill(const SceneSource &source, GltfScene scene, const Place &root, Trajectories trajectories, Setup &setup) {
+void fill(const SceneSource &source, GltfScene scene, const Place &root, Trajectories trajectories,
+          Setup &setup) {
   setup.file = root.file;
   setup.backscatter =
       setup.as_used.at("backscatter") == "lambert" ? Backscatter::lambert : Backscatter::constant;

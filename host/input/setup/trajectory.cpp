@@ -73,7 +73,7 @@ void append_pose(std::string_view line, const Columns &columns, const TextPlace 
   std::array<double, 8> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool is_length = i >= 1 && i <= 3;
-    const Range range = is_length ? Range{-max_coordinate_m, max_coordinate_m} : Range{};
+    const NumberRange range = is_length ? NumberRange{-max_coordinate_m, max_coordinate_m} : NumberRange{};
     values[i] = number_of(fields[columns.of[i]], names[i], place, range);
   }
   const auto [time, x, y, z, qx, qy, qz, qw] = values;

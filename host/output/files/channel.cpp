@@ -20,7 +20,7 @@ ChannelSet channels_of(const Measurement &measurement) {
         is_of_frequency(of.row) ? frequency_of(of.frequency, measurement.returns.size()) : std::nullopt;
     if (!values.empty())
       set.channels.push_back({std::string(of.row.name) + tap, std::string(of.row.unit), std::span(values),
-                              frequency, of.row.preview});
+                              frequency, of.row.preview, std::string(of.row.about)});
   });
   return set;
 }

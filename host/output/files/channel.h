@@ -23,6 +23,7 @@ struct Channel {
   std::variant<std::span<const float>, std::span<const std::uint32_t>> values;
   std::optional<std::size_t> frequency = std::nullopt; // index of the one that it belongs to, of several
   std::optional<Preview> preview = std::nullopt;       // floats only; nothing: no picture is made of it
+  std::string about{};                                 // what it is, in a line
 
   std::string name() const { return channel_name(quantity, frequency); }
 };
@@ -49,5 +50,12 @@ void write_exr(OutputFile &file, const ChannelSet &channels);
 // start at a multiple of 64 bytes, so that they can be mapped. Source: NumPy's documentation,
 // numpy.lib.format. Throws Error (output).
 void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution);
+// What such a file has before its data.
+std::string npy_header(const Channel &channel, const glm::uvec2 &resolution);
+
+// All channels in one file as numpy.savez() writes it and numpy.load() reads it: a ZIP archive of
+// CHANNEL.npy, stored as they are, without times. May be called from several threads at once. Throws Error
+// (output).
+void write_npz(OutputFile &file, const ChannelSet &channels);
 
 } // namespace pmdsim

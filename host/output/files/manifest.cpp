@@ -107,6 +107,7 @@ ordered_json head_json(const RunHead &run) {
   if (run.paths > 0)
     head["paths"] = run.paths;
   head["formats"] = run.formats;
+  head["channels"] = run.channels.empty() ? ordered_json(nullptr) : ordered_json(run.channels);
   head["inputs"] = run.inputs;
   head["setup"] = run.setup;
   head["points"] = how_to_make_points();

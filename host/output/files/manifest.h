@@ -46,13 +46,14 @@ struct FrameRecord {
 
 // What a run is, its frames aside: all that decides what they hold.
 struct RunHead {
-  std::string command; // "render" or "deform"
-  std::string device, driver;
-  Accuracy accuracy;            // asked for
-  std::uint32_t paths = 0;      // asked of the reference; 0: as many as it chooses
-  nlohmann::ordered_json setup; // as used
+  std::string command{}; // "render" or "deform"
+  std::string device{}, driver{};
+  Accuracy accuracy{};            // asked for
+  std::uint32_t paths = 0;        // asked of the reference; 0: as many as it chooses
+  nlohmann::ordered_json setup{}; // as used
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
   std::vector<std::string> formats{};
+  std::vector<std::string> channels{}; // asked for; none: all
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".

@@ -11,7 +11,13 @@ static_assert(std::endian::native == std::endian::little, "the arrays are writte
 constexpr std::size_t preamble_bytes = 10; // magic, version, header length
 constexpr std::size_t alignment_bytes = 64;
 
-std::string npy_header(const char *type, const glm::uvec2 &resolution) {
+const char *type_name(std::span<const float>) { return "<f4"; }
+const char *type_name(std::span<const std::uint32_t>) { return "<u4"; }
+
+} // namespace
+
+std::string npy_header(const Channel &channel, const glm::uvec2 &resolution) {
+  const char *type = std::visit([](auto values) { return type_name(values); }, channel.values);
   std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type,
                                    resolution.y, resolution.x);
   const std::size_t unpadded = preamble_bytes + header.size() + 1;
@@ -22,15 +28,10 @@ std::string npy_header(const char *type, const glm::uvec2 &resolution) {
          static_cast<char>(length >> 8) + header;
 }
 
-const char *type_name(std::span<const float>) { return "<f4"; }
-const char *type_name(std::span<const std::uint32_t>) { return "<u4"; }
-
-} // namespace
-
 void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution) {
   std::visit(
       [&](auto values) {
-        const std::string header = npy_header(type_name(values), resolution);
+        const std::string header = npy_header(channel, resolution);
         file.reserve(header.size() + values.size_bytes());
         file.write(header);
         file.write({reinterpret_cast<const char *>(values.data()), values.size_bytes()});

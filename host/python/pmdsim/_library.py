@@ -18,6 +18,8 @@ SONAME = f"libpmdsim.so.{ABI}"
 class Mesh(ctypes.Structure):
     """pmdsim_mesh"""
 
+    scene: Any  # whose arrays it shows
+
     _fields_ = [
         ("struct_size", ctypes.c_size_t),
         ("positions_m", ctypes.c_void_p),

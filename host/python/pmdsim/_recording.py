@@ -5,9 +5,8 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from collections.abc import Sequence as AbstractSequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
 def _read_npz(file: str, report: Dict[str, Any]) -> Frame:
     try:
-        with np.load(file, allow_pickle=False) as archive:
+        with open(file, "rb") as stream, np.load(stream, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, KeyError) as error:
         raise InputError(f"{file}: cannot be read: {error}", file) from None
@@ -52,7 +51,7 @@ _readers: Dict[str, Callable[[str, Dict[str, Any]], Frame]] = {
 }
 
 
-class _Frames(AbstractSequence):
+class _Frames(Sequence[Frame]):
     """Frames that are read when they are asked for."""
 
     def __init__(self, recording: "Recording") -> None:

@@ -140,7 +140,7 @@ def render(
         simulator._load(setup, scene, stacklevel=3)
         if set is not None:
             simulator._set(set, stacklevel=4)
-        measured = simulator._render(sensor, frame, options, stacklevel=4)
+        measured = simulator._render(sensor, frame, options, stacklevel=3)
     except (DeviceLostError, InternalError):
         simulator.close()
         raise

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Union
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -68,8 +68,8 @@ class Scene:
         return f"<pmdsim.Scene of {len(self.triangles)} triangles, {len(self.vertices)} vertices>"
 
     def _mesh(self) -> Mesh:
-        """The library's view of the arrays, which live as long as this scene."""
-        return Mesh(
+        """The library's view of the arrays, which keeps them."""
+        mesh = Mesh(
             struct_size=ctypes.sizeof(Mesh),
             positions_m=self.vertices.ctypes.data,
             vertex_count=len(self.vertices),
@@ -79,6 +79,8 @@ class Scene:
             object_ids=None if self.object_ids is None else self.object_ids.ctypes.data,
             double_sided=int(self.double_sided),
         )
+        mesh.scene = self
+        return mesh
 
 
 def _real(values: Any, what: str) -> NDArray[np.float64]:
@@ -103,7 +105,7 @@ def _vertices(values: Any) -> NDArray[np.float64]:
     return array
 
 
-def _indices(values: Any, what: str, shape: tuple, count: int, of: str) -> NDArray[np.uint32]:
+def _indices(values: Any, what: str, shape: Tuple[Optional[int], ...], count: int, of: str) -> NDArray[np.uint32]:
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
         raise ArgumentError(f"{what}: expected whole numbers, found the type {array.dtype}")

@@ -72,7 +72,7 @@ def _wrapped(value: Any, schema: Schema, place: str) -> Any:
     return value
 
 
-class _Parts(list):
+class _Parts(List[Any]):
     """A list in a setup, whose objects are Part."""
 
     def __init__(self, values: Iterable[Any], schema: Schema, place: str) -> None:
@@ -93,7 +93,7 @@ class _Parts(list):
         for value in values:
             self.append(value)
 
-    def __iadd__(self, values: Iterable[Any]) -> "_Parts":  # type: ignore[override,misc]
+    def __iadd__(self, values: Iterable[Any]) -> "_Parts":  # type: ignore[misc]
         self.extend(values)
         return self
 
@@ -120,7 +120,7 @@ def _copied(value: Any) -> Any:
     return value
 
 
-class Part(dict):
+class Part(Dict[str, Any]):
     """An object in a setup: a dict whose keys are attributes, too."""
 
     # Attributes of this class that are no keys.
@@ -145,7 +145,7 @@ class Part(dict):
         self._check(key)
         super().__setitem__(key, _wrapped(value, _schema_of_key(self._schema, key), f"{self._place}/{key}"))
 
-    def update(self, *values: Any, **named: Any) -> None:  # type: ignore[override]
+    def update(self, *values: Any, **named: Any) -> None:
         for key, value in dict(*values, **named).items():
             self[key] = value
 

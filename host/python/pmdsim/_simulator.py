@@ -135,14 +135,19 @@ class Simulator:
         name = _device_name(device)
         handle = ctypes.c_void_p()
         self._caller = Caller(partial(_cancel, handle))  # which does not hold the simulator
-        self._caller(lambda: check(library().pmdsim_simulator_create(name, ctypes.byref(handle))))
+        try:
+            self._caller(lambda: check(library().pmdsim_simulator_create(name, ctypes.byref(handle))))
+        except BaseException:  # Ctrl-C may come when it is made
+            self._caller.stop()
+            library().pmdsim_simulator_destroy(handle)
+            raise
         self._handle = handle.value or 0
         self._finalizer = weakref.finalize(self, _destroy, self._handle, self._owner, self._caller)
         self._described: Optional[Dict[str, Any]] = None
         self._warned: Set[str] = set()
         if setup is not None:
             try:
-                self._load(setup, scene, stacklevel=4)
+                self._load(setup, scene, stacklevel=3)
             except BaseException:
                 self.close()
                 raise
@@ -199,6 +204,13 @@ class Simulator:
         """Ends the call that another thread is in, soon, with CancelledError. Nothing happens where none is."""
         check(library().pmdsim_simulator_cancel(self._usable()))
 
+    def _end_call(self) -> None:
+        """As cancel(), and nothing where there is no simulator any more."""
+        library().pmdsim_simulator_cancel(self._handle)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a simulator belongs to its process and cannot be pickled; make one in each")
+
     def _call(self, function: Callable[[], Result]) -> Result:
         return self._caller(function)
 
@@ -251,7 +263,7 @@ class Simulator:
             return
         if not isinstance(scene, Scene):
             raise ArgumentError(f"scene: expected a pmdsim.Scene, found {scene!r:.80}")
-        mesh = scene._mesh()
+        mesh = scene._mesh()  # which keeps the arrays, however long the call takes
         self._call(
             lambda: check(
                 library().pmdsim_simulator_load_mesh(handle, text, len(text), folder, ctypes.byref(mesh))
@@ -404,7 +416,7 @@ class Simulator:
             Its arrays stay when the simulator is changed or closed.
         """
         options = render_options(mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict)
-        return self._render(sensor, frame, options, stacklevel=4)
+        return self._render(sensor, frame, options, stacklevel=3)
 
     def _render(self, sensor: Union[int, str], frame: int, options: Any, stacklevel: int) -> Frame:
         handle = self._usable()
@@ -456,7 +468,7 @@ class Simulator:
     def _measured_in_turn(self, sensors: List[int], frames: Iterable[int], options: Any) -> Iterator[Frame]:
         for frame in frames:
             for sensor in sensors:
-                yield self._render(sensor, frame, options, stacklevel=4)
+                yield self._render(sensor, frame, options, stacklevel=3)
 
 
 def _escaped(name: Union[str, int]) -> Union[str, int]:

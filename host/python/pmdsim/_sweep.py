@@ -85,7 +85,7 @@ class _Workers:
         while running and time.monotonic() < give_up:
             with self._lock:  # again and again: a thread may have been between two calls
                 for simulator in self._simulators:
-                    simulator.cancel()
+                    simulator._end_call()
             running = wait(running, timeout=0.02).not_done
         self._pool.shutdown(wait=not running)
         if not running:
@@ -176,9 +176,9 @@ def _in_turn(
 ) -> Iterator[Tuple[Variant, Frame]]:
     with Simulator(setup, device, scene=scene) as simulator:
         for variant in variants:
-            simulator.set(variant)
+            simulator._set(variant, stacklevel=4)
             for frame in frames:
-                yield variant, simulator._render(sensor, frame, options, stacklevel=4)
+                yield variant, simulator._render(sensor, frame, options, stacklevel=3)
 
 
 def _ahead(

@@ -8,6 +8,7 @@ import os
 from typing import Any, Dict, Mapping, Optional, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._errors import ArgumentError
 
@@ -105,7 +106,7 @@ def pose_value(pose: Any, what: str = "pose") -> Dict[str, Any]:
     return {"matrix": matrix.tolist()}
 
 
-def _numbers(values: Any, what: str) -> np.ndarray:
+def _numbers(values: Any, what: str) -> NDArray[np.float64]:
     try:
         numbers = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
@@ -115,7 +116,7 @@ def _numbers(values: Any, what: str) -> np.ndarray:
     return numbers
 
 
-def _matrix_of(position_m: Any, quaternion: Any, what: str) -> np.ndarray:
+def _matrix_of(position_m: Any, quaternion: Any, what: str) -> NDArray[np.float64]:
     position, turn = _numbers(position_m, what), _numbers(quaternion, what)
     if position.shape != (3,) or turn.shape != (4,):
         raise ArgumentError(

@@ -42,7 +42,8 @@ class Sequence {
 public:
   Sequence(std::uint32_t frames, std::size_t sensors)
       : setup_(words(frames, sensors)),
-        sequence_(setup_, {0, frames}, directory(), {"render", "", "", {}, {}, {}}) {}
+        sequence_(std::in_place, setup_, SequenceRequest{{0, frames}, directory()},
+                  RunHead{.command = "render"}) {}
 
   std::filesystem::path directory() const { return folder_.path() / "out"; }
 
@@ -52,13 +53,17 @@ public:
     const auto measure = [&](const SensorFrame &at) -> MeasuredPart {
       measured.push_back(at);
       const Sensor &sensor = setup_.start.sensors[at.sensor];
-      return {{sensor, at.frame, at.time_s, 0.0, {}, Mode::exact, {}}, [at, &write_file, name = sensor.name] {
+      return {{sensor, at.frame, at.time_s, 0.0, {}, Mode::exact, {}},
+              [at, &write_file, name = sensor.name](FrameRecord &) {
                 return std::vector<FileToWrite>{
                     {file_name(at, name), [at, &write_file](OutputFile &file) { write_file(at, file); }}};
               }};
     };
-    sequence_.write(measure, part_bytes);
+    sequence_->begin();
+    sequence_->write(measure, part_bytes);
   }
+
+  void end() { sequence_.reset(); }
 
   // The files of the frames that the manifest lists.
   std::set<std::string> listed() const {
@@ -74,7 +79,7 @@ public:
 private:
   pmdsim::test::TemporaryFolder folder_;
   Setup setup_;
-  FrameSequence sequence_;
+  std::optional<FrameSequence> sequence_;
 };
 
 // Early frames take longest to write, so that those after them are ready before.
@@ -135,6 +140,7 @@ TEST_CASE("a file that cannot be written leaves the frames before it, even those
   const std::string error = fmt::format("frame {}: disk full", failing);
   if (failing == 0) {
     CHECK_THROWS_WITH(write(), error);
+    sequence.end();
     CHECK_FALSE(std::filesystem::exists(sequence.directory()));
     return;
   }
@@ -143,7 +149,9 @@ TEST_CASE("a file that cannot be written leaves the frames before it, even those
   for (std::uint32_t frame = 0; frame < failing; ++frame)
     expected.insert({fmt::format("a_{}.txt", frame), fmt::format("b_{}.txt", frame)});
   CHECK(sequence.listed() == expected);
-  expected.insert("manifest.json");
+  for (std::uint32_t frame = 0; frame < failing; ++frame)
+    expected.insert(fmt::format("{:04}.record.json", frame));
+  expected.insert({"manifest.json", "run.json"});
   CHECK(names_in(sequence.directory()) == expected);
 }
 

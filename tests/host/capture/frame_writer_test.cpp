@@ -20,11 +20,11 @@ TEST_CASE("pictures show multipath and its share, and no channel without bounces
   returned.multipath_m = {2e-3f, -1e-3f};
   returned.multipath_error_m = {1e-3f, 1e-3f};
   returned.indirect_share = {0.1f, 0.2f};
-  const MeasuredPart part = rendered_frame(taken, {0, 0.0, 0, "", {}}, {Format::png});
+  MeasuredPart part = rendered_frame(taken, {0, 0.0, 0, "", {}}, {Format::png});
   REQUIRE(part.record.bounces);
   CHECK(part.record.bounces->lines == 100);
   std::vector<std::string> names;
-  for (const FileToWrite &file : part.files())
+  for (const FileToWrite &file : part.files(part.record))
     names.push_back(file.name);
   std::ranges::sort(names);
   CHECK(names == std::vector<std::string>{"pmd_0000.distance_m.png", "pmd_0000.indirect_share.png",

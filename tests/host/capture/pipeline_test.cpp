@@ -170,8 +170,8 @@ TEST_CASE("no more things are alive than may wait, and the one that is made") {
 TEST_CASE("what is made goes as soon as it is worked on") {
   std::atomic<int> alive = 0;
   run_pipeline(
-      below(5), 0, [&](std::size_t) { return Counted(alive); }, [](std::size_t, const Counted &) { return 0; },
-      [&](std::size_t, int) { CHECK(alive == 0); });
+      below(5), 0, [&](std::size_t) { return Counted(alive); },
+      [](std::size_t, const Counted &) { return 0; }, [&](std::size_t, int) { CHECK(alive == 0); });
 }
 
 TEST_CASE("where a step fails, what came before is finished and nothing after") {

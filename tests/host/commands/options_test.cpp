@@ -113,3 +113,26 @@ TEST_CASE("tradeoff takes a setup, samples, a device and a place for its files")
   CHECK(options.capture.output_directory == "out/a/tradeoff");
   CHECK_THROWS_AS(parsed({"tradeoff", "a.json", "--mode", "exact"}), Error);
 }
+
+TEST_CASE("a run goes on and is divided where that is asked for") {
+  const CaptureRequest plain = rendered({}).capture;
+  CHECK_FALSE(plain.resume);
+  CHECK(plain.shard.count == 1);
+  const CaptureRequest asked = rendered({"--resume", "--shard", "2/5", "--frames", "3:9"}).capture;
+  CHECK(asked.resume);
+  CHECK(asked.shard.index == 2);
+  CHECK(asked.shard.count == 5);
+  CHECK(asked.frames->first == 3);
+  CHECK(refusal({"--shard", "5/5"}) == "--shard: expected I/N, whole numbers, I from 0 to N - 1, or slurm, found \"5/5\"");
+}
+
+TEST_CASE("directories are merged into another, or one's manifest is made again") {
+  const Options one = parsed({"merge", "a"});
+  CHECK(one.merged == std::vector<std::filesystem::path>{"a"});
+  CHECK(one.capture.output_directory.empty());
+  const Options several = parsed({"merge", "a", "b", "-o", "c", "--frames", "1:4"});
+  CHECK(several.merged.size() == 2);
+  CHECK(several.capture.output_directory == "c");
+  CHECK(several.capture.frames->end == 4);
+  CHECK_THROWS_WITH(parsed({"merge", "a", "b"}), "merge: expected -o beside 2 directories");
+}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -49,12 +50,14 @@ struct Frames {
     return json::parse(in);
   }
 
-  // The directory holds what the manifest lists, and the manifest; returns how many frames these are.
+  // The directory holds what the manifest lists, a record of each frame, the run's file and the manifest;
+  // returns how many frames these are.
   std::size_t check_consistent() const {
     const json frames = manifest()["frames"];
-    std::vector<std::string> expected{"manifest.json"};
+    std::vector<std::string> expected{"manifest.json", "run.json"};
     for (std::size_t i = 0; i < frames.size(); ++i) {
       CHECK(frames[i]["frame"] == i);
+      expected.push_back(fmt::format("{:04}.record.json", i));
       std::ranges::copy(frames[i]["outputs"].get<std::vector<std::string>>(), std::back_inserter(expected));
     }
     std::ranges::sort(expected);
@@ -109,7 +112,9 @@ TEST_CASE("a range of frames keeps the setup's numbers") {
   REQUIRE(frames.size() == 2);
   CHECK(frames[0]["frame"] == 1);
   CHECK(frames[0]["time_s"].get<double>() == Approx(2.1));
-  CHECK(three.work.files("out") == std::vector<std::string>{"manifest.json", "pmd_0001.exr", "pmd_0002.exr"});
+  CHECK(three.work.files("out") == std::vector<std::string>{"0001.record.json", "0002.record.json",
+                                                            "manifest.json", "pmd_0001.exr", "pmd_0002.exr",
+                                                            "run.json"});
   const Run run = run_pmdsim(three.arguments("render", {"--frames", "0:2"}));
   CHECK(run.output.find("and the same of frame 1\n") != std::string::npos);
 }
@@ -140,7 +145,7 @@ TEST_CASE("deform tells of every frame in JSON and of the first in its table") {
 }
 
 TEST_CASE("interrupted midway, whole frames stay and the manifest lists just these") {
-  const int signal = GENERATE(SIGINT, SIGTERM);
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   const std::string command = GENERATE("render", "deform");
   const Frames endless(100000);
   const Run run = run_pmdsim(endless.arguments(command),
@@ -152,6 +157,15 @@ TEST_CASE("interrupted midway, whole frames stay and the manifest lists just the
   const std::size_t frames = endless.check_consistent();
   CHECK(frames >= 2);
   CHECK(frames < 100000);
+}
+
+TEST_CASE("under nohup the end of the terminal's session ends nothing") {
+  const Frames few(30);
+  const Run run =
+      run_pmdsim(few.arguments("render"),
+                 {.signal = SIGHUP, .interrupt_when = few.work / "out/pmd_0001.exr", .ignored = SIGHUP});
+  CHECK(run.exit_code == 0);
+  CHECK(few.check_consistent() == 30);
 }
 
 TEST_CASE("what fails midway leaves the whole frames before it") {
@@ -201,7 +215,7 @@ void check_one_by_one(const std::string &command) {
   CHECK(files.size() > 100);
   CHECK(files == work.files("alone"));
   for (const std::string &file : files)
-    if (file != "manifest.json") {
+    if (file != "run.json" && !file.ends_with(".record.json")) {
       INFO(file);
       CHECK((bytes_of(work / ("together/" + file)) == bytes_of(work / ("alone/" + file))));
     }
@@ -232,16 +246,17 @@ TEST_CASE("an earlier run's manifest goes before the first frame comes, even if 
   CHECK(std::ranges::count(endless.work.files("out"), "manifest.json") == 0);
 }
 
-TEST_CASE("interrupted before a frame is whole, an earlier run's outputs stay as they were") {
+TEST_CASE("interrupted before a frame is whole, an earlier run's frames stay, without its manifest") {
   const Workspace work;
   std::filesystem::create_directory(work / "out");
   work.write("out/manifest.json", "{}");
+  work.write("out/pmd_0000.exr", "old");
   const Run run = run_pmdsim(
       {"render", scene("paper_ring.json"), "--device", "reference", "--samples", "8", "-o", work / "out"},
       {.interrupt_after_ms = 1000});
   CHECK(run.exit_code == 130);
   CHECK(run.errors == "pmdsim: error: interrupted\n");
-  CHECK(work.files("out") == std::vector<std::string>{"manifest.json"});
+  CHECK(work.files("out") == std::vector<std::string>{"pmd_0000.exr"});
 }
 
 TEST_CASE("the memory of a run does not grow with its frames") {

@@ -1,0 +1,95 @@
+#include "host/capture/variants.h"
+
+#include "engine/model/error.h"
+#include "host/input/file/input_error.h"
+#include "host/input/file/input_file.h"
+#include "host/input/file/json_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace pmdsim {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_variants = 100'000;
+
+bool has_one_named(const json &setup, const char *list, const std::string &name) {
+  return setup.is_object() && setup.contains(list) && setup.at(list).is_array() &&
+         std::ranges::any_of(setup.at(list), [&](const json &each) {
+           return each.is_object() && each.contains("name") && each.at("name") == name;
+         });
+}
+
+void refuse_doubled_names(const std::vector<SetupDocument> &setups) {
+  std::set<std::filesystem::path> names;
+  for (const SetupDocument &setup : setups)
+    if (!names.insert(setup.file.stem()).second)
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: expected setups of different names, as they name the folders of "
+                              "their frames",
+                              setup.file.string()));
+}
+
+} // namespace
+
+json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
+  const json trajectory{
+      {"trajectory", std::filesystem::proximate(
+                         poses.file, document.file.parent_path().empty() ? "." : document.file.parent_path())
+                         .string()}};
+  const char *list = "nodes";
+  for (const char *other : {"illuminators", "sensors"})
+    if (has_one_named(document.json, other, poses.name))
+      list = other;
+  const std::string of = poses.name.empty() ? "sensors/0" : list + ("/" + escaped(poses.name));
+  return {{of + "/pose", trajectory}, {"frames", trajectory}};
+}
+
+std::vector<json> read_variants(const std::filesystem::path &file) {
+  const std::string text = read_text_file(file, Place{file});
+  std::vector<json> variants;
+  std::string lines; // of the text before, for errors' line numbers
+  for (std::string_view rest = text; !rest.empty(); lines += '\n') {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos)
+      continue;
+    const TextPlace place{file, lines.size() + 1};
+    if (variants.size() == most_variants)
+      throw input_error(place, fmt::format("expected at most {} variants", most_variants));
+    variants.push_back(parse_json(lines + std::string(line), file, Comments::refused));
+    if (!variants.back().is_object())
+      throw input_error(place, "expected an object of paths and values");
+  }
+  if (variants.empty())
+    throw input_error(Place{file}, "expected at least one variant, an object of paths and values a line");
+  return variants;
+}
+
+std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
+                                 const std::optional<std::filesystem::path> &variants) {
+  refuse_doubled_names(setups);
+  const std::vector<json> changes = variants ? read_variants(*variants) : std::vector<json>{json::object()};
+  std::vector<Variant> all;
+  for (const SetupDocument &setup : setups)
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const std::string number = variants ? fmt::format("{:04}", i) : "";
+      const std::string stem = setups.size() > 1 ? setup.file.stem().string() : "";
+      Variant variant{stem + (stem.empty() || number.empty() ? "" : "/") + number, setup, changes[i]};
+      try {
+        change(variant.document, changes[i]);
+      } catch (const Error &error) {
+        throw Error(error.code(), variants ? fmt::format("{}, in variant {}", error.what(), i) : error.what(),
+                    error.where());
+      }
+      all.push_back(std::move(variant));
+    }
+  return all;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,38 @@
+#pragma once
+// Variants of setups: what each changes, and where its frames go.
+
+#include "host/input/setup/document.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+// A setup's document, changed.
+struct Variant {
+  std::string name; // of its folder within the output directory
+  SetupDocument document;
+  nlohmann::json changes; // as change() takes them; an empty object: none
+};
+
+// Poses from a file, along which something moves; frames are taken at their times.
+struct PosesFromFile {
+  std::string name; // of a sensor, an illuminator or a node; empty: the first sensor
+  std::filesystem::path file;
+};
+
+// The changes that make a document's sensor, illuminator or node move along them.
+nlohmann::json changes_for(const PosesFromFile &poses, const SetupDocument &document);
+
+// The objects of a file of JSON Lines, one a line, without blank ones. Throws Error (input).
+std::vector<nlohmann::json> read_variants(const std::filesystem::path &file);
+
+// Every setup with every variant of it: named SETUP where there are several setups, 0000, 0001, ... where
+// there are variants, SETUP/0000 with both. Throws Error: input; usage, of two setups of one name.
+std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
+                                 const std::optional<std::filesystem::path> &variants);
+
+} // namespace pmdsim

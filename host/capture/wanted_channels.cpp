@@ -1,0 +1,249 @@
+#include "host/capture/wanted_channels.h"
+
+#include "engine/model/channel_names.h"
+#include "engine/model/error.h"
+#include "host/input/file/input_error.h"
+
+#include <fmt/format.h>
+#include <type_traits>
+#include <utility>
+
+namespace pmdsim {
+namespace {
+
+bool is_one_of(const ChannelRow &row, std::initializer_list<ChannelMember> members) {
+  return std::ranges::find(members, row.at) != members.end();
+}
+
+bool is_noiseless(const ChannelRow &row) {
+  return is_one_of(
+      row, {&Return::amplitude_noiseless, &Return::phase_rad_noiseless, &Return::distance_m_noiseless});
+}
+
+// Of frames of the sensor that have it.
+FramePart part_of(const ChannelRow &row, const Sensor &sensor) {
+  switch (row.slot.area) {
+  case DeviceSlot::Area::truth:
+    return FramePart::truth;
+  case DeviceSlot::Area::shadow:
+    return FramePart::visibility;
+  case DeviceSlot::Area::none:
+    return is_one_of(row, {&Return::direct_amplitude, &Return::direct_phase_rad, &Return::direct_distance_m})
+               ? FramePart::direct_light
+               : FramePart::light;
+  case DeviceSlot::Area::bound:
+  case DeviceSlot::Area::mean:
+    return FramePart::light;
+  case DeviceSlot::Area::electrons:
+    return is_noiseless(row) ? FramePart::light : FramePart::electrons;
+  case DeviceSlot::Area::unwrapped:
+    return FramePart::electrons;
+  case DeviceSlot::Area::frequency:
+    if (is_one_of(row, {&Measurement::range_m}))
+      return FramePart::truth;
+    return sensor.electronics ? FramePart::electrons : FramePart::light;
+  }
+  return FramePart::electrons;
+}
+
+// The values of the channel, in a frame that may not have room for them yet.
+template <class Values>
+Values &values_of(Measurement &frame, const ChannelIndex &channel) {
+  if (frame.returns.size() <= channel.frequency)
+    frame.returns.resize(channel.frequency + 1);
+  Return &returned = frame.returns[channel.frequency];
+  Values *values = nullptr;
+  std::visit(
+      [&](auto at) {
+        if constexpr (std::is_same_v<decltype(at), Values Measurement::*>) {
+          values = &(frame.*at);
+        } else if constexpr (std::is_same_v<decltype(at), Values Return::*>) {
+          values = &(returned.*at);
+        } else if constexpr (std::is_same_v<decltype(at), std::vector<Values> Return::*>) {
+          (returned.*at).resize(std::max((returned.*at).size(), channel.tap + 1));
+          values = &(returned.*at)[channel.tap];
+        }
+      },
+      channel.row.at);
+  return *values;
+}
+
+template <class Which>
+void move_values(Measurement &from, Measurement &to, const Which &which) {
+  for_each_channel(from, [&](const ChannelIndex &channel, auto &values) {
+    if (values.empty() || !which(channel))
+      return;
+    auto &there = values_of<std::remove_cvref_t<decltype(values)>>(to, channel);
+    if (there.empty())
+      there = std::exchange(values, {});
+  });
+}
+
+Error no_such_channel(const std::string &problem, const std::vector<std::string> &known) {
+  return {ExitCode::usage, fmt::format("--channels: {}, expected of {}", problem, fmt::join(known, ", "))};
+}
+
+Error unknown_channel(const std::string &name, std::vector<std::string> known) {
+  for (const ChannelRow &row : channel_rows)
+    known.emplace_back(row.name);
+  return no_such_channel("unknown channel " + in_quotes(name), known);
+}
+
+// That it has, or may have, when it is measured like that.
+bool may_have(const ChannelRow &row, const Setup &setup, const Sensor &sensor, const Accuracy &accuracy) {
+  if (row.slot.area == DeviceSlot::Area::shadow)
+    return setup.shadows == Shadows::automatic;
+  if (row.slot.area == DeviceSlot::Area::bound)
+    return accuracy.mode != Mode::exact;
+  return has_channel(row, sensor, setup.bounces);
+}
+
+} // namespace
+
+WantedChannels::WantedChannels(const std::vector<std::string> &names,
+                               const std::vector<std::string> &own_names)
+    : names_(names), own_names_(own_names) {
+  for (const std::string &name : names) {
+    const ChannelName found = channel_named(name);
+    const bool is_own = std::ranges::find(own_names, name) != own_names.end();
+    if (!is_own && (!found.row || found.tap))
+      throw unknown_channel(name, own_names);
+    wanted_.push_back({is_own ? nullptr : found.row, found.frequency, name});
+  }
+  if (names.empty())
+    throw Error(ExitCode::usage, "--channels: expected at least one name");
+}
+
+bool WantedChannels::has(const ChannelIndex &channel) const {
+  return are_all() || std::ranges::any_of(wanted_, [&](const Wanted &wanted) {
+           return wanted.row == &channel.row && (!wanted.frequency || *wanted.frequency == channel.frequency);
+         });
+}
+
+bool WantedChannels::has(const ChannelRow &row) const {
+  return are_all() || std::ranges::find(wanted_, &row, &Wanted::row) != wanted_.end();
+}
+
+bool WantedChannels::has_own(const std::string &name) const {
+  return are_all() || std::ranges::find(names_, name) != names_.end();
+}
+
+bool WantedChannels::have_taps() const {
+  return std::ranges::any_of(channel_rows,
+                             [&](const ChannelRow &row) { return is_of_taps(row) && has(row); });
+}
+
+WantedChannels WantedChannels::with(const ChannelRow &row) const {
+  WantedChannels more = *this;
+  if (!are_all())
+    more.wanted_.push_back({&row, std::nullopt, std::string(row.name)});
+  return more;
+}
+
+bool WantedChannels::is_there(const Wanted &wanted, const Setup &setup, const Sensor &sensor,
+                              const Accuracy &accuracy) {
+  return !wanted.row || (may_have(*wanted.row, setup, sensor, accuracy) &&
+                         wanted.frequency.value_or(0) < sensor.modulation_hz.size());
+}
+
+void WantedChannels::require_in(const Setup &setup, const Accuracy &accuracy) const {
+  const std::vector<Sensor> &sensors = setup.start.sensors;
+  std::vector<std::string> known = own_names_;
+  for (const ChannelRow &row : channel_rows)
+    if (std::ranges::any_of(sensors, [&](const Sensor &of) { return may_have(row, setup, of, accuracy); }))
+      known.emplace_back(row.name);
+  for (const Wanted &wanted : wanted_)
+    if (std::ranges::none_of(sensors,
+                             [&](const Sensor &of) { return is_there(wanted, setup, of, accuracy); }))
+      throw no_such_channel(fmt::format("no frame of {} has {}", setup.file.string(), in_quotes(wanted.name)),
+                            known);
+  for (const Sensor &sensor : sensors) // error_bound_m alone may turn out to be absent
+    if (!are_all() && std::ranges::none_of(wanted_, [&](const Wanted &wanted) {
+          return is_there(wanted, setup, sensor, accuracy) &&
+                 (!wanted.row || wanted.row->slot.area != DeviceSlot::Area::bound);
+        }))
+      throw no_such_channel(fmt::format("frames of the sensor {} would be empty", in_quotes(sensor.name)),
+                            known);
+}
+
+bool has_channel(const ChannelRow &row, const Sensor &sensor, const Bounces &bounces) {
+  switch (row.slot.area) {
+  case DeviceSlot::Area::none:
+    return bounces.any();
+  case DeviceSlot::Area::mean:
+    return sensor.electronics.has_value();
+  case DeviceSlot::Area::electrons:
+    return sensor.electronics && (!is_noiseless(row) || sensor.electronics->noiseless_channels) &&
+           (!is_one_of(row, {&Return::tap_b_e, &Return::tap_b_dn}) || sensor.electronics->two_tap);
+  case DeviceSlot::Area::unwrapped:
+    return sensor.unwrap_range_m > 0.0;
+  default:
+    return true;
+  }
+}
+
+FramePart part_of(const WantedChannels &wanted, const Sensor &sensor, const Bounces &bounces,
+                  const Accuracy &accuracy) {
+  // Within an error the light decides at how many points of a pixel even the truth is looked up.
+  const bool depends_on_light = accuracy.mode != Mode::exact || sensor.adaptive_samples;
+  FramePart part = depends_on_light ? FramePart::light : FramePart::truth;
+  for (const ChannelRow &row : channel_rows)
+    if (wanted.has(row) && has_channel(row, sensor, bounces))
+      part = std::max(part, part_of(row, sensor));
+  return part;
+}
+
+bool leaves_noiseless(const WantedChannels &wanted, const std::vector<Sensor> &sensors) {
+  const auto is_wanted = [&](const ChannelRow &row) { return is_noiseless(row) && wanted.has(row); };
+  const auto can_leave = [](const Sensor &sensor) {
+    return !sensor.electronics || sensor.electronics->noiseless_channels;
+  };
+  return std::ranges::none_of(channel_rows, is_wanted) && std::ranges::all_of(sensors, can_leave);
+}
+
+Sensor reduced_to(const WantedChannels &wanted, FramePart part, bool leaves_noiseless, Sensor sensor) {
+  if (part <= FramePart::visibility) {
+    sensor.modulation_hz.resize(1);
+    sensor.waveform = {};
+    sensor.electronics.reset();
+  }
+  if (part < FramePart::light)
+    sensor.scatter.clear();
+  const bool unwraps =
+      wanted.has(row_of(&Measurement::unwrapped_distance_m)) || wanted.has(row_of(&Measurement::unwrap_ok));
+  if (part < FramePart::electrons || !unwraps)
+    sensor.unwrap_range_m = 0.0;
+  // The device counts no electrons of sensors with noiseless channels.
+  if (sensor.electronics && part < FramePart::electrons)
+    sensor.electronics->noiseless_channels = true;
+  else if (sensor.electronics && leaves_noiseless)
+    sensor.electronics->noiseless_channels = false;
+  return sensor;
+}
+
+void name_light(FramePart part, const Sensor &sensor, Measurement &frame) {
+  const bool is_direct = part == FramePart::direct_light;
+  const bool is_noiseless = part == FramePart::light && sensor.electronics;
+  for (Return &of : frame.returns) {
+    if (is_direct) {
+      of.direct_amplitude = std::exchange(of.amplitude, {});
+      of.direct_phase_rad = std::exchange(of.phase_rad, {});
+      of.direct_distance_m = std::exchange(of.distance_m, {});
+    }
+    if (is_noiseless) {
+      of.amplitude_noiseless = std::exchange(of.amplitude, {});
+      of.phase_rad_noiseless = std::exchange(of.phase_rad, {});
+      of.distance_m_noiseless = std::exchange(of.distance_m, {});
+    }
+  }
+}
+
+void move_unwanted(const WantedChannels &wanted, Measurement &from, Measurement &to) {
+  move_values(from, to, [&](const ChannelIndex &channel) { return !wanted.has(channel); });
+}
+
+void move_missing(Measurement &from, Measurement &to) {
+  move_values(from, to, [](const ChannelIndex &) { return true; });
+}
+
+} // namespace pmdsim

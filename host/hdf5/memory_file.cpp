@@ -1,0 +1,83 @@
+#include "host/hdf5/memory_file.h"
+
+#include <cstring>
+#include <limits>
+#include <new>
+
+namespace pmdsim {
+namespace {
+
+// What HDF5 calls a driver: it reads at addresses, and is asked how far these go.
+struct MemoryFile {
+  H5FD_t of_hdf5{}; // first: HDF5 knows the file by it
+  std::string_view bytes{};
+  haddr_t end_of_use = 0;
+};
+
+const MemoryFile &memory_file(const H5FD_t *file) { return *reinterpret_cast<const MemoryFile *>(file); }
+
+H5FD_t *open_memory(const char *, unsigned, hid_t access, haddr_t) {
+  const auto *bytes = static_cast<const std::string_view *>(H5Pget_driver_info(access));
+  auto *file = bytes ? new (std::nothrow) MemoryFile{{}, *bytes, 0} : nullptr;
+  return reinterpret_cast<H5FD_t *>(file);
+}
+
+herr_t close_memory(H5FD_t *file) {
+  delete reinterpret_cast<MemoryFile *>(file);
+  return 0;
+}
+
+herr_t set_end_of_use(H5FD_t *file, H5FD_mem_t, haddr_t end) {
+  reinterpret_cast<MemoryFile *>(file)->end_of_use = end;
+  return 0;
+}
+
+herr_t read_memory(H5FD_t *file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void *to) {
+  const std::string_view bytes = memory_file(file).bytes;
+  if (address > bytes.size() || size > bytes.size() - address)
+    return -1;
+  std::memcpy(to, bytes.data() + address, size);
+  return 0;
+}
+
+H5FD_class_t memory_driver() {
+  H5FD_class_t driver{};
+  driver.name = "pmdsim_memory";
+  driver.maxaddr = std::numeric_limits<std::int64_t>::max();
+  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.fapl_size = sizeof(std::string_view);
+  driver.open = open_memory;
+  driver.close = close_memory;
+  driver.query = [](const H5FD_t *, unsigned long *features) -> herr_t {
+    *features = 0;
+    return 0;
+  };
+  driver.get_eoa = [](const H5FD_t *file, H5FD_mem_t) { return memory_file(file).end_of_use; };
+  driver.set_eoa = set_end_of_use;
+  driver.get_eof = [](const H5FD_t *file, H5FD_mem_t) -> haddr_t { return memory_file(file).bytes.size(); };
+  driver.read = read_memory;
+  driver.write = [](H5FD_t *, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void *) -> herr_t { return -1; };
+  constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;
+  std::memcpy(driver.fl_map, map, sizeof(map));
+  return driver;
+}
+
+// Stays, as HDF5 looks at a driver while it closes the last file of it; anew where somebody closed HDF5.
+hid_t driver_id() {
+  static const H5FD_class_t driver = memory_driver();
+  static hid_t id = -1;
+  if (id < 0 || H5Iget_type(id) != H5I_VFL)
+    id = H5FDregister(&driver);
+  return id;
+}
+
+} // namespace
+
+Hdf5Handle opened_in_memory(std::string_view bytes) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_driver(access.id(), driver_id(), &bytes) < 0)
+    return {};
+  return {H5Fopen("frame", H5F_ACC_RDONLY, access.id()), H5Fclose};
+}
+
+} // namespace pmdsim

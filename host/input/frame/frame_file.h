@@ -1,0 +1,32 @@
+#pragma once
+// Frames that the program wrote, read again: the channels of an EXR or an HDF5 file. Files are untrusted.
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pmdsim {
+
+struct ReadChannel {
+  std::string name; // "distance_m", of several frequencies "f1.distance_m"
+  std::string unit; // by the name; "" where there is none, or none is known
+  // Row-major, row 0 at the top, rows * columns; every bit as in the file.
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+};
+
+struct ReadFrame {
+  glm::uvec2 resolution{0, 0};         // columns, rows
+  std::vector<ReadChannel> channels{}; // in the order of the file; EXR sorts them by name
+};
+
+// A file of at most 4 GiB, which its first bytes tell to be an EXR or an HDF5 file. EXR: one part of scan
+// lines, FLOAT and UINT, without compression or with RLE, ZIPS or ZIP. HDF5: the two-dimensional datasets of
+// the root group, float32 and uint32, all of one size, without compression or with gzip; other datasets are
+// not looked at. Nothing is allocated for values that the file has no bytes for. May be called from several
+// threads at once. Throws Error (input) that names the file.
+ReadFrame read_frame(const std::filesystem::path &file);
+
+} // namespace pmdsim

@@ -1,0 +1,141 @@
+#include "host/input/frame/frame_bytes.h"
+
+#include "host/hdf5/memory_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <optional>
+
+namespace pmdsim {
+namespace {
+
+class H5Reader {
+public:
+  explicit H5Reader(const FrameBytes &frame) : frame_(frame), file_(opened_in_memory(frame.content)) {
+    check(file_.id() < 0 ? -1 : 0);
+  }
+
+  ReadFrame frame() const {
+    ReadFrame read;
+    for (const std::string &name : names()) {
+      const Hdf5Handle object = opened(H5Oopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
+      if (H5Iget_type(object.id()) != H5I_DATASET)
+        continue;
+      const auto sizes = sizes_of(object.id());
+      if (!sizes)
+        continue;
+      require_readable(object.id(), name);
+      const auto [rows, columns] = *sizes;
+      const glm::uvec2 resolution = checked_resolution(frame_, columns, rows, 1, stored_bytes(object.id()));
+      if (!read.channels.empty() && resolution != read.resolution)
+        throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
+                                              read.resolution.x, read.resolution.y));
+      read.resolution = resolution;
+      read.channels.push_back(channel(object.id(), name, std::size_t{resolution.x} * resolution.y));
+    }
+    if (read.channels.empty())
+      throw frame_error(frame_, "expected two-dimensional datasets in the root group");
+    return read;
+  }
+
+private:
+  Hdf5Handle opened(hid_t id, herr_t (*closed_by)(hid_t)) const {
+    check(id < 0 ? -1 : 0);
+    return {id, closed_by};
+  }
+
+  void check(herr_t result) const {
+    if (result < 0)
+      throw frame_error(frame_, fmt::format("cannot be read: {}", hdf5_reason()));
+  }
+
+  // Of what stands in this file itself, in the order in which it was made, where the file knows it.
+  std::vector<std::string> names() const {
+    const Hdf5Handle creation = opened(H5Fget_create_plist(file_.id()), H5Pclose);
+    unsigned order = 0;
+    check(H5Pget_link_creation_order(creation.id(), &order));
+    std::vector<std::string> names;
+    const auto keep = [](hid_t, const char *name, const H5L_info_t *link, void *to) -> herr_t {
+      try {
+        if (link->type == H5L_TYPE_HARD)
+          static_cast<std::vector<std::string> *>(to)->emplace_back(name);
+        return 0;
+      } catch (...) { // no exception may pass through HDF5's C
+        return -1;
+      }
+    };
+    const bool is_ordered = (order & H5P_CRT_ORDER_INDEXED) != 0;
+    check(H5Literate(file_.id(), is_ordered ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, nullptr, keep,
+                     &names));
+    return names;
+  }
+
+  // Rows and columns; nothing where there are others.
+  std::optional<std::array<hsize_t, 2>> sizes_of(hid_t dataset) const {
+    const Hdf5Handle space = opened(H5Dget_space(dataset), H5Sclose);
+    if (H5Sget_simple_extent_ndims(space.id()) != 2)
+      return std::nullopt;
+    std::array<hsize_t, 2> sizes{};
+    check(H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr));
+    return sizes;
+  }
+
+  // Nothing of another file, and no filter beyond the library's own.
+  void require_readable(hid_t dataset, const std::string &name) const {
+    const Hdf5Handle creation = opened(H5Dget_create_plist(dataset), H5Pclose);
+    bool is_readable =
+        H5Pget_layout(creation.id()) != H5D_VIRTUAL && H5Pget_external_count(creation.id()) <= 0;
+    const int filters = H5Pget_nfilters(creation.id());
+    for (int i = 0; i < filters; ++i) {
+      unsigned flags = 0, config = 0;
+      std::size_t values = 0;
+      const H5Z_filter_t filter = H5Pget_filter2(creation.id(), static_cast<unsigned>(i), &flags, &values,
+                                                 nullptr, 0, nullptr, &config);
+      is_readable = is_readable && (filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_SHUFFLE ||
+                                    filter == H5Z_FILTER_FLETCHER32);
+    }
+    if (!is_readable)
+      throw frame_error(frame_, fmt::format("dataset {}: expected values in this file, without compression "
+                                            "or with gzip",
+                                            name));
+  }
+
+  // What a hostile file says of it cannot be more than it has.
+  std::uint64_t stored_bytes(hid_t dataset) const {
+    return std::min<std::uint64_t>(H5Dget_storage_size(dataset), frame_.content.size());
+  }
+
+  ReadChannel channel(hid_t dataset, const std::string &name, std::size_t values) const {
+    const Hdf5Handle type = opened(H5Dget_type(dataset), H5Tclose);
+    const auto is_any = [&](hid_t one, hid_t other) {
+      return H5Tequal(type.id(), one) > 0 || H5Tequal(type.id(), other) > 0;
+    };
+    // Not its attribute: HDF5 1.10 reads beyond damaged ones.
+    const std::string unit = unit_of(name);
+    if (is_any(H5T_IEEE_F32LE, H5T_IEEE_F32BE))
+      return {name, unit, read<float>(dataset, H5T_NATIVE_FLOAT, values)};
+    if (is_any(H5T_STD_U32LE, H5T_STD_U32BE))
+      return {name, unit, read<std::uint32_t>(dataset, H5T_NATIVE_UINT32, values)};
+    throw frame_error(frame_, fmt::format("dataset {}: expected float32 or uint32", name));
+  }
+
+  template <class Value>
+  std::vector<Value> read(hid_t dataset, hid_t type, std::size_t count) const {
+    std::vector<Value> values(count);
+    check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return values;
+  }
+
+  const FrameBytes &frame_;
+  Hdf5Handle file_;
+};
+
+} // namespace
+
+ReadFrame read_h5(const FrameBytes &frame) {
+  const Hdf5Turn turn;
+  return H5Reader(frame).frame();
+}
+
+} // namespace pmdsim

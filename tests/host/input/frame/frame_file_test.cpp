@@ -1,0 +1,219 @@
+// Frames come back from EXR and HDF5 files as they were written, and no file brings the readers down.
+
+#include "engine/model/error.h"
+#include "engine/model/scene.h"
+#include "host/hdf5/hdf5.h"
+#include "host/input/frame/frame_file.h"
+#include "host/output/files/channel.h"
+#include "host/output/files/h5_writer.h"
+#include "tests/support/temporary_folder.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <hdf5_hl.h>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace pmdsim;
+
+namespace {
+
+// Every kind of bits.
+struct WrittenFrame {
+  explicit WrittenFrame(const glm::uvec2 &size) : resolution(size) {
+    std::mt19937 random(1);
+    for (std::size_t i = 0; i < std::size_t{size.x} * size.y; ++i) {
+      distances.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
+      ids.push_back(i % 3 == 0 ? no_id : static_cast<std::uint32_t>(i / 7));
+    }
+  }
+  ChannelSet channels() const {
+    return {resolution,
+            {{"distance_m", "m", std::span(distances), 0},
+             {"tap2", "W/(m² sr)", std::span(distances), 0},
+             {"distance_m", "m", std::span(distances), 1},
+             {"object_id", "", std::span(ids)}}};
+  }
+  void write(const std::filesystem::path &path) const {
+    OutputFile file(path);
+    if (path.extension() == ".exr")
+      write_exr(file, channels());
+    else
+      write_h5(file, channels(), {Sensor{}, 0, 0.0});
+    file.close();
+    file.publish();
+  }
+
+  glm::uvec2 resolution;
+  std::vector<float> distances;
+  std::vector<std::uint32_t> ids;
+};
+
+bool has_values(const ReadChannel &channel, const Channel &expected) {
+  return std::visit(
+      [&](auto values) {
+        using Values = std::vector<typename decltype(values)::value_type>;
+        const auto *read = std::get_if<Values>(&channel.values);
+        return read && read->size() == values.size() &&
+               std::memcmp(read->data(), values.data(), values.size_bytes()) == 0;
+      },
+      expected.values);
+}
+
+std::string bytes_of(const std::filesystem::path &path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// Refused as an input, in one line that begins with the file's name, or read.
+void check_survives(const std::filesystem::path &path) {
+  try {
+    const ReadFrame frame = read_frame(path);
+    CHECK(!frame.channels.empty());
+  } catch (const Error &error) {
+    INFO(error.what());
+    CHECK(error.code() == ExitCode::input);
+    CHECK(std::string(error.what()).starts_with(path.string() + ": "));
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+  }
+}
+
+// A file of HDF5 that `fill` makes.
+std::filesystem::path made_h5(const pmdsim::test::TemporaryFolder &folder,
+                              const std::function<void(hid_t)> &fill) {
+  const std::filesystem::path path = folder.path() / "made.h5";
+  const Hdf5Turn turn;
+  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  fill(file.id());
+  return path;
+}
+
+void check_refused(const std::filesystem::path &path, const std::string &reason) {
+  CHECK_THROWS_WITH(read_frame(path), Catch::StartsWith(path.string()) && Catch::Contains(reason));
+}
+
+} // namespace
+
+TEST_CASE("a frame comes back with all its bits, names, units and its size") {
+  const pmdsim::test::TemporaryFolder folder;
+  // One row and one chunk, and many of both.
+  for (const glm::uvec2 size : {glm::uvec2{1, 1}, {7, 40}, {1300, 501}})
+    for (const std::string name : {"frame.exr", "frame.h5"}) {
+      INFO(name << " of " << size.x << " x " << size.y);
+      const WrittenFrame written(size);
+      written.write(folder.path() / name);
+      const ReadFrame read = read_frame(folder.path() / name);
+      CHECK(read.resolution == size);
+      const ChannelSet expected = written.channels();
+      REQUIRE(read.channels.size() == expected.channels.size());
+      for (std::size_t i = 0; i < read.channels.size(); ++i) { // sorted by name, as in EXR files
+        CHECK(read.channels[i].name == expected.channels[i].name());
+        CHECK(read.channels[i].unit == expected.channels[i].unit);
+        CHECK(has_values(read.channels[i], expected.channels[i]));
+      }
+    }
+}
+
+TEST_CASE("compressed HDF5 datasets are read, and dimension scales are no channels") {
+  const pmdsim::test::TemporaryFolder folder;
+  const std::vector<float> values{1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f};
+  const auto path = made_h5(folder, [&](hid_t file) {
+    const hsize_t sizes[2]{2, 3}, line = 3;
+    const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(creation.id(), 2, sizes);
+    H5Pset_shuffle(creation.id());
+    H5Pset_deflate(creation.id(), 1);
+    const Hdf5Handle dataset(
+        H5Dcreate2(file, "z_m", H5T_IEEE_F32BE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+        H5Dclose);
+    H5Dwrite(dataset.id(), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5LTmake_dataset(file, "column", 1, &line, H5T_NATIVE_FLOAT, values.data());
+  });
+  const ReadFrame read = read_frame(path);
+  REQUIRE(read.channels.size() == 1);
+  CHECK(read.channels[0].unit == "m"); // by its name
+  CHECK(std::get<std::vector<float>>(read.channels[0].values) == values);
+}
+
+TEST_CASE("what is no frame is refused by the file's name and a reason") {
+  const pmdsim::test::TemporaryFolder folder;
+  check_refused(folder.path() / "absent.exr", "no such file");
+  check_refused(folder.path(), "is a directory");
+  check_refused(folder.write("text.exr", "not one"), "expected a frame as an EXR or an HDF5 file");
+  check_refused(folder.write("empty.h5", ""), "expected a frame as an EXR or an HDF5 file");
+  check_refused(folder.write("short.h5", std::string("\x89HDF\r\n\x1a\n", 8)), "cannot be read");
+  check_refused(folder.write("short.exr", std::string("\x76\x2f\x31\x01\x02\0\0\0", 8)), "cannot be read");
+}
+
+TEST_CASE("HDF5 files of other things are refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  const std::vector<double> values(6, 1.0);
+  const hsize_t sizes[2]{2, 3}, others[2]{3, 2};
+  check_refused(made_h5(folder, [](hid_t) {}), "expected two-dimensional datasets");
+  check_refused(
+      made_h5(folder, [&](hid_t file) { H5LTmake_dataset_double(file, "z_m", 2, sizes, values.data()); }),
+      "dataset z_m: expected float32 or uint32");
+  check_refused(made_h5(folder,
+                        [&](hid_t file) {
+                          const std::vector<float> floats(6);
+                          H5LTmake_dataset_float(file, "one", 2, sizes, floats.data());
+                          H5LTmake_dataset_float(file, "two", 2, others, floats.data());
+                        }),
+                "dataset two: expected 3 x 2 pixels as the others have");
+  check_refused(made_h5(folder,
+                        [&](hid_t file) { // of which nothing is there
+                          const hsize_t huge[2]{1u << 30, 1u << 30}, chunk[2]{1, 1024};
+                          const Hdf5Handle space(H5Screate_simple(2, huge, nullptr), H5Sclose);
+                          const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+                          H5Pset_chunk(creation.id(), 2, chunk);
+                          const Hdf5Handle dataset(H5Dcreate2(file, "z_m", H5T_IEEE_F32LE, space.id(),
+                                                              H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                                                   H5Dclose);
+                        }),
+                "expected the values of 1073741824 x 1073741824 pixels");
+  check_refused(made_h5(folder,
+                        [&](hid_t file) { // in another file
+                          const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose);
+                          const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+                          H5Pset_external(creation.id(), "/etc/passwd", 0, 24);
+                          const Hdf5Handle dataset(H5Dcreate2(file, "z_m", H5T_IEEE_F32LE, space.id(),
+                                                              H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                                                   H5Dclose);
+                        }),
+                "dataset z_m: expected values in this file");
+}
+
+TEST_CASE("a frame that ends too early is refused, wherever it ends") {
+  const pmdsim::test::TemporaryFolder folder;
+  for (const std::string name : {"frame.exr", "frame.h5"}) {
+    WrittenFrame({9, 70}).write(folder.path() / name);
+    const std::string whole = bytes_of(folder.path() / name);
+    for (std::size_t bytes = 0; bytes < whole.size(); bytes += 1 + bytes / 8) {
+      INFO(name << ", the first " << bytes << " of " << whole.size() << " bytes");
+      CHECK_THROWS_AS(read_frame(folder.write("part", whole.substr(0, bytes))), Error);
+    }
+  }
+}
+
+TEST_CASE("frames of any bytes are read or refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  std::mt19937 random(7);
+  for (const std::string name : {"frame.exr", "frame.h5"}) {
+    WrittenFrame({9, 70}).write(folder.path() / name);
+    const std::string whole = bytes_of(folder.path() / name);
+    const std::size_t before_values = name == "frame.exr" ? 450 : 7000;
+    for (int i = 0; i < 500; ++i) {
+      INFO(name << ", change " << i);
+      std::string changed = whole;
+      for (int k = 0; k < 1 + i % 4; ++k)
+        changed[random() % (i % 2 == 0 ? before_values : changed.size())] = static_cast<char>(random());
+      check_survives(folder.write("changed", changed));
+    }
+  }
+}

@@ -1,0 +1,60 @@
+"""The examples run, do what they promise, and go on where they were stopped."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+examples = Path(__file__).resolve().parents[2] / "host" / "python" / "examples"
+
+
+def run(name: str, *arguments: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", str(examples / name), *arguments], capture_output=True, text=True, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+class Examples(unittest.TestCase):
+    def test_calibrate_wiggling(self) -> None:
+        output = run("calibrate_wiggling.py")
+        before, after = (float(n) for n in re.findall(r"(\d+\.\d+) mm rms", output))
+        self.assertIn("order 4", output)
+        self.assertLess(after, before / 50, output)
+
+    def test_choose_diode_layout(self) -> None:
+        output = run("choose_diode_layout.py", "--diodes", "16")
+        start, best = (float(n) for n in re.findall(r"uneven by (\d+\.\d+) %", output))
+        self.assertLess(best, start, output)
+
+    def test_random_views(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            views = Path(folder)
+            run("random_views.py", "-o", folder, "--count", "5", "--binning", "16", "--part", "0/2")
+            self.assertEqual(sorted(file.name[5:11] for file in views.iterdir()), ["000000", "000002", "000004"])
+            times = {file: file.stat().st_mtime_ns for file in views.iterdir()}
+            self.assertIn("3 of them are there", run("random_views.py", "-o", folder, "--count", "5", "--binning", "16"))
+            self.assertEqual(len(list(views.iterdir())), 5)
+            for file, when in times.items():
+                self.assertEqual(file.stat().st_mtime_ns, when)
+            with np.load(views / "view_000003.npz") as view:
+                noise_m = view["noisy_distance_m"] - view["clean_distance_m"]
+                self.assertEqual(noise_m.shape, (26, 32))
+                self.assertLess(np.nanmedian(np.abs(noise_m)), 0.1)
+                self.assertGreater(np.nanmedian(np.abs(noise_m)), 0)
+                kept = view["noisy_distance_m"].tobytes()
+            (views / "view_000003.npz").unlink()
+            run("random_views.py", "-o", folder, "--count", "5", "--binning", "16")
+            with np.load(views / "view_000003.npz") as view:
+                self.assertEqual(view["noisy_distance_m"].tobytes(), kept)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,169 @@
+// Setups that the command line changes: one by one, several in one process, and poses from files.
+
+#include "tests/program/program.h"
+#include "tests/program/refusal.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using namespace pmdsim::test;
+using nlohmann::json;
+
+namespace {
+
+std::string text_of(const std::string &file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct Small {
+  Workspace work;
+  std::string setup;
+
+  Small() {
+    work.write("wall.gltf", wall_gltf());
+    setup = work.write("setup.json", small_setup());
+  }
+  Run render(std::vector<std::string> more) const {
+    more.insert(more.begin(), "render");
+    more.insert(more.end(), {"--format", "npy"});
+    return run_pmdsim(more);
+  }
+  std::string distance(const std::string &folder, const std::string &frame = "0000") const {
+    return text_of(work / (folder + "/pmd_" + frame + ".distance_m.npy"));
+  }
+};
+
+} // namespace
+
+TEST_CASE("A setup that is changed gives the frames of one that is written so") {
+  const Small small;
+  const std::string written = small.work.write("written.json", with(small_setup(), "[20e6]", "[30e6]"));
+  REQUIRE(small.render({written, "-o", small.work / "written"}).exit_code == 0);
+  REQUIRE(small.render({small.setup, "--set", "sensors/0/modulation_hz=[30e6]", "-o", small.work / "set"})
+              .exit_code == 0);
+  CHECK(small.distance("set") == small.distance("written"));
+  CHECK(!small.distance("set").empty());
+  const json used = json::parse(text_of(small.work / "set/manifest.json"))["setup"];
+  CHECK(used["sensors"][0]["modulation_hz"] == json::array({30e6}));
+}
+
+TEST_CASE("Text need not be quoted, and what is wrong is told as in a file") {
+  const Small small;
+  const auto check = [&](const std::string &change) {
+    return run_pmdsim({"check", small.setup, "--set", change});
+  };
+  CHECK(check("sensors/pmd/waveform=square").exit_code == 0);
+  CHECK(check("sensors/0/waveform=sinus").errors.find("/sensors/0/waveform: expected") != std::string::npos);
+  CHECK(check("sensors/0/waveform=sinus").exit_code == 3);
+  CHECK(check("sensors/0/wave=square").errors.find("unknown key \"wave\"") != std::string::npos);
+  for (const char *wrong : {"sensors/0/taps", "=4", ""}) {
+    CHECK(check(wrong).exit_code == 2);
+    CHECK(check(wrong).errors.find("--set: expected PATH=VALUE") != std::string::npos);
+  }
+  CHECK(run_pmdsim({"check", small.setup, "--set", "a=1", "--set", "a=2"}).exit_code == 2);
+}
+
+TEST_CASE("Variants: a folder for each, the same bytes as alone, and a table") {
+  const Small small;
+  const std::string variants = small.work.write("variants.jsonl", R"({"illuminators/0/intensity_w_sr": 2}
+
+{"illuminators/0/intensity_w_sr": 3, "sensors/0/pose": {"position_m": [0, 0, -1], "look_at_m": [0, 0, -2]}}
+)");
+  const Run run = small.render(
+      {small.setup, "--variants", variants, "-o", small.work / "all", "--set", "sensors/0/taps=5"});
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  REQUIRE(small
+              .render({small.setup, "--set", "illuminators/0/intensity_w_sr=3", "--set", "sensors/0/taps=5",
+                       "--set", R"(sensors/0/pose={"position_m": [0, 0, -1], "look_at_m": [0, 0, -2]})", "-o",
+                       small.work / "alone"})
+              .exit_code == 0);
+  CHECK(small.distance("all/0001") == small.distance("alone"));
+  CHECK(text_of(small.work / "all/0001/manifest.json") == text_of(small.work / "alone/manifest.json"));
+  std::istringstream table(text_of(small.work / "all/table.csv"));
+  std::string header, first, second, rest;
+  std::getline(table, header);
+  std::getline(table, first);
+  std::getline(table, second);
+  CHECK_FALSE(std::getline(table, rest));
+  CHECK(header.starts_with(
+      "variant,illuminators/0/intensity_w_sr,sensors/0/pose,sensor,frame,time_s,distance_min_m"));
+  CHECK(first.starts_with("\"0000\",2,,\"pmd\",0,"));
+  CHECK(second.starts_with("\"0001\",3,"));
+}
+
+TEST_CASE("Several setups in one process") {
+  const Small small;
+  const std::string other = small.work.write("other.json", with(small_setup(), "[20e6]", "[60e6]"));
+  const Run run = small.render({small.setup, other, "-o", small.work / "both", "--json"});
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  const json told = json::parse(run.output);
+  REQUIRE(told["variants"].size() == 2);
+  CHECK(told["variants"][1]["name"] == "other");
+  CHECK(told["variants"][1]["frames"][0]["outputs"].size() > 10);
+  REQUIRE(small.render({other, "-o", small.work / "alone"}).exit_code == 0);
+  CHECK(small.distance("both/other") == small.distance("alone"));
+  std::filesystem::create_directory(small.work / "sub");
+  const std::string same_name = small.work.write("sub/setup.json", small_setup("../wall.gltf"));
+  CHECK(small.render({small.setup, same_name, "-o", small.work / "none"}).exit_code == 2);
+}
+
+TEST_CASE("What is wrong with a variant is told before anything is measured") {
+  const Small small;
+  const auto refused = [&](const std::string &variants) {
+    const std::string file = small.work.write("variants.jsonl", variants);
+    const Run run = small.render({small.setup, "--variants", file, "-o", small.work / "none"});
+    CHECK(run.exit_code == 3);
+    CHECK_FALSE(std::filesystem::exists(small.work / "none"));
+    return run.errors;
+  };
+  CHECK(refused("{}\n{\"sensors/0/taps\": 99}\n").find("found 99, in variant 0001") != std::string::npos);
+  CHECK(refused("{}\n{\"sensors/7/taps\": 4}\n").find(", in variant 1") != std::string::npos);
+  CHECK(refused("{}\n{\"a\"\n").find("variants.jsonl:2:") != std::string::npos);
+  CHECK(refused("{}\n[1]\n").find("variants.jsonl:2: expected an object") != std::string::npos);
+  CHECK(refused("\n").find("expected at least one variant") != std::string::npos);
+}
+
+TEST_CASE("A shard of variants") {
+  const Small small;
+  const std::string variants = small.work.write("variants.jsonl", "{}\n{}\n{}\n");
+  REQUIRE(small.render({small.setup, "--variants", variants, "-o", small.work / "shard", "--shard", "1/2"})
+              .exit_code == 0);
+  CHECK(std::filesystem::exists(small.work / "shard/0001/manifest.json"));
+  CHECK_FALSE(std::filesystem::exists(small.work / "shard/0000"));
+}
+
+TEST_CASE("Frames along the poses of a file") {
+  const Small small;
+  const std::string poses =
+      small.work.write("poses.tum", "0.0 0 0 0 1 0 0 0\n0.5 0 0 -0.5 1 0 0 0\n2 0 0 -1 1 0 0 0\n");
+  const Run run = small.render({small.setup, "--poses", poses, "-o", small.work / "moved"});
+  INFO(run.errors);
+  REQUIRE(run.exit_code == 0);
+  const json manifest = json::parse(text_of(small.work / "moved/manifest.json"));
+  REQUIRE(manifest["frames"].size() == 3);
+  CHECK(manifest["frames"][1]["time_s"] == 0.5);
+  CHECK(manifest["setup"]["sensors"][0]["pose"]["trajectory"] == "poses.tum"); // from the setup's folder
+  // A pose of the second line, written by hand.
+  REQUIRE(small
+              .render({small.setup, "--set",
+                       R"(sensors/0/pose={"position_m": [0, 0, -0.5], "look_at_m": [0, 0, -1.5]})", "-o",
+                       small.work / "by_hand"})
+              .exit_code == 0);
+  CHECK(small.distance("moved", "0001") == small.distance("by_hand"));
+  // The wall comes nearer, turned as it is.
+  const std::string wall = small.work.write("wall.tum", "0 0 0 0 0 0 0 1\n1 0 0 0.5 0 0 0 1\n");
+  REQUIRE(small.render({small.setup, "--poses", "wall=" + wall, "-o", small.work / "wall"}).exit_code == 0);
+  CHECK(small.distance("wall", "0001") == small.distance("by_hand"));
+  CHECK(run_pmdsim({"check", small.setup, "--poses", "door=" + wall}).errors.find("no node \"door\"") !=
+        std::string::npos);
+  CHECK(run_pmdsim({"check", small.setup, "--poses", small.setup}).exit_code == 3);
+  CHECK(run_pmdsim({"check", small.setup, "--poses", "=x"}).exit_code == 2);
+}
