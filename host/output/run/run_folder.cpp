@@ -85,7 +85,8 @@ RunFolder RunFolder::of_existing(const fs::path &directory, const std::function<
 RunFolder::~RunFolder() {
   try {
     leave();
-  } catch (const std::exception &) { // leftovers are the next one's to clear
+  } catch (const std::exception &) {
+    return; // leftovers are the next one's to clear
   }
 }
 

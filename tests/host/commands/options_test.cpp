@@ -123,7 +123,8 @@ TEST_CASE("a run goes on and is divided where that is asked for") {
   CHECK(asked.shard.index == 2);
   CHECK(asked.shard.count == 5);
   CHECK(asked.frames->first == 3);
-  CHECK(refusal({"--shard", "5/5"}) == "--shard: expected I/N, whole numbers, I from 0 to N - 1, or slurm, found \"5/5\"");
+  CHECK(refusal({"--shard", "5/5"}) ==
+        "--shard: expected I/N, whole numbers, I from 0 to N - 1, or slurm, found \"5/5\"");
 }
 
 TEST_CASE("directories are merged into another, or one's manifest is made again") {
