@@ -77,8 +77,13 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
       channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
       exposures_(setup_, request.device, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_, frames_, request.output_directory,
-                {command, exposures_.camera().device(), exposures_.camera().driver(), request.accuracy,
-                 setup_.as_used, {}, request.channels.names()}) {}
+                {command,
+                 exposures_.camera().device(),
+                 exposures_.camera().driver(),
+                 request.accuracy,
+                 setup_.as_used,
+                 {},
+                 request.channels.names()}) {}
 
 std::string Capture::device_text() const {
   return fmt::format("device    {} ({})\n\n", exposures_.camera().device(), exposures_.camera().driver());
