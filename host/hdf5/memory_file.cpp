@@ -2,7 +2,9 @@
 
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <new>
+#include <set>
 
 namespace pmdsim {
 namespace {
@@ -14,16 +16,30 @@ struct MemoryFile {
   haddr_t end_of_use = 0;
 };
 
+// Those that HDF5 has open.
+std::set<MemoryFile *> &open_files() {
+  static std::set<MemoryFile *> files;
+  return files;
+}
+
 const MemoryFile &memory_file(const H5FD_t *file) { return *reinterpret_cast<const MemoryFile *>(file); }
 
 H5FD_t *open_memory(const char *, unsigned, hid_t access, haddr_t) {
   const auto *bytes = static_cast<const std::string_view *>(H5Pget_driver_info(access));
-  auto *file = bytes ? new (std::nothrow) MemoryFile{{}, *bytes, 0} : nullptr;
-  return reinterpret_cast<H5FD_t *>(file);
+  if (!bytes)
+    return nullptr;
+  try { // no exception may pass through HDF5's C
+    auto file = std::make_unique<MemoryFile>(MemoryFile{{}, *bytes, 0});
+    open_files().insert(file.get());
+    return reinterpret_cast<H5FD_t *>(file.release());
+  } catch (const std::bad_alloc &) {
+    return nullptr;
+  }
 }
 
 herr_t close_memory(H5FD_t *file) {
-  delete reinterpret_cast<MemoryFile *>(file);
+  const std::unique_ptr<MemoryFile> owned(reinterpret_cast<MemoryFile *>(file));
+  open_files().erase(owned.get());
   return 0;
 }
 
@@ -44,7 +60,7 @@ H5FD_class_t memory_driver() {
   H5FD_class_t driver{};
   driver.name = "pmdsim_memory";
   driver.maxaddr = std::numeric_limits<std::int64_t>::max();
-  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.fc_degree = H5F_CLOSE_STRONG;
   driver.fapl_size = sizeof(std::string_view);
   driver.open = open_memory;
   driver.close = close_memory;
@@ -73,11 +89,16 @@ hid_t driver_id() {
 
 } // namespace
 
-Hdf5Handle opened_in_memory(std::string_view bytes) {
+Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (H5Pset_driver(access.id(), driver_id(), &bytes) < 0)
-    return {};
-  return {H5Fopen("frame", H5F_ACC_RDONLY, access.id()), H5Fclose};
+  if (H5Pset_driver(access.id(), driver_id(), &bytes) >= 0)
+    file_ = {H5Fopen("frame", H5F_ACC_RDONLY, access.id()), H5Fclose};
+}
+
+Hdf5MemoryFile::~Hdf5MemoryFile() {
+  file_ = {};
+  for (MemoryFile *file : open_files())
+    file->bytes = {};
 }
 
 } // namespace pmdsim

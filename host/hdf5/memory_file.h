@@ -7,9 +7,21 @@
 
 namespace pmdsim {
 
-// Opens the file, whose bytes must outlive the handle, in a Hdf5Turn; below 0 where it is none. HDF5's own
+// An open file, in a Hdf5Turn; its id is below 0 where the bytes, which must outlive it, are none. HDF5's own
 // driver of files in memory lets it gather small reads, for which 1.10 trusts addresses of damaged files;
-// this one does not, and refuses whatever lies beyond the bytes.
-Hdf5Handle opened_in_memory(std::string_view bytes);
+// this one does not, and refuses whatever lies beyond the bytes. What HDF5 fails to close of a damaged file
+// reads nothing any more.
+class Hdf5MemoryFile {
+public:
+  explicit Hdf5MemoryFile(std::string_view bytes);
+  ~Hdf5MemoryFile();
+  Hdf5MemoryFile(const Hdf5MemoryFile &) = delete;
+  Hdf5MemoryFile &operator=(const Hdf5MemoryFile &) = delete;
+
+  hid_t id() const { return file_.id(); }
+
+private:
+  Hdf5Handle file_;
+};
 
 } // namespace pmdsim

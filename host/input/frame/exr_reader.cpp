@@ -49,7 +49,7 @@ private:
     ~Decoder() { exr_decoding_destroy(context, &pipeline); }
 
     exr_const_context_t context;
-    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_decode_pipeline_t pipeline{};
     bool is_ready = false;
   };
 

@@ -12,7 +12,7 @@ namespace {
 
 class H5Reader {
 public:
-  explicit H5Reader(const FrameBytes &frame) : frame_(frame), file_(opened_in_memory(frame.content)) {
+  explicit H5Reader(const FrameBytes &frame) : frame_(frame), file_(frame.content) {
     check(file_.id() < 0 ? -1 : 0);
   }
 
@@ -128,7 +128,7 @@ private:
   }
 
   const FrameBytes &frame_;
-  Hdf5Handle file_;
+  Hdf5MemoryFile file_;
 };
 
 } // namespace

@@ -22,7 +22,7 @@ namespace {
 // Large chunks go into the file as they are, past HDF5's cache, and small parts can still be read.
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 constexpr std::size_t page_bytes = 4096;
-constexpr unsigned most_links = 65535; // that HDF5 keeps in one place
+constexpr unsigned most_links = 65535;                       // that HDF5 keeps in one place
 constexpr std::size_t room_for_names = std::size_t{1} << 18; // and attributes, and what HDF5 needs
 
 using Bytes = std::unique_ptr<void, decltype([](void *bytes) { std::free(bytes); })>;
@@ -203,7 +203,7 @@ void add_channel(const H5File &h5, const Channel &channel, const glm::uvec2 &res
                  const std::array<hid_t, 2> &scales) {
   std::visit(
       [&](auto values) {
-        using Value = typename decltype(values)::value_type;
+        using Value = decltype(values)::value_type;
         const Hdf5Handle dataset =
             h5.add_dataset<Value>(channel.name(), {resolution.y, resolution.x}, values);
         for (unsigned i = 0; i < scales.size(); ++i)

@@ -23,6 +23,9 @@ using namespace pmdsim;
 
 namespace {
 
+// HDF5 cannot close all that damaged files have opened, and would say so at the end of the process.
+[[maybe_unused]] const herr_t stays_open = H5dont_atexit();
+
 // Every kind of bits.
 struct WrittenFrame {
   explicit WrittenFrame(const glm::uvec2 &size) : resolution(size) {
