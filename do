@@ -20,7 +20,7 @@ packages=(
 # What long tests of packages, manual pages and clusters need; they are skipped where there are no such packages.
 packages_of_long_tests=(
   mmdebstrap groff-base man-db zsh fish
-  slurm-wlm munge python3-distributed python3-dask
+  slurm-wlm munge procps python3-distributed python3-dask
 )
 
 say() { printf '%s\n' "do: $*" >&2; }

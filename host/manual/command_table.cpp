@@ -35,6 +35,7 @@ ArgumentRow row_of(const CLI::Option &option) {
   row.value = value_kind(option);
   row.choices = choices_in(option.get_type_name());
   row.is_list = option.get_delimiter() != '\0';
+  row.is_repeated = option.get_positional() && option.get_items_expected_max() > 1;
   row.is_required = option.get_required();
   row.about = option.get_description();
   return row;

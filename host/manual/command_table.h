@@ -17,6 +17,7 @@ struct ArgumentRow {
   std::string value;                // the kind of its value: "text", "number"; empty for flags
   std::vector<std::string> choices; // all values that it takes, where they are named
   bool is_list = false;             // takes several values, separated by commas
+  bool is_repeated = false;         // an operand of which there may be several
   bool is_required = false;
   std::string about;
 };

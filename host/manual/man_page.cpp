@@ -121,6 +121,11 @@ std::string item_of(const ArgumentRow &row) {
   return item + "\n" + roff(row.about) + "\n";
 }
 
+std::string in_synopsis(const ArgumentRow &operand) {
+  const std::string text = italic(operand.names.front()) + (operand.is_repeated ? " ..." : "");
+  return operand.is_required ? text : fmt::format("[{}]", text);
+}
+
 std::string items(const char *title, const std::vector<ArgumentRow> &rows) {
   std::string text = rows.empty() ? "" : fmt::format(".SH {}\n", title);
   for (const ArgumentRow &row : rows)
@@ -202,8 +207,7 @@ std::string man_page(const CommandTable &table, const CommandRow &command, const
   std::string page = head(name, version, command.about);
   page += fmt::format(".SH SYNOPSIS\n{}", bold(table.program + " " + command.name));
   for (const ArgumentRow &operand : command.operands)
-    page += operand.is_required ? " " + italic(operand.names.front())
-                                : fmt::format(" [{}]", italic(operand.names.front()));
+    page += " " + in_synopsis(operand);
   page += fmt::format(" [{} ...]\n", italic("OPTION"));
   page += items("OPERANDS", command.operands);
   page += items("OPTIONS", command.options);

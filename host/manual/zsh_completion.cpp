@@ -43,7 +43,8 @@ std::string arguments_of(const CommandRow &command) {
   for (const ArgumentRow &row : command.options)
     text += specifications(row);
   for (const ArgumentRow &row : command.operands)
-    text += fmt::format(" \\\n      '{}:{}{}'", row.is_list ? "*" : "", row.names.front(), zsh_value(row));
+    text +=
+        fmt::format(" \\\n      '{}:{}{}'", row.is_repeated ? "*" : "", row.names.front(), zsh_value(row));
   return text + "\n      ;;\n";
 }
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # A cluster of Slurm's real daemons on this machine: an array of 8 tasks measures 40 frames by the script that is
-# shipped. One task's program is killed and begins again, another's node is lost, and the shares together are the same
-# bytes as one run. slurm.sh PROGRAM
+# shipped. One task's program is killed, another's node is lost, a third's time is over; all begin again, and the shares
+# together are the same bytes as one run. slurm.sh PROGRAM
 . "$(dirname "$0")/../support/check.sh"
 program=$1
 nodes=4
-need munged slurmctld slurmd sbatch squeue scontrol sinfo
+need munged slurmctld slurmd sbatch squeue scontrol sinfo pgrep ps
 [ "$(id -u)" -eq 0 ] || { say "skipped: slurmd needs root"; exit $skipped; }
 here=$(hostname -s)
 cluster=$scratch/cluster
@@ -77,10 +77,10 @@ start_cluster() {
   fail "the cluster did not start: $(sinfo 2>&1; tail -5 "$cluster/log/ctld")"
 }
 
-# The setup of the test: a moving scene, 40 frames of about 0.3 s.
+# The setup of the test: a moving scene, 40 frames of about 0.6 s.
 write_setup() {
   cp "$source_root/scenes/moving.gltf" "$scratch"
-  sed -e 's/"resolution": \[160, 120\]/"resolution": [320, 240], "samples": 4/' -e 's/45e-6, 45e-6/22.5e-6, 22.5e-6/' \
+  sed -e 's/"resolution": \[160, 120\]/"resolution": [320, 240], "samples": 6/' -e 's/45e-6, 45e-6/22.5e-6, 22.5e-6/' \
     -e 's/"count": 20}/"count": 40}/' "$source_root/scenes/motion.json" >"$scratch/setup.json"
   grep -q '"count": 40' "$scratch/setup.json" || fail 'scenes/motion.json is not as this test expects'
 }
@@ -99,12 +99,13 @@ wait_for_a_frame_of() {
   fail "task $1 measured no frame within two minutes: $(squeue -r; cat "$scratch"/log.* 2>/dev/null)"
 }
 
+program_of() { pgrep -f -- "-o $(shard "$1") " || fail "the program of task $1 is not there: $(squeue -r)"; }
+
 # Kills the program of task $1 as a node without memory would.
-kill_program_of() {
-  local pid
-  pid=$(pgrep -f -- "-o $(shard "$1") ") || fail "the program of task $1 is not there"
-  kill -9 $pid
-}
+kill_program_of() { kill -9 "$(program_of "$1")"; }
+
+# Signals the script of task $1, and it alone, as Slurm does shortly before its time is over.
+end_time_of() { kill -USR1 "$(ps -o ppid= -p "$(program_of "$1")" | tr -d ' ')"; }
 
 # Node failure: Slurm takes the node out, and its task begins again on another.
 lose_node_of() {
@@ -134,7 +135,7 @@ wait_for_job() {
 data_of() { (cd "$1" && find . -type f ! -name '*.record.json' ! -name run.json -print0 | sort -z | xargs -0 sha256sum); }
 
 write_setup
-"$program" render "$scratch/setup.json" -o "$scratch/one" --format npy >/dev/null
+"$program" render "$scratch/setup.json" -o "$scratch/one" --format npy >"$scratch/log" 2>&1 || fail "$(cat "$scratch/log")"
 start_cluster
 export PMDSIM=$program
 job=$(sbatch --parsable --array=0-7 --cpus-per-task=1 -o "$scratch/log.%a" "$source_root/host/clusters/pmdsim.sbatch" \
@@ -143,6 +144,8 @@ wait_for_a_frame_of 0
 kill_program_of 0
 wait_for_a_frame_of 1
 lose_node_of 1
+wait_for_a_frame_of 2
+end_time_of 2
 wait_for_job
 
 for task in {0..7}; do
@@ -151,7 +154,9 @@ for task in {0..7}; do
 done
 expect 'restarts of task 0' 1 "$(restarts_of 0)"
 expect 'restarts of task 1' 1 "$(restarts_of 1)"
+expect 'restarts of task 2' 1 "$(restarts_of 2)"
+grep -q 'out of time, to be continued' "$scratch/log.2" || fail "task 2 says nothing of its time: $(cat "$scratch/log.2")"
 "$program" merge "$scratch"/out/shard_* -o "$scratch/merged" >/dev/null
 expect 'files of the merged run' "$(data_of "$scratch/one")" "$(data_of "$scratch/merged")"
 expect 'leftovers' '' "$(find "$scratch/out" -name '*.partial')"
-say "8 tasks on $nodes nodes of Slurm measured 40 frames, two of them begun again: the same bytes as one run"
+say "8 tasks on $nodes nodes of Slurm measured 40 frames, three of them begun again: the same bytes as one run"

@@ -29,7 +29,7 @@ check_traces() {
 
 check_program() {
   local setup=$prefix/share/doc/pmdsim/examples/scenes/analytic/inverse_square.json
-  "$prefix/bin/pmdsim" check "$setup" >/dev/null
+  "$prefix/bin/pmdsim" check "$setup" >"$scratch/log" 2>&1 || fail "$(cat "$scratch/log")"
   "$prefix/bin/pmdsim" render "$setup" -o "$scratch/out" --format npy >"$scratch/log" 2>&1 || fail "$(cat "$scratch/log")"
   [ -f "$scratch/out/manifest.json" ] || fail 'render wrote no manifest'
 }

@@ -27,6 +27,7 @@ struct Program {
         ->check(CLI::IsMember({"red", "blue"}));
     draw->add_option("--size", number, "of it");
     draw->add_option("--secret", text)->group("");
+    draw->add_option("PARTS", list, "of the picture");
     draw->add_flag("--fast")->description("as `others` do");
     draw->footer("Colours:\n  red    m    warm\n  blue        cold\n");
     app.add_subcommand("internal", "not for people")->group("");
@@ -43,9 +44,11 @@ TEST_CASE("the table of a command line has what its help has") {
   CHECK(table.program == "toy");
   REQUIRE(table.commands.size() == 1);
   const CommandRow &draw = table.commands.front();
-  REQUIRE(draw.operands.size() == 1);
+  REQUIRE(draw.operands.size() == 2);
   CHECK(draw.operands.front().names == std::vector<std::string>{"FILE"});
   CHECK(draw.operands.front().is_required);
+  CHECK_FALSE(draw.operands.front().is_repeated);
+  CHECK(draw.operands.back().is_repeated);
   REQUIRE(draw.options.size() == 4); // --help is one
   CHECK(draw.options[1].names == std::vector<std::string>{"-c", "--colours"});
   CHECK(draw.options[1].is_list);
@@ -67,6 +70,7 @@ TEST_CASE("a manual page is ASCII, and none of its text is taken for a request")
   CHECK(std::ranges::all_of(page,
                             [](char c) { return std::isprint(static_cast<unsigned char>(c)) || c == '\n'; }));
   CHECK(holds(page, ".TH toy\\-draw 1 \"\" \"pmdsim 1.2.3\""));
+  CHECK(holds(page, "\\fIFILE\\fR [\\fIPARTS\\fR ...] [\\fIOPTION\\fR ...]\n"));
   CHECK(holds(page, "1 m\\[u00B2]"));
   CHECK(holds(page, "\n\\&.SH is text, and so is \\efB\n"));
   CHECK(holds(page, "as \\fBothers\\fR do"));
