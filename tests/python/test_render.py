@@ -21,7 +21,9 @@ import pmdsim
 from setups import same_bytes, scenes, small_setup, without_scene, wall, write_by_program
 
 two_frequencies = {
-    "sensors": [{**small_setup()["sensors"][0], "modulation_hz": [20e6, 60e6], "unwrap_range_m": 5, "waveform": "square"}]
+    "sensors": [
+        {**small_setup()["sensors"][0], "modulation_hz": [20e6, 60e6], "unwrap_range_m": 5, "waveform": "square"}
+    ]
 }
 
 
@@ -48,7 +50,11 @@ class Render(unittest.TestCase):
             "shadowless": {"shadows": "off", "backscatter": "constant"},
         }
         for name, changes in variants.items():
-            for options, arguments in (({}, []), ({"max_error": "10um"}, ["--max-error", "10um"]), ({"samples": 3}, ["--samples", "3"])):
+            for options, arguments in (
+                ({}, []),
+                ({"max_error": "10um"}, ["--max-error", "10um"]),
+                ({"samples": 3}, ["--samples", "3"]),
+            ):
                 with self.subTest(name, **options), tempfile.TemporaryDirectory() as folder:
                     setup = Path(folder) / "setup.json"
                     setup.write_text(json.dumps(small_setup(**changes)))
@@ -188,7 +194,12 @@ class Render(unittest.TestCase):
                 lambda: pmdsim.render(warning),
                 lambda: pmdsim.Simulator(warning).close(),
                 lambda: simulator.load(warning),
-                lambda: (simulator.load(small_setup()), simulator.set(change), simulator.set(change), simulator.render()),
+                lambda: (
+                    simulator.load(small_setup()),
+                    simulator.set(change),
+                    simulator.set(change),
+                    simulator.render(),
+                ),
                 lambda: list(pmdsim.sweep(small_setup(), {"sensors/0/waveform": [change["sensors/0/waveform"]]})),
             ):
                 with warnings.catch_warnings(record=True) as caught:
