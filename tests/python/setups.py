@@ -55,7 +55,9 @@ def without_scene(**changes: Any) -> Dict[str, Any]:
 
 def write_by_program(setup: Path, folder: Path, *options: str) -> None:
     """What `pmdsim render` makes of the setup."""
-    subprocess.run([program, "render", str(setup), "-o", str(folder), *options], check=True, capture_output=True)
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # ASan's, for Python
+    command = [program, "render", str(setup), "-o", str(folder), *options]
+    subprocess.run(command, check=True, capture_output=True, env=environment)
 
 
 def python(code: str, *arguments: str, **options: Any) -> "subprocess.Popen[str]":

@@ -40,7 +40,9 @@ class Examples(unittest.TestCase):
             run("random_views.py", "-o", folder, "--count", "5", "--binning", "16", "--part", "0/2")
             self.assertEqual(sorted(file.name[5:11] for file in views.iterdir()), ["000000", "000002", "000004"])
             times = {file: file.stat().st_mtime_ns for file in views.iterdir()}
-            self.assertIn("3 of them are there", run("random_views.py", "-o", folder, "--count", "5", "--binning", "16"))
+            self.assertIn(
+                "3 of them are there", run("random_views.py", "-o", folder, "--count", "5", "--binning", "16")
+            )
             self.assertEqual(len(list(views.iterdir())), 5)
             for file, when in times.items():
                 self.assertEqual(file.stat().st_mtime_ns, when)

@@ -124,13 +124,17 @@ class Misuse(unittest.TestCase):
             ):
                 self.refused(error, text, lambda: simulator.move(sensor=0, pose=pose))
             self.refused(pmdsim.ArgumentError, "one of node", lambda: simulator.move(pose=np.eye(4)))
-            self.refused(pmdsim.ArgumentError, "one of node", lambda: simulator.move(node="a", sensor=0, pose=np.eye(4)))
+            self.refused(
+                pmdsim.ArgumentError, "one of node", lambda: simulator.move(node="a", sensor=0, pose=np.eye(4))
+            )
             self.refused(pmdsim.InputError, "nobody", lambda: simulator.move(node="nobody", pose=np.eye(4)))
             self.refused(pmdsim.InputError, "", lambda: simulator.move(sensor="a/b~c", pose=np.eye(4)))
 
     def test_scenes(self) -> None:
         for text, wrong in {
-            r"vertices: expected the shape \(n, 3\), found \(2, 2\)": lambda: pmdsim.Scene([[0, 0], [1, 1]], [[0, 1, 1]]),
+            r"vertices: expected the shape \(n, 3\), found \(2, 2\)": lambda: pmdsim.Scene(
+                [[0, 0], [1, 1]], [[0, 1, 1]]
+            ),
             r"vertices: expected the shape \(n, 3\), found \(0": lambda: pmdsim.Scene(np.zeros((0, 3)), [[0, 1, 2]]),
             "vertices: expected real numbers": lambda: pmdsim.Scene([["a", "b", "c"]], [[0, 0, 0]]),
             "vertices: expected real numbers, found the type complex": lambda: pmdsim.Scene([[1j, 0, 0]], [[0, 0, 0]]),
@@ -141,7 +145,9 @@ class Misuse(unittest.TestCase):
             r"triangles\[0, 2\]: expected 0 to 2, .* found 3": lambda: pmdsim.Scene(triangle, [[0, 1, 3]]),
             r"triangles\[0, 0\]: .* found -1": lambda: pmdsim.Scene(triangle, [[-1, 1, 2]]),
             "triangles: expected at least one": lambda: pmdsim.Scene(triangle, np.zeros((0, 3), dtype=int)),
-            r"reflectivity\[0\]: expected 0 to 1, found 1.5": lambda: pmdsim.Scene(triangle, [[0, 1, 2]], reflectivity=[1.5]),
+            r"reflectivity\[0\]: expected 0 to 1, found 1.5": lambda: pmdsim.Scene(
+                triangle, [[0, 1, 2]], reflectivity=[1.5]
+            ),
             "reflectivity.*found nan": lambda: pmdsim.Scene(triangle, [[0, 1, 2]], reflectivity=np.nan),
             r"reflectivity: expected a number or the shape \(1,\)": lambda: pmdsim.Scene(
                 triangle, [[0, 1, 2]], reflectivity=[1, 1]
@@ -154,7 +160,9 @@ class Misuse(unittest.TestCase):
         }.items():
             self.refused(pmdsim.ArgumentError, text, wrong)
         self.refused(
-            pmdsim.InputError, "nodes", lambda: pmdsim.render(small_setup(nodes={"a": {"pose": {"matrix": np.eye(4)}}}), scene=wall())
+            pmdsim.InputError,
+            "nodes",
+            lambda: pmdsim.render(small_setup(nodes={"a": {"pose": {"matrix": np.eye(4)}}}), scene=wall()),
         )
 
     def test_a_scene_whose_arrays_were_spoilt(self) -> None:
@@ -238,7 +246,9 @@ class Misuse(unittest.TestCase):
             ("libm.so.6", "this is not libpmdsim"),
         ):
             environment = dict(os.environ, PMDSIM_LIBRARY=place)
-            code = "import pmdsim\ntry: pmdsim.version()\nexcept ImportError as error: print(type(error).__name__, error)"
+            code = (
+                "import pmdsim\ntry: pmdsim.version()\nexcept ImportError as error: print(type(error).__name__, error)"
+            )
             done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertRegex(done.stdout, f"^LibraryError {place}.*{text}.*\n$")

@@ -21,7 +21,9 @@ import pmdsim
 from setups import same_bytes, scenes, small_setup, without_scene, wall, write_by_program
 
 two_frequencies = {
-    "sensors": [{**small_setup()["sensors"][0], "modulation_hz": [20e6, 60e6], "unwrap_range_m": 5, "waveform": "square"}]
+    "sensors": [
+        {**small_setup()["sensors"][0], "modulation_hz": [20e6, 60e6], "unwrap_range_m": 5, "waveform": "square"}
+    ]
 }
 
 
@@ -48,7 +50,11 @@ class Render(unittest.TestCase):
             "shadowless": {"shadows": "off", "backscatter": "constant"},
         }
         for name, changes in variants.items():
-            for options, arguments in (({}, []), ({"max_error": "10um"}, ["--max-error", "10um"]), ({"samples": 3}, ["--samples", "3"])):
+            for options, arguments in (
+                ({}, []),
+                ({"max_error": "10um"}, ["--max-error", "10um"]),
+                ({"samples": 3}, ["--samples", "3"]),
+            ):
                 with self.subTest(name, **options), tempfile.TemporaryDirectory() as folder:
                     setup = Path(folder) / "setup.json"
                     setup.write_text(json.dumps(small_setup(**changes)))
@@ -188,7 +194,12 @@ class Render(unittest.TestCase):
                 lambda: pmdsim.render(warning),
                 lambda: pmdsim.Simulator(warning).close(),
                 lambda: simulator.load(warning),
-                lambda: (simulator.load(small_setup()), simulator.set(change), simulator.set(change), simulator.render()),
+                lambda: (
+                    simulator.load(small_setup()),
+                    simulator.set(change),
+                    simulator.set(change),
+                    simulator.render(),
+                ),
                 lambda: list(pmdsim.sweep(small_setup(), {"sensors/0/waveform": [change["sensors/0/waveform"]]})),
             ):
                 with warnings.catch_warnings(record=True) as caught:
@@ -197,14 +208,22 @@ class Render(unittest.TestCase):
                 self.assertEqual([(w.category, w.filename) for w in caught], [(pmdsim.PmdsimWarning, __file__)])
 
     def test_a_frame_that_may_be_off_by_more_warns(self) -> None:
+        """Light that cancels in some pixels; 0.25 micrometres are close to what rounding leaves."""
+
+        def render(max_error: str, strict: bool = False) -> pmdsim.Frame:
+            change = {"sensors/0/resolution": [32, 32]}
+            return pmdsim.render(scenes / "analytic" / "cancel.json", max_error=max_error, strict=strict, set=change)
+
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            frame = pmdsim.render(scenes / "light.json", max_error="1um", set={"sensors/0/resolution": [32, 32]})
-        if "error_bound_m" in frame:
-            self.assertEqual([w.filename for w in caught], [__file__])
-            self.assertEqual([str(w.message) for w in caught], frame.report["warnings"])
-        else:
-            self.assertEqual(caught, [])
+            frame = render("0.25um")
+        self.assertIn("error_bound_m", frame)
+        self.assertEqual([(w.category, w.filename) for w in caught], [(pmdsim.PmdsimWarning, __file__)])
+        self.assertEqual([str(w.message) for w in caught], frame.report["warnings"])
+        with self.assertRaises(pmdsim.AccuracyError):
+            render("0.25um", strict=True)
+        with self.assertRaises(pmdsim.AccuracyError):
+            render("0.05um")
 
     def test_what_there_is(self) -> None:
         self.assertIn("distance_m", [channel["name"] for channel in pmdsim.channels()])

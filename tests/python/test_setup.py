@@ -71,10 +71,14 @@ class SetupTest(unittest.TestCase):
     def test_files_with_comments(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "setup.json"
-            file.write_text('// a "comment"\n{"scene": "http://x//y.gltf", /* and\n another */ "bounces": "all"}  // end')
+            file.write_text(
+                '// a "comment"\n{"scene": "http://x//y.gltf", /* and\n another */ "bounces": "all"}  // end'
+            )
             setup = pmdsim.Setup.load(file)
             self.assertEqual(setup, {"scene": "http://x//y.gltf", "bounces": "all"})
-            self.assertEqual(setup.directory, os.path.realpath(folder) if folder == os.path.realpath(folder) else folder)
+            self.assertEqual(
+                setup.directory, os.path.realpath(folder) if folder == os.path.realpath(folder) else folder
+            )
             setup.save(f"{folder}/again.json")
             self.assertEqual(pmdsim.Setup.load(f"{folder}/again.json"), setup)
             self.assertEqual(sorted(os.listdir(folder)), ["again.json", "setup.json"])
@@ -105,7 +109,12 @@ class SetupTest(unittest.TestCase):
 
     def test_copies_are_of_their_own(self) -> None:
         self.setup.directory = "/somewhere"
-        for made in (self.setup.copy(), copy.copy(self.setup), copy.deepcopy(self.setup), pickle.loads(pickle.dumps(self.setup))):
+        for made in (
+            self.setup.copy(),
+            copy.copy(self.setup),
+            copy.deepcopy(self.setup),
+            pickle.loads(pickle.dumps(self.setup)),
+        ):
             self.assertIsInstance(made, pmdsim.Setup)
             self.assertEqual(made, self.setup)
             self.assertEqual(made.directory, "/somewhere")

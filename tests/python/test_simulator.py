@@ -128,7 +128,9 @@ class SimulatorTest(unittest.TestCase):
 
     def test_scene_details(self) -> None:
         vertices = [[-9, -9, -2], [9, -9, -2], [0, 18, -2], [-9, -9, -3], [0, 18, -3], [9, -9, -3]]
-        scene = pmdsim.Scene(vertices, [[0, 2, 1], [3, 5, 4]], reflectivity=[1, 0.5], object_ids=[0, 1], double_sided=False)
+        scene = pmdsim.Scene(
+            vertices, [[0, 2, 1], [3, 5, 4]], reflectivity=[1, 0.5], object_ids=[0, 1], double_sided=False
+        )
         frame = pmdsim.render(without_scene(shadows="off"), scene=scene)
         np.testing.assert_allclose(frame.z_m, 3.0, atol=1e-6)  # the first shows its back
         self.assertEqual(set(frame.object_id.flat), {1})
@@ -162,7 +164,9 @@ class SimulatorTest(unittest.TestCase):
         expected = pmdsim.render(small_setup()).distance_m.tobytes()
         found = []
         threads = [
-            threading.Thread(target=lambda: found.extend(pmdsim.render(small_setup()).distance_m.tobytes() for _ in range(3)))
+            threading.Thread(
+                target=lambda: found.extend(pmdsim.render(small_setup()).distance_m.tobytes() for _ in range(3))
+            )
             for _ in range(4)
         ]
         for thread in threads:

@@ -86,7 +86,9 @@ def main() -> None:
     constant_mm = 1e3 * coefficients[0]
     strength = 1e3 * np.hypot(*coefficients[1:].reshape(2, -1))
     strongest = int(np.argmax(strength))
-    print(f"fitted: a constant of {constant_mm:.1f} mm, and a wave of {strength[strongest]:.1f} mm, order {strongest + 1}")
+    print(
+        f"fitted: a constant of {constant_mm:.1f} mm, and a wave of {strength[strongest]:.1f} mm, order {strongest + 1}"
+    )
     for name, left in (("before", before - coefficients[0]), ("after", after)):
         print(f"{name:>6}: {1e3 * np.sqrt(np.mean(left**2)):8.3f} mm rms, {1e3 * np.abs(left).max():8.3f} mm at most")
     if arguments.plot:

@@ -72,9 +72,7 @@ class Judge:
 def pattern_search(judge: Judge, start: np.ndarray, steps: np.ndarray, least: np.ndarray) -> np.ndarray:
     best, best_value = start, judge(start)
     while (steps > least).any():
-        tried: List[np.ndarray] = [
-            best + sign * steps * axis for axis in np.eye(len(start)) for sign in (-1.0, 1.0)
-        ]
+        tried: List[np.ndarray] = [best + sign * steps * axis for axis in np.eye(len(start)) for sign in (-1.0, 1.0)]
         values = [judge(layout) for layout in tried]
         if min(values) < best_value:
             best, best_value = tried[int(np.argmin(values))], min(values)
@@ -103,7 +101,9 @@ def main() -> None:
 
     start = np.array([0.05, 0.10, arguments.diodes / 2])
     random = np.random.default_rng(1)
-    others = [np.append(np.sort(random.uniform(LEAST_M, MOST_M, 2)), random.uniform(0, arguments.diodes)) for _ in range(7)]
+    others = [
+        np.append(np.sort(random.uniform(LEAST_M, MOST_M, 2)), random.uniform(0, arguments.diodes)) for _ in range(7)
+    ]
     steps, least = np.array([0.04, 0.04, arguments.diodes / 4]), np.array([2e-4, 2e-4, 0.5])
     with pmdsim.Simulator(camera(arguments.distance_m), scene=wall()) as simulator:
         judge = Judge(simulator, arguments.diodes, arguments.most_mm)
@@ -111,9 +111,11 @@ def main() -> None:
         best = polished(judge, min(found, key=judge))
         for name, layout in (("start", start), ("best", best)):
             unevenness, spread_mm = judge.measure(layout)
+            inner = round(layout[2])
             print(
-                f"{name:>5}: {round(layout[2])} diodes at {1e3 * layout[0]:.1f} mm, {arguments.diodes - round(layout[2])} at "
-                f"{1e3 * layout[1]:.1f} mm; amplitude uneven by {100 * unevenness:.2f} %, deformation spread {spread_mm:.2f} mm"
+                f"{name:>5}: {inner} diodes at {1e3 * layout[0]:.1f} mm, {arguments.diodes - inner} at "
+                f"{1e3 * layout[1]:.1f} mm; amplitude uneven by {100 * unevenness:.2f} %, "
+                f"deformation spread {spread_mm:.2f} mm"
             )
         print(f"{judge.layouts} layouts measured")
 

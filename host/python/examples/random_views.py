@@ -122,7 +122,9 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=1000, help="views [%(default)s]")
     parser.add_argument("--seed", type=int, default=0, help="of the room and all views [%(default)s]")
     parser.add_argument("--binning", type=int, default=8, help="8: 64 x 53 pixels, 1: 512 x 424 [%(default)s]")
-    parser.add_argument("--part", type=part, default=(0, 1), metavar="i/n", help="every n-th view from the i-th on, from 0")
+    parser.add_argument(
+        "--part", type=part, default=(0, 1), metavar="i/n", help="every n-th view from the i-th on, from 0"
+    )
     arguments = parser.parse_args()
 
     arguments.output.mkdir(parents=True, exist_ok=True)

@@ -162,7 +162,8 @@ class Frame:
             return "unwrapped_distance_m"
         if len(distances) != 1:
             raise UnknownChannelError(
-                f"points_m: the frame has {', '.join(distances) or 'no distance_m'}; points_of(channel) takes any distance"
+                f"points_m: the frame has {', '.join(distances) or 'no distance_m'}; "
+                "points_of(channel) takes any distance"
             )
         return distances[0]
 

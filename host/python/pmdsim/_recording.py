@@ -193,13 +193,11 @@ class Recording:
             for channel, unit in units.items()
         }
         times = [self._by_key[name, number].get("time_s", np.nan) for number in numbers]
-        return xarray.Dataset(
-            variables, coords={"frame": numbers, "time_s": ("frame", times)}, attrs={"sensor": name}
-        )
+        return xarray.Dataset(variables, coords={"frame": numbers, "time_s": ("frame", times)}, attrs={"sensor": name})
 
 
 def _channel_of(file: str, entry: Mapping[str, Any]) -> str:
-    """"distance_m" of SENSOR_FRAME.distance_m.npy, where the sensor's name may have dots, too."""
+    """ "distance_m" of SENSOR_FRAME.distance_m.npy, where the sensor's name may have dots, too."""
     begin = f"{entry['sensor']}_{entry['frame']:04d}."
     name = os.path.basename(file)[: -len(".npy")]
     return name[len(begin) :] if name.startswith(begin) else name.split(".", 1)[-1]
@@ -210,9 +208,7 @@ def _read_manifest(folder: str) -> Dict[str, Any]:
     try:
         manifest = json.loads(Path(file).read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise InputError(
-            f"{file}: there is no such file; expected a folder that pmdsim render wrote", file
-        ) from None
+        raise InputError(f"{file}: there is no such file; expected a folder that pmdsim render wrote", file) from None
     except (OSError, ValueError) as error:
         raise InputError(f"{file}: cannot be read: {error}", file) from None
     frames = manifest.get("frames") if isinstance(manifest, dict) else None
@@ -220,7 +216,7 @@ def _read_manifest(folder: str) -> Dict[str, Any]:
         isinstance(entry, dict) and isinstance(entry.get("sensor"), str) and isinstance(entry.get("frame"), int)
         for entry in frames
     ):
-        raise InputError(f"{file}: expected a manifest with \"frames\"", file, "/frames")
+        raise InputError(f'{file}: expected a manifest with "frames"', file, "/frames")
     return manifest
 
 

@@ -166,7 +166,8 @@ class Simulator:
         if not self._handle:
             return "<pmdsim.Simulator, closed>"
         told = self._described or {}
-        return f"<pmdsim.Simulator on {told.get('device', 'a device')} of {', '.join(told.get('sensors') or ['no setup'])}>"
+        sensors = ", ".join(told.get("sensors") or ["no setup"])
+        return f"<pmdsim.Simulator on {told.get('device', 'a device')} of {sensors}>"
 
     def close(self) -> None:
         """Gives the device and the memory back; frames that were measured stay. Twice does no harm.
@@ -265,9 +266,7 @@ class Simulator:
             raise ArgumentError(f"scene: expected a pmdsim.Scene, found {scene!r:.80}")
         mesh = scene._mesh()  # which keeps the arrays, however long the call takes
         self._call(
-            lambda: check(
-                library().pmdsim_simulator_load_mesh(handle, text, len(text), folder, ctypes.byref(mesh))
-            )
+            lambda: check(library().pmdsim_simulator_load_mesh(handle, text, len(text), folder, ctypes.byref(mesh)))
         )
 
     def set(self, path: Union[str, Mapping[str, Any]], value: Any = None) -> None:
@@ -426,9 +425,7 @@ class Simulator:
         def measure() -> FrameHandle:
             result = ctypes.c_void_p()
             check(
-                library().pmdsim_render(
-                    handle, sensor_index, frame_index, ctypes.byref(options), ctypes.byref(result)
-                )
+                library().pmdsim_render(handle, sensor_index, frame_index, ctypes.byref(options), ctypes.byref(result))
             )
             return FrameHandle(result.value or 0)
 
