@@ -79,22 +79,32 @@ struct Multipath::State {
   BounceTones tones;
   std::vector<Solved> solved;
 
-  // The solution of the tones that are asked for, with elements made for that error or less.
+  // The largest of few errors that is no more than that, so that solutions of one frame serve others, too.
+  double step_below(double error_m) const {
+    constexpr double step = 0.8, rounding = 1e-9;
+    const double most_m = first_of_elements * bounces.max_error_m;
+    const double steps = std::ceil(std::log(error_m / most_m) / std::log(step) - rounding);
+    return most_m * std::pow(step, std::max(steps, 0.0));
+  }
+
+  // The solution of the tones that are asked for, with elements made for that error. One for less error that
+  // is known will not do: what a frame holds must not depend on the frames before it.
   Solved &solution(double error_m) {
-    const auto known = std::ranges::find(solved, tones.tones, &Solved::tones);
-    if (known != solved.end() && known->error_m <= error_m)
-      return *known;
+    const auto known = std::ranges::find_if(
+        solved, [&](const Solved &one) { return one.tones == tones.tones && one.error_m == error_m; });
     if (known != solved.end())
-      solved.erase(known); // first, for its memory
+      return *known;
     Radiosity radiosity = solve_radiosity(scene, illuminators, shadows, bounces, tones.tones,
                                           fineness_of(scene, tones.tones, error_m));
     return solved.emplace_back(tones.tones, error_m, std::move(radiosity));
   }
 
-  // A solution whose elements are off by no more than they may be where the frame looks. Throws Error:
-  // accuracy, where they alone are off by more than was asked for, however fine.
-  Solved &exact_solution(double error_m, const Measurement &measurement, const ImageAim &aim) {
-    Solved *found = &solution(first_of_elements * error_m);
+  // A solution whose elements are off by no more than they may be where the frame looks, made for an error of
+  // `elements_m` at most. Throws Error: accuracy, where they alone are off by more than was asked for,
+  // however fine.
+  Solved &exact_solution(double error_m, double elements_m, const Measurement &measurement,
+                         const ImageAim &aim) {
+    Solved *found = &solution(step_below(std::min(elements_m, first_of_elements * error_m)));
     while (true) {
       const SeenPlaces seen(scene, sensor, measurement, found->radiosity.elements.origin_m);
       const double times = quantile(times_off(found->radiosity, tones.tones, seen, aim), promised);
@@ -102,7 +112,7 @@ struct Multipath::State {
         return *found;
       // Somewhat finer than it should take, and so much that more triangles are cut.
       const double finer_m =
-          found->error_m * std::clamp(std::pow(0.85 * most_of_elements / times, 1.5), 0.2, 0.55);
+          step_below(found->error_m * std::clamp(std::pow(0.85 * most_of_elements / times, 1.5), 0.2, 0.55));
       if (fineness_of(scene, tones.tones, finer_m).element_m ==
           fineness_of(scene, tones.tones, found->error_m).element_m) {
         if (times * error_m > bounces.max_error_m)
@@ -136,10 +146,13 @@ void Multipath::add_to(Measurement &measurement, const std::function<void(double
   const auto &tones = state.tones.tones;
   const std::vector<std::vector<Phasor>> direct = direct_light(measurement, tones);
   double claimed = std::numeric_limits<double>::infinity(), error_m = state.bounces.max_error_m;
+  double elements_m = claimed; // that the elements of the try before were made for
   Stopwatch stopwatch;
   for (int i = 0; i < most_tries; ++i) {
     const ImageAim asked{parts_of(tones, state.sensor, error_m), direct};
-    const Radiosity &radiosity = state.exact_solution(error_m, measurement, asked).radiosity;
+    const State::Solved &found = state.exact_solution(error_m, elements_m, measurement, asked);
+    const Radiosity &radiosity = found.radiosity;
+    elements_m = found.error_m;
     stopwatch.add_to(measurement, "bounces");
     const SeenPlaces seen(state.scene, state.sensor, measurement, radiosity.elements.origin_m);
     const ImageAim aim{parts_of(tones, state.sensor, of_gather * error_m), direct};

@@ -2,6 +2,7 @@
 
 #include "tests/library/fixture.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -219,8 +220,14 @@ TEST_CASE("A frame is cancelled from another thread") {
   const Loaded slow(with(small_setup(), "[8, 8]", "[2048, 2048]"), "reference");
   pmdsim_frame *frame = nullptr;
   pmdsim_status status = PMDSIM_OK;
-  std::thread rendering([&] { status = pmdsim_render(slow.simulator, 0, 0, nullptr, &frame); });
-  while (pmdsim_simulator_set(slow.simulator, "{}") != PMDSIM_BUSY && status == PMDSIM_OK && !frame)
+  std::atomic<bool> ended{false};
+  std::thread rendering([&] {
+    do // the other thread looks whether it has begun
+      status = pmdsim_render(slow.simulator, 0, 0, nullptr, &frame);
+    while (status == PMDSIM_BUSY);
+    ended = true;
+  });
+  while (pmdsim_simulator_set(slow.simulator, "{}") != PMDSIM_BUSY && !ended)
     std::this_thread::yield();
   CHECK(pmdsim_simulator_cancel(slow.simulator) == PMDSIM_OK);
   rendering.join();

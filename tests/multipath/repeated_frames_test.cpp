@@ -1,6 +1,7 @@
 // A frame with bounces is that of its own scene, light and sensor, however it comes about.
 
 #include "engine/model/channels.h"
+#include "host/input/setup/setup.h"
 #include "tests/multipath/frames.h"
 #include "tests/support/random_rooms.h"
 
@@ -60,6 +61,28 @@ TEST_CASE("bounces are those of the scene, light and sensor that were prepared l
   Measurement after = bounced_frame(used, other.scene, other.sensor, {other.light}, bounces);
   Measurement fresh = bounced_frame(other.scene, other.sensor, {other.light}, bounces);
   CHECK(same(after, fresh));
+}
+
+TEST_CASE("a frame does not depend on one before it that has taken finer elements", "[long]") {
+  const Setup setup = load_setup(PMDSIM_SCENES "/corner.json");
+  const Bounces fine{all_bounces, 0.4e-3};
+  Sensor wide = setup.start.sensors.front();
+  wide.resolution = {40, 30};
+  wide.pixel_pitch_m *= 4.0;
+  Sensor close = wide;
+  close.focal_length_m = 0.05;
+  const auto frame = [&](Simulator &simulator, const Sensor &sensor) {
+    return bounced_frame(simulator, setup.start.scene, sensor, setup.start.illuminators, fine);
+  };
+  Simulator simulator = make_simulator();
+  Measurement first = frame(simulator, wide), second = frame(simulator, close);
+  CHECK(first.bounces->elements != second.bounces->elements); // else this proves nothing
+  Measurement again = frame(simulator, wide);
+  CHECK(same(first, again));
+  CHECK(first.bounces->lines == again.bounces->lines);
+  Simulator fresh = make_simulator();
+  Measurement alone = frame(fresh, close);
+  CHECK(same(second, alone));
 }
 
 TEST_CASE("where no light comes directly all of it has bounced") {

@@ -73,6 +73,18 @@ class SimulatorTest(unittest.TestCase):
             rows = simulator.setup.illuminators[0].pose.matrix
             np.testing.assert_allclose(np.array(rows)[:3, :3], [[1, 0, 0], [0, 0, 1], [0, -1, 0]], atol=1e-12)
 
+    def test_quaternions(self) -> None:
+        """As they turn vectors: v + 2 w (u x v) + 2 u x (u x v)."""
+        turn = np.array([0.1, -0.7, 0.3, 0.5])
+        u, w = turn[:3] / np.linalg.norm(turn), turn[3] / np.linalg.norm(turn)
+        with pmdsim.Simulator(small_setup()) as simulator:
+            simulator.move(sensor=0, pose=([1, 2, 3], turn))
+            matrix = np.array(simulator.setup.sensors[0].pose.matrix)
+        for v in np.eye(3):
+            turned = v + 2 * w * np.cross(u, v) + 2 * np.cross(u, np.cross(u, v))
+            np.testing.assert_allclose(matrix[:3, :3] @ v, turned, atol=1e-12)
+        np.testing.assert_array_equal(matrix[:, 3], [1, 2, 3, 1])
+
     def test_nodes_are_moved(self) -> None:
         with pmdsim.Simulator(scenes / "motion.json") as simulator:
             simulator.set("sensors/0/resolution", [16, 12])

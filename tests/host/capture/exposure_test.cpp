@@ -39,6 +39,13 @@ Measurement exposure_number(float number, std::uint32_t taps) {
 
 void no_progress(double) {}
 
+// The motion of a setup in which nothing moves.
+std::shared_ptr<const Motion> at_rest(const std::string &scene, const Setup &setup) {
+  const GltfFile gltf = load_gltf(scene, {setup.file});
+  return std::make_shared<const Motion>([gltf](double time_s) { return gltf.at(time_s); }, Trajectories{},
+                                        setup.as_used, Place{setup.file});
+}
+
 // A wall at rest, loaded from files; `moving` makes the program think that it moves.
 struct LoadedWall {
   Workspace work;
@@ -49,8 +56,7 @@ struct LoadedWall {
     setup = load_setup(work.write("setup.json", with(small_setup(), "[20e6]", "[20e6, 30e6]")));
     setup.start.sensors[0].tap_interval_s = tap_interval_s;
     if (moving)
-      setup.motion = std::make_shared<const Motion>(load_gltf(work / "wall.gltf", {setup.file}),
-                                                    setup.as_used, Place{setup.file});
+      setup.motion = at_rest(work / "wall.gltf", setup);
   }
 };
 
@@ -246,8 +252,7 @@ TEST_CASE("another camera of the same frequency is an illuminator more, at once 
     sensor.electronics->read_noise_e = 20.0;
     sensor.electronics->gain_dn_per_e = 1e-4;
     if (one_by_one)
-      setup.motion = std::make_shared<const Motion>(load_gltf(work / "wall.gltf", {setup.file}),
-                                                    setup.as_used, Place{setup.file});
+      setup.motion = at_rest(work / "wall.gltf", setup);
     Exposures exposures(setup, "", true);
     return exposures.take(0, 0, Light::beside_lens, no_progress).measurement;
   };

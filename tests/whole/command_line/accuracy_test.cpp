@@ -90,9 +90,8 @@ TEST_CASE("the manifest and --json tell what was asked for and what it came to")
   CHECK(manifest["max_amplitude_error"].is_null());
   for (const json &told : {frame, manifest["frames"].at(0)}) {
     CHECK(told["mode"] == "auto");
-    for (const char *key :
-         {"precision", "diodes", "error_claimed_m", "error_found_m", "amplitude_error_claimed",
-          "amplitude_error_found", "checked_pixels"}) {
+    for (const char *key : {"precision", "diodes", "error_claimed_m", "error_found_m",
+                            "amplitude_error_claimed", "amplitude_error_found", "checked_pixels"}) {
       INFO(key);
       CHECK(told.contains(key));
     }

@@ -2,12 +2,12 @@
 
 #include "tests/program/program.h"
 #include "tests/program/refusal.h"
+#include "tests/whole/command_line/run_fixture.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -19,11 +19,6 @@ namespace {
 nlohmann::json manifest_in(const std::string &directory) {
   std::ifstream stream(directory + "/manifest.json");
   return nlohmann::json::parse(stream);
-}
-
-std::string bytes_in(const std::string &file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 void require_success(const Run &run) {
@@ -54,9 +49,10 @@ TEST_CASE("render writes only the channels that are asked for, with the bytes th
   require_success(wall.run("render", "all", {"--format", "npy"}));
   const std::vector<std::string> options{"--format", "npy,png,csv", "--channels", "z_m,distance_m"};
   require_success(wall.run("render", "some", options));
-  CHECK(wall.space.files("some") == std::vector<std::string>{"manifest.json", "pmd_0000.distance_m.npy",
-                                                             "pmd_0000.distance_m.png",
-                                                             "pmd_0000.profile.csv", "pmd_0000.z_m.npy"});
+  CHECK(wall.space.files("some") ==
+        std::vector<std::string>{"0000.record.json", "manifest.json", "pmd_0000.distance_m.npy",
+                                 "pmd_0000.distance_m.png", "pmd_0000.profile.csv", "pmd_0000.z_m.npy",
+                                 "run.json"});
   for (const std::string name : {"z_m", "distance_m"})
     CHECK(bytes_in(wall.space / ("some/pmd_0000." + name + ".npy")) ==
           bytes_in(wall.space / ("all/pmd_0000." + name + ".npy")));
@@ -84,14 +80,16 @@ TEST_CASE("deform writes the deformation alone, or beside channels that are aske
   require_success(wall.run("deform", "all", {"--format", "npy"}));
   const Run alone = wall.run("deform", "alone", {"--channels", "deformation_mm", "--format", "npy,png"});
   require_success(alone);
-  CHECK(wall.space.files("alone") == std::vector<std::string>{"manifest.json", "pmd_0000.deformation_mm.npy",
-                                                              "pmd_0000.deformation_mm.png",
-                                                              "pmd_0000.deformation_profile.png"});
+  CHECK(wall.space.files("alone") ==
+        std::vector<std::string>{"0000.record.json", "manifest.json", "pmd_0000.deformation_mm.npy",
+                                 "pmd_0000.deformation_mm.png", "pmd_0000.deformation_profile.png",
+                                 "run.json"});
   CHECK(bytes_in(wall.space / "alone/pmd_0000.deformation_mm.npy") ==
         bytes_in(wall.space / "all/pmd_0000.deformation_mm.npy"));
   const Run other = wall.run("deform", "other", {"--channels", "range_m", "--format", "npy,png"});
   require_success(other);
-  CHECK(wall.space.files("other") == std::vector<std::string>{"manifest.json", "pmd_0000.range_m.npy"});
+  CHECK(wall.space.files("other") ==
+        std::vector<std::string>{"0000.record.json", "manifest.json", "pmd_0000.range_m.npy", "run.json"});
   CHECK(other.output.find("deformation (bistatic") != std::string::npos);
 }
 
@@ -113,7 +111,8 @@ TEST_CASE("whole frames become NumPy's archives and HDF5 files, the same at ever
   const WallSetup wall;
   for (const std::string out : {"one", "other"})
     require_success(wall.run("render", out, {"--format", "npz,h5"}));
-  CHECK(wall.space.files("one") == std::vector<std::string>{"manifest.json", "pmd_0000.h5", "pmd_0000.npz"});
+  CHECK(wall.space.files("one") == std::vector<std::string>{"0000.record.json", "manifest.json",
+                                                            "pmd_0000.h5", "pmd_0000.npz", "run.json"});
   for (const std::string name : {"pmd_0000.npz", "pmd_0000.h5"})
     CHECK(bytes_in(wall.space / ("one/" + name)) == bytes_in(wall.space / ("other/" + name)));
   CHECK(bytes_in(wall.space / "one/pmd_0000.npz").starts_with("PK"));

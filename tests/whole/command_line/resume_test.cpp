@@ -89,8 +89,8 @@ TEST_CASE("a run that is killed fifty times ends as if nothing had been", "[long
 TEST_CASE("two processes share the work in one folder") { check_together(2, 30); }
 
 TEST_CASE("three processes share the work in one folder, again and again", "[long]") {
-  for (int i = 0; i < 10; ++i)
-    check_together(3, 60);
+  for (int i = 0; i < 5; ++i)
+    check_together(3, 40);
 }
 
 TEST_CASE("what a killed process has left is made by one that lives beside it") {

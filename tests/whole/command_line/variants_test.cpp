@@ -1,11 +1,10 @@
 // Setups that the command line changes: one by one, several in one process, and poses from files.
 
 #include "tests/program/program.h"
-#include "tests/program/refusal.h"
+#include "tests/whole/command_line/run_fixture.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -13,13 +12,6 @@ using namespace pmdsim::test;
 using nlohmann::json;
 
 namespace {
-
-std::string text_of(const std::string &file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 struct Small {
   Workspace work;
@@ -35,7 +27,7 @@ struct Small {
     return run_pmdsim(more);
   }
   std::string distance(const std::string &folder, const std::string &frame = "0000") const {
-    return text_of(work / (folder + "/pmd_" + frame + ".distance_m.npy"));
+    return bytes_in(work / (folder + "/pmd_" + frame + ".distance_m.npy"));
   }
 };
 
@@ -49,7 +41,7 @@ TEST_CASE("A setup that is changed gives the frames of one that is written so") 
               .exit_code == 0);
   CHECK(small.distance("set") == small.distance("written"));
   CHECK(!small.distance("set").empty());
-  const json used = json::parse(text_of(small.work / "set/manifest.json"))["setup"];
+  const json used = json::parse(bytes_in(small.work / "set/manifest.json"))["setup"];
   CHECK(used["sensors"][0]["modulation_hz"] == json::array({30e6}));
 }
 
@@ -85,8 +77,8 @@ TEST_CASE("Variants: a folder for each, the same bytes as alone, and a table") {
                        small.work / "alone"})
               .exit_code == 0);
   CHECK(small.distance("all/0001") == small.distance("alone"));
-  CHECK(text_of(small.work / "all/0001/manifest.json") == text_of(small.work / "alone/manifest.json"));
-  std::istringstream table(text_of(small.work / "all/table.csv"));
+  CHECK(bytes_in(small.work / "all/0001/manifest.json") == bytes_in(small.work / "alone/manifest.json"));
+  std::istringstream table(bytes_in(small.work / "all/table.csv"));
   std::string header, first, second, rest;
   std::getline(table, header);
   std::getline(table, first);
@@ -147,7 +139,7 @@ TEST_CASE("Frames along the poses of a file") {
   const Run run = small.render({small.setup, "--poses", poses, "-o", small.work / "moved"});
   INFO(run.errors);
   REQUIRE(run.exit_code == 0);
-  const json manifest = json::parse(text_of(small.work / "moved/manifest.json"));
+  const json manifest = json::parse(bytes_in(small.work / "moved/manifest.json"));
   REQUIRE(manifest["frames"].size() == 3);
   CHECK(manifest["frames"][1]["time_s"] == 0.5);
   CHECK(manifest["setup"]["sensors"][0]["pose"]["trajectory"] == "poses.tum"); // from the setup's folder
