@@ -55,7 +55,7 @@ def main():
     chosen = arguments()
     setup, out = str(chosen.setup.resolve()), chosen.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
-    # A share that lived on a worker that died is no suspect before that happened many times.
+    # A share on whose worker died is no suspect before that happened many times; a scheduler that is there has its own say.
     with dask.config.set({"distributed.scheduler.allowed-failures": 20}), Client(cluster_of(chosen)) as client:
         folders = [str(out / f"shard_{shard:04d}") for shard in range(chosen.shards)]
         shares = [
