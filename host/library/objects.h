@@ -34,7 +34,7 @@ struct FrameObject {
 
   std::optional<TakenFrame> taken; // one or the other
   std::optional<ReadFrame> read;
-  std::weak_ptr<Camera> camera;    // whose memory it is in
+  std::weak_ptr<Camera> camera; // whose memory it is in
   ChannelSet channels;
   std::vector<std::string> names; // beside the channels
   std::string report = "{}";

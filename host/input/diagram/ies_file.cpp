@@ -134,8 +134,7 @@ std::pair<std::size_t, std::size_t> read_head(IesText &text) {
   return {vertical, horizontal};
 }
 
-std::vector<double> read_angles(IesText &text, std::size_t count, NumberRange range_deg,
-                                const char *what) {
+std::vector<double> read_angles(IesText &text, std::size_t count, NumberRange range_deg, const char *what) {
   std::vector<double> angles_deg;
   while (angles_deg.size() < count) {
     const double angle_deg = text.number(what, range_deg);
