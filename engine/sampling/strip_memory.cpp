@@ -104,7 +104,7 @@ std::uint32_t samples_of_a_strip(std::uint32_t usual, std::uint32_t sum_planes, 
 }
 
 std::uint32_t samples_of_words(std::uint32_t visibility_words) {
-  return buffer_bytes / sizeof(std::uint32_t) / std::max(visibility_words, 1u);
+  return static_cast<std::uint32_t>(buffer_bytes / sizeof(std::uint32_t) / std::max(visibility_words, 1u));
 }
 
 shader::Strip sample_strip(const shader::Strip &strip, bool depth_records) {

@@ -80,7 +80,8 @@ std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const std::string number = variants ? fmt::format("{:04}", i) : "";
       const std::string stem = setups.size() > 1 ? setup.file.stem().string() : "";
-      Variant variant{stem + (stem.empty() || number.empty() ? "" : "/") + number, setup, changes[i]};
+      const std::string name = variants ? (std::filesystem::path(stem) / number).string() : stem;
+      Variant variant{name, setup, changes[i]};
       try {
         change(variant.document, changes[i]);
       } catch (const Error &error) {

@@ -220,7 +220,7 @@ Setup SetupLoader::load(const SetupDocument &document) {
   return setup;
 }
 
-Setup SetupLoader::load(const SetupDocument &document, std::shared_ptr<const Scene> given) {
+Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<const Scene> &given) {
   const Place root{document.file};
   check_frames(document, root);
   SetupDocument with_scene = document;

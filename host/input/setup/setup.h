@@ -107,7 +107,7 @@ public:
   // Throws Error (input).
   Setup load(const SetupDocument &document);
   // With this scene, which has no nodes and does not move, in place of a file; the document names none.
-  Setup load(const SetupDocument &document, std::shared_ptr<const Scene> scene);
+  Setup load(const SetupDocument &document, const std::shared_ptr<const Scene> &given);
 
 private:
   struct Files;
