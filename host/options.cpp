@@ -46,8 +46,9 @@ void add_samples(CLI::App &command, Written &written) {
 
 void add_measuring(CLI::App &command, Written &written) {
   add_samples(command, written);
-  command.add_option("--device", written.options.capture.device,
-                     "part of a device's name, its index (see `pmdsim devices`), or `reference`");
+  command.add_option(
+      "--device", written.options.capture.device,
+      "part of a device's name, its index (see `pmdsim devices`), `cpu`, `gpu`, or `reference`");
   add_accuracy(command, written.accuracy);
   command.add_flag("--no-wide-vectors")
       ->description(

@@ -35,7 +35,8 @@ struct PathForms {
 };
 
 struct SimulatorOptions {
-  std::string device; // an index or a part of a name; empty: a discrete GPU, else whatever there is
+  std::string
+      device; // an index, a part of a name, "cpu" or "gpu"; empty: a discrete GPU, else whatever there is
   std::uint32_t max_strip_samples = 0; // of a strip, which has at least one row; 0: chosen by the simulator
   bool keep_sample_ids = false;        // fill Measurement::sample_triangle_id and sample_pixel_id
   bool keep_visibility = false;        // fill Measurement::sample_visibility

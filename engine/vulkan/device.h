@@ -48,8 +48,9 @@ private:
   std::map<PipelineKey, std::shared_ptr<const Pipeline>> pipelines_;
 };
 
-// The usable device that `wanted` names: its index or a part of its name, upper or lower case alike; empty: a
-// discrete GPU, else an integrated or virtual one, else whatever there is. Throws Error (no_device).
+// The usable device that `wanted` names: its index, a part of its name, or "cpu" or "gpu", upper or lower
+// case alike; empty: a discrete GPU, else an integrated or virtual one, else whatever there is. Throws Error
+// (no_device).
 DeviceInfo choose_device(const Instance &instance, const std::string &wanted);
 
 // The empty string where the device can run the simulator, else what it lacks.

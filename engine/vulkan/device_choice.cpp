@@ -35,6 +35,13 @@ std::optional<std::uint32_t> as_index(const std::string &text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(index) : std::nullopt;
 }
 
+// By a part of its name, or by what it is: "cpu" or "gpu".
+bool is_meant(const DeviceInfo &device, const std::string &wanted) {
+  const std::string text = lower_case(wanted);
+  const bool is_kind = (text == "cpu" || text == "gpu") && lower_case(device.kind).ends_with(text);
+  return is_kind || lower_case(device.name).find(text) != std::string::npos;
+}
+
 [[noreturn]] void fail(const std::string &why) {
   throw Error(ExitCode::no_device, "no Vulkan device: " + why);
 }
@@ -79,12 +86,11 @@ DeviceInfo choose_device(const Instance &instance, const std::string &wanted) {
   }
   const DeviceInfo *best = nullptr;
   for (const DeviceInfo &device : devices)
-    if (lower_case(device.name).find(lower_case(wanted)) != std::string::npos &&
-        (best == nullptr ||
-         std::pair(!device.usable, preference(device)) < std::pair(!best->usable, preference(*best))))
+    if (is_meant(device, wanted) && (best == nullptr || std::pair(!device.usable, preference(device)) <
+                                                            std::pair(!best->usable, preference(*best))))
       best = &device;
   if (best == nullptr)
-    fail("none has '" + wanted + "' in its name; see `pmdsim devices`");
+    fail("none has '" + wanted + "' in its name, or is one; see `pmdsim devices`");
   return require_usable(*best);
 }
 

@@ -78,17 +78,18 @@ PMDSIM_API const char *pmdsim_error_message(void);
 PMDSIM_API const char *pmdsim_error_file(void);
 PMDSIM_API const char *pmdsim_error_place(void);
 
-/* What there is, as JSON that lives until this thread's next call: the usable devices ([{"name", "driver",
- * "kind"}, ...], in the order of their indices), the JSON Schema of setups, and the channels of frames
+/* What there is, as JSON that lives until this thread's next call: the devices ([{"index", "name", "kind",
+ * "driver", "usable", "lacks" (what a device lacks that is not usable)}, ...]), the JSON Schema of setups,
+ * and the channels of frames
  * ([{"name", "unit", "about"}, ...]). PMDSIM_NO_DEVICE where there is no Vulkan at all. */
 PMDSIM_API pmdsim_status pmdsim_devices(const char **json);
 PMDSIM_API pmdsim_status pmdsim_schema(const char **json);
 PMDSIM_API pmdsim_status pmdsim_channels(const char **json);
 
-/* A simulator without a setup on a device: an index, a part of a name, or "reference", the CPU in double
- * precision; NULL or "" chooses. PMDSIM_NO_DEVICE. */
+/* A simulator without a setup on a device: an index, a part of a name, "cpu", "gpu", or "reference", the CPU
+ * in double precision; NULL or "" chooses. PMDSIM_NO_DEVICE. */
 PMDSIM_API pmdsim_status pmdsim_simulator_create(const char *device, pmdsim_simulator **simulator);
-/* Frames that it made stay. */
+/* Frames that it made stay. One that is in a call is gone when that call ends. */
 PMDSIM_API pmdsim_status pmdsim_simulator_destroy(pmdsim_simulator *simulator);
 
 /* Takes a setup (docs/setup.md) in place of the one before: a file, or `length` bytes of text whose relative

@@ -14,7 +14,7 @@ from ._calls import Caller
 from ._errors import ArgumentError, HandleError, PmdsimWarning
 from ._frame import Frame
 from ._frame_sources import FrameHandle, LibrarySource
-from ._library import check, devices, library
+from ._library import check, library
 from ._options import Channels, Length, render_options
 from ._scene import Scene
 from ._setup import Setup
@@ -26,7 +26,6 @@ SetupLike = Union[Path, Mapping[str, Any]]
 Device = Union[str, int]
 
 _most = 2**32 - 1
-_kinds = {"cpu": "CPU", "gpu": "GPU"}
 
 # The process whose threads and devices the library has, once it has some.
 _process: Optional[int] = None
@@ -48,11 +47,6 @@ def _device_name(device: Optional[Device]) -> Optional[bytes]:
     if device is None:
         return None
     if isinstance(device, str):
-        kind = _kinds.get(device.lower())
-        if kind:
-            for found in devices():
-                if kind in found["kind"] and found.get("usable", True):
-                    return found["name"].encode()
         return device.encode()
     return str(whole_number(device, "device", 0, _most)).encode()
 
