@@ -311,6 +311,9 @@ void check_comparing(const Written &written) {
   if (swept && on_reference)
     throw Error(ExitCode::usage, "--device reference: bench without a setup compares a device with it; "
                                  "expected a device, or a setup");
+  if (swept && (!written.setups.changes.empty() || written.setups.poses))
+    throw Error(ExitCode::usage,
+                "--set, --poses: bench without a setup has none to change; expected a setup beside them");
   if (swept && written.samples)
     throw Error(ExitCode::usage,
                 "--samples: bench without a setup sweeps them itself; expected a setup beside it");

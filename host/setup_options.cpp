@@ -36,7 +36,8 @@ json changes_of(const std::vector<std::string> &written) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw Error(ExitCode::usage, "--set: expected PATH=VALUE, found " + in_quotes(text));
-    const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+    const std::size_t begin = text.front() == '/' ? 1 : 0; // a path is the same with and without
+    const std::string path = text.substr(begin, equals - begin), value = text.substr(equals + 1);
     if (changes.contains(path))
       throw Error(ExitCode::usage,
                   "--set: expected one value for each path, found two for " + in_quotes(path));

@@ -17,8 +17,6 @@ FrameRange frames_to_write(const CaptureRequest &request, const Setup &setup) {
     throw Error(ExitCode::usage,
                 fmt::format("--frames {}:{}: expected B at most {}, the frames of {}", frames.first,
                             frames.end, setup.frames.count, setup.file.string()));
-  require_names_for_files(setup.start.sensors);
-  request.channels.require_in(setup, request.accuracy);
   return request.shard.of(frames);
 }
 
@@ -58,11 +56,17 @@ Setup requested_setup(const CaptureRequest &request) {
   return requested_setup(request, requested_document(request, request.setup), loader);
 }
 
-Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
-  Setup setup = loader.load(document);
+void require_measurable(const CaptureRequest &request, const Setup &setup) {
   if (request.paths > 0 && !setup.bounces.any())
     throw Error(ExitCode::usage, fmt::format("--paths: no light bounces in {}, expected \"bounces\" above 0",
                                              setup.file.string()));
+  frames_to_write(request, setup);
+  require_names_for_files(setup.start.sensors);
+  request.channels.require_in(setup, request.accuracy);
+}
+
+Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
+  Setup setup = loader.load(document);
   for (const std::string &warning : setup.warnings)
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);
   if (request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
@@ -101,10 +105,19 @@ void leave_out_electronics(Setup &setup) {
                "are compared\n");
 }
 
+namespace {
+
+Setup measurable(const CaptureRequest &request, Setup setup) {
+  require_measurable(request, setup);
+  return setup;
+}
+
+} // namespace
+
 Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
                  const WantedChannels &measured, const std::shared_ptr<Camera> &camera)
-    : setup_(std::move(setup)), frames_(frames_to_write(request, setup_)), formats_(request.formats),
-      channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
+    : setup_(measurable(request, std::move(setup))), frames_(frames_to_write(request, setup_)),
+      formats_(request.formats), channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
       exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_,
                 {frames_, request.output_directory,

@@ -40,6 +40,9 @@ Setup requested_setup(const CaptureRequest &request);
 SetupDocument requested_document(const CaptureRequest &request, const std::filesystem::path &file);
 // The same of a document, by a loader that others of the same scenes may use.
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader);
+// Throws Error where frames of the setup cannot be measured and written as is asked for: (usage) frames,
+// paths or channels that it has not; (input) a sensor's name that can be none of a file.
+void require_measurable(const CaptureRequest &request, const Setup &setup);
 // The same for commands that compare ways to sum over the diodes: without bounces, and a warning says so.
 Setup requested_setup_without_bounces(const CaptureRequest &request);
 // Leaves out what the camera does behind the lens (electronics, scatter, unwrapping), for commands that

@@ -81,11 +81,11 @@ std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &
 }
 
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps,
-                               const AddToExposure &add) {
+                               const AddToExposure &add, const std::function<void()> &between) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
   BouncesOfTaps bounces(sensor);
-  ElectronsRequest electrons{.keep_taps = keep_taps, .between = throw_if_interrupted};
+  ElectronsRequest electrons{.keep_taps = keep_taps, .between = between};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
     std::vector<std::vector<float>> taps, with_added;
     for (std::size_t k = 0; k < sensor.taps; ++k) {
@@ -186,7 +186,7 @@ Measurement Exposures::take_at_once(const View &view, const Sensor &sensor, cons
   prepare(view, view.frequency ? Accuracy{.mode = Mode::exact, .precision = accuracy_.precision} : accuracy_);
   if (next_s)
     instants_.expect(*next_s);
-  const auto add = [&](Measurement &measured) { others_.add_to(sensor, view.time_s, measured); };
+  const auto add = [&](Measurement &measured) { others_.add_to(sensor, view.time_s, progress, measured); };
   const bool is_reached = part >= FramePart::light && others_.reach(sensor);
   const auto added = is_reached ? Camera::AddLight(add) : nullptr;
   if (part == FramePart::electrons)
@@ -198,6 +198,16 @@ Measurement Exposures::take_at_once(const View &view, const Sensor &sensor, cons
 
 TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                            std::optional<double> next_s) {
+  try {
+    return take_whole(sensor, number, light, progress, next_s);
+  } catch (...) {
+    prepared_.reset(); // the simulator may have given up its frame
+    throw;
+  }
+}
+
+TakenFrame Exposures::take_whole(std::size_t sensor, std::uint32_t number, Light light,
+                                 const Progress &progress, const std::optional<double> &next_s) {
   const double time_s = setup_.frames.time_s(number);
   TakenFrame frame{instant_at(time_s).sensors[sensor], {}, accuracy_.mode};
   if (!wanted_.are_all()) { // what was left of the frames before
@@ -264,11 +274,12 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
   };
   const auto add = [&](std::size_t frequency, std::size_t tap, double exposure_s, Measurement &exposure,
                        std::vector<float> &correlation) {
-    others_.add_to(frame.sensor, frequency, tap, exposure_s, exposure, correlation);
+    others_.add_to(frame.sensor, frequency, tap, exposure_s, progress, exposure, correlation);
   };
   const Sensor sensor_of_taps = reduced_to(wanted_, FramePart::electrons, leaves_noiseless_, frame.sensor);
-  frame.measurement = measure_tap_by_tap(sensor_of_taps, time_s, expose, keep_taps_,
-                                         others_.reach(frame.sensor) ? AddToExposure(add) : nullptr);
+  frame.measurement =
+      measure_tap_by_tap(sensor_of_taps, time_s, expose, keep_taps_,
+                         others_.reach(frame.sensor) ? AddToExposure(add) : nullptr, [&] { progress(1.0); });
   return frame;
 }
 

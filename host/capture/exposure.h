@@ -79,9 +79,10 @@ using AddToExposure = std::function<void(std::size_t frequency, std::size_t tap,
 // The frame that begins at `frame_s`: tap k of frequency i is that of the exposure at tap_time_s(), and
 // phase, amplitude and distance follow from the taps. Ground truth is the first exposure's; times add up. Of
 // light that bounces see multipath_of_taps.h. Electronics count the electrons of each exposure's own light;
-// `keep_taps` as ElectronsRequest.
+// `keep_taps` and `between` as ElectronsRequest.
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose,
-                               bool keep_taps = true, const AddToExposure &add = {});
+                               bool keep_taps = true, const AddToExposure &add = {},
+                               const std::function<void()> &between = {});
 
 // One sensor's frame.
 struct TakenFrame {
@@ -132,6 +133,8 @@ private:
   const Instant &instant_at(double time_s);
   Measurement take_at_once(const View &view, const Sensor &sensor, const ExposureNumber &number,
                            const Progress &progress, const std::optional<double> &next_s);
+  TakenFrame take_whole(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
+                        const std::optional<double> &next_s);
   TakenFrame take_tap_by_tap(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                              const std::optional<double> &next_s);
   void prepare(View view, const Accuracy &accuracy);

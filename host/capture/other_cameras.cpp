@@ -42,27 +42,28 @@ void OtherCameras::prepare(const Instant &instant, const Sensor &sensor) {
   }
 }
 
-void OtherCameras::add_to(const Sensor &sensor, double frame_s, Measurement &frame) {
+void OtherCameras::add_to(const Sensor &sensor, double frame_s, const Progress &progress,
+                          Measurement &frame) {
   Stopwatch stopwatch;
   for (Other &other : cameras_)
-    add_other_light(sensor, frame_s, seen_by(other), frame);
+    add_other_light(sensor, frame_s, seen_by(other, progress), frame);
   stopwatch.add_to(frame, "other_cameras");
 }
 
 void OtherCameras::add_to(const Sensor &sensor, std::size_t frequency, std::size_t tap, double begin_s,
-                          Measurement &exposure, std::vector<float> &correlation) {
+                          const Progress &progress, Measurement &exposure, std::vector<float> &correlation) {
   Stopwatch stopwatch;
   for (Other &other : cameras_) {
-    add_beat(sensor, frequency, tap, begin_s, seen_by(other), correlation);
-    add_mean(seen_by(other), exposure.mean_radiance);
+    add_beat(sensor, frequency, tap, begin_s, seen_by(other, progress), correlation);
+    add_mean(seen_by(other, progress), exposure.mean_radiance);
   }
   stopwatch.add_to(exposure, "other_cameras");
 }
 
-const OtherLight &OtherCameras::seen_by(Other &other) {
+const OtherLight &OtherCameras::seen_by(Other &other, const Progress &progress) {
   if (!other.seen)
-    other.seen = other_light_of(other.modulation_hz,
-                                other.camera.measure_light([](double) { throw_if_interrupted(); }));
+    other.seen =
+        other_light_of(other.modulation_hz, other.camera.measure_light([&](double) { progress(1.0); }));
   return *other.seen;
 }
 

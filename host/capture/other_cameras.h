@@ -24,12 +24,12 @@ public:
 
   // What is added from here on is what the sensor sees of them at this instant, which must outlive it.
   void prepare(const Instant &instant, const Sensor &sensor);
-  // As add_other_light(), of all of them. Adds the pass "other_cameras" to the frame's times. Throws Error,
-  // interrupted among others.
-  void add_to(const Sensor &sensor, double frame_s, Measurement &frame);
+  // As add_other_light(), of all of them. `progress` may throw meanwhile. Adds the pass "other_cameras" to
+  // the frame's times. Throws Error, interrupted among others.
+  void add_to(const Sensor &sensor, double frame_s, const Progress &progress, Measurement &frame);
   // The same of the exposure of one tap, whose correlation samples are apart.
   void add_to(const Sensor &sensor, std::size_t frequency, std::size_t tap, double begin_s,
-              Measurement &exposure, std::vector<float> &correlation);
+              const Progress &progress, Measurement &exposure, std::vector<float> &correlation);
 
 private:
   // One for each frequency: a camera whose sensor sees nothing but its light, and what it has seen since it
@@ -40,7 +40,7 @@ private:
     std::optional<OtherLight> seen{};
   };
 
-  static const OtherLight &seen_by(Other &other);
+  static const OtherLight &seen_by(Other &other, const Progress &progress);
 
   const Setup &setup_;
   std::list<Other> cameras_;

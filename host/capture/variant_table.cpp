@@ -15,7 +15,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char *table_name = "table.csv";
 constexpr std::size_t most_lines = 40; // for people
 
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : nullptr; }
@@ -28,10 +27,11 @@ void put_spread(const std::string &quantity, const std::string &unit, const std:
   summary[quantity + "_max" + unit] = number(spread.max);
 }
 
+// NaN counts as nothing.
 ordered_json mean_of(const std::vector<float> &values) {
   double sum = 0.0;
   for (const float value : values)
-    sum += static_cast<double>(value);
+    sum += std::isnan(value) ? 0.0 : static_cast<double>(value);
   return values.empty() ? nullptr : number(sum / static_cast<double>(values.size()));
 }
 
@@ -66,16 +66,17 @@ void VariantTable::add(const Variant &variant, const ordered_json &of_sensor) {
     row[path] = value.is_structured() ? ordered_json(value.dump()) : ordered_json(value);
   for (const char *key : {"sensor", "frame", "time_s"})
     row[key] = of.at(key);
-  row.update(of_sensor.at("told"));
+  if (of_sensor.contains("told"))
+    row.update(of_sensor.at("told"));
   row["error_claimed_m"] = of.at("error_claimed_m");
   rows_.push_back(std::move(row));
 }
 
-std::string VariantTable::write(const std::filesystem::path &directory) const {
+std::string VariantTable::write(const std::filesystem::path &directory, const std::string &name) const {
   OutputSet files(directory);
-  files.add(table_name, [&](OutputFile &file) { file.write(csv_text(rows_)); });
+  files.add(name, [&](OutputFile &file) { file.write(csv_text(rows_)); });
   files.publish();
-  return (directory / table_name).string();
+  return (directory / name).string();
 }
 
 std::string VariantTable::text() const {
@@ -87,7 +88,7 @@ std::string VariantTable::text() const {
     text += fmt::format("{:<24}{:<12}{:>6}", row.at("variant").get<std::string>(),
                         row.at("sensor").get<std::string>(), row.at("frame").get<std::uint32_t>());
     for (const char *key : {"distance_min_m", "distance_median_m", "distance_max_m", "amplitude_median"})
-      text += fmt::format("{:>14}", shown(row.at(first + key)));
+      text += fmt::format("{:>14}", shown(row.value(first + key, ordered_json())));
     text += '\n';
   }
   if (rows_.size() > most_lines)

@@ -20,11 +20,13 @@ public:
   // Of variants that change these paths, each in a column of its own.
   explicit VariantTable(const std::vector<Variant> &variants);
 
-  // A frame of one sensor, as its record has it, whose "told" is frame_summary().
+  // A frame of one sensor, as its record has it, whose "told" is frame_summary(); without it where the frame
+  // was there before, by a command that makes no table.
   void add(const Variant &variant, const nlohmann::ordered_json &of_sensor);
 
-  // table.csv in the directory; its path. Throws Error (output).
-  std::string write(const std::filesystem::path &directory) const;
+  bool empty() const { return rows_.empty(); }
+  // Into the directory; its path. Throws Error (output).
+  std::string write(const std::filesystem::path &directory, const std::string &name) const;
   // For people: variant, sensor, frame, distances and amplitude of the first frequency.
   std::string text() const;
 

@@ -34,6 +34,15 @@ void refuse_doubled_names(const std::vector<SetupDocument> &setups) {
                               setup.file.string()));
 }
 
+// Its errors have the number of the line.
+json json_of_line(std::string_view line, std::size_t lines_before, const std::filesystem::path &file) {
+  try {
+    return parse_json(line, file, Comments::refused);
+  } catch (const Error &) {
+    return parse_json(std::string(lines_before, '\n') + std::string(line), file, Comments::refused);
+  }
+}
+
 } // namespace
 
 json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
@@ -52,17 +61,17 @@ json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
 std::vector<json> read_variants(const std::filesystem::path &file) {
   const std::string text = read_text_file(file, Place{file});
   std::vector<json> variants;
-  std::string lines; // of the text before, for errors' line numbers
-  for (std::string_view rest = text; !rest.empty(); lines += '\n') {
+  std::size_t before = 0; // lines
+  for (std::string_view rest = text; !rest.empty(); ++before) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.find_first_not_of(" \t\r") == std::string_view::npos)
       continue;
-    const TextPlace place{file, lines.size() + 1};
+    const TextPlace place{file, before + 1};
     if (variants.size() == most_variants)
       throw input_error(place, fmt::format("expected at most {} variants", most_variants));
-    variants.push_back(parse_json(lines + std::string(line), file, Comments::refused));
+    variants.push_back(json_of_line(line, before, file));
     if (!variants.back().is_object())
       throw input_error(place, "expected an object of paths and values");
   }
@@ -85,7 +94,8 @@ std::vector<Variant> variants_of(const std::vector<SetupDocument> &setups,
       try {
         change(variant.document, changes[i]);
       } catch (const Error &error) {
-        throw Error(error.code(), variants ? fmt::format("{}, in variant {}", error.what(), i) : error.what(),
+        throw Error(error.code(),
+                    variants ? fmt::format("{}, in variant {}", error.what(), name) : error.what(),
                     error.where());
       }
       all.push_back(std::move(variant));

@@ -121,7 +121,9 @@ std::vector<Variant> checked_variants(const Options &options, SetupLoader &loade
   std::vector<Variant> own;
   for (std::size_t i = 0; i < all.size(); ++i) {
     try {
-      loader.load(all[i].document);
+      CaptureRequest request = options.capture;
+      request.shard = {};
+      require_measurable(request, loader.load(all[i].document));
     } catch (const Error &error) {
       throw Error(error.code(), fmt::format("{}, in variant {}", error.what(), all[i].name), error.where());
     }
@@ -129,6 +131,11 @@ std::vector<Variant> checked_variants(const Options &options, SetupLoader &loade
       own.push_back(all[i]);
   }
   return own;
+}
+
+// Shards that write to one directory have a table each.
+std::string table_name(const Shard &shard) {
+  return shard.count == 1 ? "table.csv" : fmt::format("table.{}-of-{}.csv", shard.index, shard.count);
 }
 
 void run_variants(const Options &options) {
@@ -151,12 +158,12 @@ void run_variants(const Options &options) {
     if (options.json)
       json["variants"].push_back(variant_json(variant, capture));
   }
-  json["table"] = table.write(directory);
+  const std::string written = table.empty() ? "" : table.write(directory, table_name(options.capture.shard));
+  json["table"] = written;
   print(options.json
             ? json_text(json)
             : fmt::format("device    {} ({})\n\n{}\nwritten:\n  {}, a folder for each variant beside it\n",
-                          camera->device(), camera->driver(), table.text(),
-                          json["table"].get<std::string>()));
+                          camera->device(), camera->driver(), table.text(), written));
 }
 
 } // namespace

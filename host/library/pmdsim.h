@@ -81,7 +81,7 @@ PMDSIM_API const char *pmdsim_error_place(void);
 /* What there is, as JSON that lives until this thread's next call: the devices ([{"index", "name", "kind",
  * "driver", "usable", "lacks" (what a device lacks that is not usable)}, ...]), the JSON Schema of setups,
  * and the channels of frames
- * ([{"name", "unit", "about"}, ...]). PMDSIM_NO_DEVICE where there is no Vulkan at all. */
+ * ([{"name", "unit", "about"}, ...]). No device is no error. */
 PMDSIM_API pmdsim_status pmdsim_devices(const char **json);
 PMDSIM_API pmdsim_status pmdsim_schema(const char **json);
 PMDSIM_API pmdsim_status pmdsim_channels(const char **json);
@@ -127,8 +127,8 @@ PMDSIM_API pmdsim_status pmdsim_simulator_set(pmdsim_simulator *simulator, const
  * "setup" is null. */
 PMDSIM_API pmdsim_status pmdsim_simulator_describe(pmdsim_simulator *simulator, const char **json);
 
-/* Ends the call that the simulator is in, soon, with PMDSIM_CANCELLED; from any thread, also from a signal
- * handler's. Nothing happens where it is in none. */
+/* Ends the call that the simulator is in, soon, with PMDSIM_CANCELLED; from any thread, but from no signal
+ * handler. Nothing happens where it is in none. */
 PMDSIM_API pmdsim_status pmdsim_simulator_cancel(pmdsim_simulator *simulator);
 
 /* How to measure. All 0: mode exact, all channels. */

@@ -101,10 +101,12 @@ AffineTransform put_at(const NodePlacement &placement, const AffineTransform &wo
       if (!(std::abs(glm::dot(linear[i], linear[j])) <= rounding * lengths[i] * lengths[j]))
         throw input_error(placement.place,
                           "the node is sheared, expected one that is turned, scaled and moved alone");
-  const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+  if (glm::determinant(linear) < 0.0)
+    throw input_error(placement.place,
+                      "the node is mirrored, expected one that is turned, scaled and moved alone");
   AffineTransform result{placement.world_from_node.rotation, placement.world_from_node.translation_m};
   for (glm::length_t axis = 0; axis < 3; ++axis)
-    result.linear[axis] *= side * lengths[axis];
+    result.linear[axis] *= lengths[axis];
   return result;
 }
 

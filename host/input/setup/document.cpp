@@ -21,6 +21,8 @@ constexpr std::size_t max_setup_bytes = std::size_t{1} << 22;
 
 // The parts of a JSON pointer (RFC 6901). Nothing where it is none.
 std::optional<std::vector<std::string>> parts_of(const std::string &path) {
+  if (static_cast<std::size_t>(std::ranges::count(path, '/')) > max_json_depth)
+    return std::nullopt;
   try {
     const json::json_pointer whole(path.starts_with('/') ? path : "/" + path);
     std::vector<std::string> parts;

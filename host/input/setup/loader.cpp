@@ -35,8 +35,11 @@ ordered_json with_all_defaults(json document, const ordered_json &schema) {
   for (ordered_json &illuminator : setup.at("illuminators"))
     if (illuminator.at("diodes").contains("file"))
       illuminator.erase("pattern");
-  if (setup.at("frames").contains("trajectory"))
-    setup.at("frames") = {{"trajectory", setup.at("frames").at("trajectory")}};
+  if (setup.at("frames").contains("trajectory")) {
+    setup.at("frames").erase("start_s");
+    if (!document.at("frames").contains("count"))
+      setup.at("frames").erase("count"); // it is the poses'
+  }
   return setup;
 }
 
@@ -53,9 +56,10 @@ ordered_json checked_setup(const SetupDocument &source) {
 // The keys that say when frames are taken are all in vain beside a trajectory.
 void check_frames(const SetupDocument &source, const Place &root) {
   const json frames = source.json.is_object() ? source.json.value("frames", json::object()) : json::object();
-  if (frames.contains("trajectory") && frames.size() > 1)
+  if (frames.contains("trajectory") && (frames.contains("start_s") || frames.contains("rate_hz")))
     throw input_error(root / "frames",
-                      "expected nothing beside a trajectory, whose poses say when frames are taken");
+                      "expected no start_s and no rate_hz beside a trajectory, whose poses say when "
+                      "frames are taken");
 }
 
 FrameTimes frame_times_of(const ordered_json &frames, const Place &place, const Trajectories &trajectories) {
@@ -64,6 +68,9 @@ FrameTimes frame_times_of(const ordered_json &frames, const Place &place, const 
     times.times_s = trajectories.at(frames.at("trajectory").get<std::string>())->times_s;
     times.start_s = times.times_s.front();
     times.count = static_cast<std::uint32_t>(times.times_s.size());
+    if (frames.contains("count") && frames.at("count") != times.count)
+      throw input_error(place / "count",
+                        fmt::format("expected {}, one for each pose of the trajectory", times.count));
     return times;
   }
   times.start_s = frames.at("start_s");
@@ -198,21 +205,20 @@ Setup SetupLoader::load(const SetupDocument &document) {
   const FilesRead beside_scene(folder);
   const Trajectories trajectories = read_trajectories(setup.as_used, root);
   setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+  setup.as_used.at("frames")["count"] = setup.frames.count;
 
   const std::filesystem::path file = folder / setup.as_used.at("scene").get<std::string>();
   auto known = files_->scenes.find(file);
   std::optional<FilesRead> of_scene;
-  if (known == files_->scenes.end()) {
+  if (known == files_->scenes.end())
     of_scene.emplace(folder);
-    known = files_->scenes.emplace(file, KnownScene{load_gltf(file, root / "scene"), {}}).first;
-  }
-  const GltfFile &gltf = known->second.gltf;
+  const GltfFile gltf = of_scene ? load_gltf(file, root / "scene") : known->second.gltf;
   const auto at = [gltf, trajectories, root, used = setup.as_used](double time_s) {
     return gltf.at(time_s, placed_nodes(used, root, trajectories, time_s));
   };
   GltfScene scene = at(setup.frames.start_s); // which reads textures
   if (of_scene)
-    known->second.inputs = of_scene->list();
+    known = files_->scenes.emplace(file, KnownScene{gltf, of_scene->list()}).first;
   of_scene.reset();
   fill({file, at, &gltf}, std::move(scene), root, trajectories, setup);
   setup.inputs = known->second.inputs;
@@ -234,6 +240,7 @@ Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<con
     throw input_error(root / "nodes", "expected none, as the scene that is given has no nodes");
   const Trajectories trajectories = read_trajectories(setup.as_used, root);
   setup.frames = frame_times_of(setup.as_used.at("frames"), root / "frames", trajectories);
+  setup.as_used.at("frames")["count"] = setup.frames.count;
   const auto at = [given](double) { return GltfScene{given_scene, *given, {}}; };
   fill({given_scene, at, nullptr}, at(setup.frames.start_s), root, trajectories, setup);
   return setup;

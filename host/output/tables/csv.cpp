@@ -32,21 +32,35 @@ ordered_json flat(const ordered_json &row) {
   return columns;
 }
 
+std::vector<ordered_json> flat_rows(const ordered_json &rows) {
+  std::vector<ordered_json> lines;
+  for (const ordered_json &row : rows)
+    lines.push_back(flat(row));
+  return lines;
+}
+
 } // namespace
 
 std::string csv_text(const ordered_json &rows) {
+  const std::vector<ordered_json> lines = flat_rows(rows);
+  ordered_json keys = ordered_json::object();
+  for (const ordered_json &line : lines)
+    for (const auto &[key, value] : line.items())
+      keys[key] = nullptr;
   std::string text;
-  for (const ordered_json &row : rows) {
-    std::vector<std::string> keys, fields;
-    const ordered_json columns = flat(row);
-    for (const auto &[key, value] : columns.items()) {
-      keys.push_back(key);
-      fields.push_back(field(value));
-    }
-    if (text.empty())
-      text = fmt::format("{}\n", fmt::join(keys, ","));
+  const auto add_line = [&](const auto &field_of) {
+    std::vector<std::string> fields;
+    for (const auto &[key, value] : keys.items())
+      fields.push_back(field_of(key));
     text += fmt::format("{}\n", fmt::join(fields, ","));
-  }
+  };
+  if (!lines.empty())
+    add_line([](const std::string &key) {
+      return key.find_first_of(",\"\n") == std::string::npos ? key : field(key);
+    });
+  for (const ordered_json &line : lines)
+    add_line(
+        [&](const std::string &key) { return line.contains(key) ? field(line.at(key)) : std::string(); });
   return text;
 }
 

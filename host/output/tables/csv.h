@@ -6,8 +6,9 @@
 
 namespace pmdsim {
 
-// Of an array of objects with the same keys: a header line of the keys, then a line a row; nothing without
-// rows. An object within a row is a column for each of its keys, KEY.ITS_KEY; null is an empty field.
+// Of an array of objects: a header line of all their keys, in the order in which they come, then a line a
+// row; nothing without rows. An object within a row is a column for each of its keys, KEY.ITS_KEY; null, and
+// a key that a row has not, is an empty field.
 std::string csv_text(const nlohmann::ordered_json &rows);
 
 } // namespace pmdsim

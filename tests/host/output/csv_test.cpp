@@ -15,4 +15,5 @@ TEST_CASE("a row's objects are columns, null is nothing, and quotes are doubled"
                           "\"a \"\"b\"\", c\",0.1,1,,true\n"
                           "\"d\",1e-09,2,3,false\n");
   CHECK(csv_text(ordered_json::array()).empty());
+  CHECK(csv_text({{{"a", 1}}, {{"a", 2}, {"b,c", 3}}, {{"b,c", 4}}}) == "a,\"b,c\"\n1,\n2,3\n,4\n");
 }

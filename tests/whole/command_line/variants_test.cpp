@@ -58,7 +58,12 @@ TEST_CASE("Text need not be quoted, and what is wrong is told as in a file") {
     CHECK(check(wrong).exit_code == 2);
     CHECK(check(wrong).errors.find("--set: expected PATH=VALUE") != std::string::npos);
   }
-  CHECK(run_pmdsim({"check", small.setup, "--set", "a=1", "--set", "a=2"}).exit_code == 2);
+  CHECK(run_pmdsim({"check", small.setup, "--set", "a=1", "--set", "/a=2"}).exit_code == 2);
+  CHECK(run_pmdsim({"bench", "--set", "a=1"}).exit_code == 2); // there is no setup
+  std::string deep = "a";
+  for (int i = 0; i < 10'000; ++i)
+    deep += "/a";
+  CHECK(check(deep + "=1").exit_code == 3);
 }
 
 TEST_CASE("Variants: a folder for each, the same bytes as alone, and a table") {
@@ -117,10 +122,17 @@ TEST_CASE("What is wrong with a variant is told before anything is measured") {
     return run.errors;
   };
   CHECK(refused("{}\n{\"sensors/0/taps\": 99}\n").find("found 99, in variant 0001") != std::string::npos);
-  CHECK(refused("{}\n{\"sensors/7/taps\": 4}\n").find(", in variant 1") != std::string::npos);
+  CHECK(refused("{}\n{\"sensors/7/taps\": 4}\n").find(", in variant 0001") != std::string::npos);
   CHECK(refused("{}\n{\"a\"\n").find("variants.jsonl:2:") != std::string::npos);
   CHECK(refused("{}\n[1]\n").find("variants.jsonl:2: expected an object") != std::string::npos);
   CHECK(refused("\n").find("expected at least one variant") != std::string::npos);
+  const std::string file =
+      small.work.write("variants.jsonl", "{\"frames\": {\"count\": 2, \"rate_hz\": 1}}\n{}\n");
+  const Run run =
+      small.render({small.setup, "--variants", file, "-o", small.work / "none", "--frames", "0:2"});
+  CHECK(run.exit_code == 2);
+  CHECK(run.errors.find(", in variant 0001") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(small.work / "none"));
 }
 
 TEST_CASE("A shard of variants") {
@@ -130,6 +142,11 @@ TEST_CASE("A shard of variants") {
               .exit_code == 0);
   CHECK(std::filesystem::exists(small.work / "shard/0001/manifest.json"));
   CHECK_FALSE(std::filesystem::exists(small.work / "shard/0000"));
+  CHECK(std::filesystem::exists(small.work / "shard/table.1-of-2.csv")); // the other one's is beside it
+  CHECK_FALSE(std::filesystem::exists(small.work / "shard/table.csv"));
+  REQUIRE(small.render({small.setup, "--variants", variants, "-o", small.work / "none", "--shard", "7/9"})
+              .exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(small.work / "none/table.7-of-9.csv"));
 }
 
 TEST_CASE("Frames along the poses of a file") {
@@ -150,6 +167,16 @@ TEST_CASE("Frames along the poses of a file") {
                        small.work / "by_hand"})
               .exit_code == 0);
   CHECK(small.distance("moved", "0001") == small.distance("by_hand"));
+  for (const char *shard : {"0/2", "1/2"})
+    REQUIRE(small
+                .render({small.setup, "--poses", poses, "-o", small.work / ("shard" + std::string(shard, 1)),
+                         "--shard", shard})
+                .exit_code == 0);
+  const Run merged =
+      run_pmdsim({"merge", small.work / "shard0", small.work / "shard1", "-o", small.work / "merged"});
+  INFO(merged.errors);
+  REQUIRE(merged.exit_code == 0);
+  CHECK(bytes_in(small.work / "merged/manifest.json") == bytes_in(small.work / "moved/manifest.json"));
   // The wall comes nearer, turned as it is.
   const std::string wall = small.work.write("wall.tum", "0 0 0 0 0 0 0 1\n1 0 0 0.5 0 0 0 1\n");
   REQUIRE(small.render({small.setup, "--poses", "wall=" + wall, "-o", small.work / "wall"}).exit_code == 0);

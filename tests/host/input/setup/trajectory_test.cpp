@@ -78,8 +78,12 @@ TEST_CASE("A sensor moves along a trajectory, and frames are taken at its poses"
   const Instant at = setup.at(setup.frames.time_s(1));
   CHECK(at.sensors[0].world_from_camera.translation_m == glm::dvec3(2, 0, -4));
   CHECK(at.illuminators[0].world_from_illuminator.translation_m == glm::dvec3(2, 0, -4)); // at the sensor
-  fixture.setup["frames"]["count"] = 2;
-  CHECK(fixture.error().find("/frames: expected nothing beside a trajectory") != std::string::npos);
+  CHECK(setup.as_used["frames"]["count"] == 2);
+  fixture.setup["frames"]["count"] = 3;
+  CHECK(fixture.error().find("/frames/count: expected 2") != std::string::npos);
+  fixture.setup["frames"] = {{"trajectory", "poses.tum"}, {"rate_hz", 2}};
+  CHECK(fixture.error().find("/frames: expected no start_s and no rate_hz beside a trajectory") !=
+        std::string::npos);
 }
 
 TEST_CASE("A node is put elsewhere with its children, and keeps its scale") {
@@ -94,6 +98,21 @@ TEST_CASE("A node is put elsewhere with its children, and keeps its scale") {
   REQUIRE(before.size() == after.size());
   for (std::size_t i = 0; i < before.size(); ++i)
     CHECK(test::distance(after[i], glm::dvec3(10 + before[i].z, before[i].y, -before[i].x)) < 1e-9);
+}
+
+TEST_CASE("A node that is mirrored or sheared is not put elsewhere") {
+  SetupFixture fixture;
+  const nlohmann::json at_origin{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  fixture.setup["nodes"]["arm"]["pose"]["matrix"] = at_origin;
+  fixture.scene["scenes"][0]["nodes"] = {0};
+  const auto error_with = [&](const char *node) {
+    fixture.scene["nodes"] = nlohmann::json::array({nlohmann::json::parse(node)});
+    return fixture.error();
+  };
+  CHECK(error_with(R"({"name": "arm", "scale": [-1, 1, 1], "mesh": 0})")
+            .find("/nodes/arm: the node is mirrored") != std::string::npos);
+  CHECK(error_with(R"({"name": "arm", "mesh": 0, "matrix": [1,0,0,0, 0.5,1,0,0, 0,0,1,0, 0,0,0,1]})")
+            .find("/nodes/arm: the node is sheared") != std::string::npos);
 }
 
 TEST_CASE("Matrices that do not turn and move alone") {
