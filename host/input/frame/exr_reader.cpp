@@ -106,6 +106,7 @@ private:
 
   ReadChannel channel(const exr_attr_chlist_entry_t &entry, std::size_t values) const {
     const std::string name(entry.name.str, static_cast<std::size_t>(entry.name.length));
+    require(is_utf8(name), "names of channels in UTF-8 in the EXR file");
     require(entry.x_sampling == 1 && entry.y_sampling == 1, "every channel of an EXR file at every pixel");
     require(entry.pixel_type == EXR_PIXEL_FLOAT || entry.pixel_type == EXR_PIXEL_UINT,
             "channels of FLOAT and UINT in the EXR file");

@@ -15,13 +15,18 @@ struct FrameBytes {
   std::string content;
 };
 
+bool is_utf8(std::string_view text);
+
 // "FILE: MESSAGE", (input).
 Error frame_error(const FrameBytes &frame, std::string_view message);
 
-// Takes the size of a frame, of all its channels. Throws Error where it is none, or where `stored_bytes` of a
-// file cannot hold so many values, compressed or not.
+// Takes the size of a frame, of `channels` channels. Throws Error where it is none, or where `stored_bytes`
+// of a file cannot hold so many values, compressed or not.
 glm::uvec2 checked_resolution(const FrameBytes &frame, std::uint64_t columns, std::uint64_t rows,
                               std::uint64_t channels, std::uint64_t stored_bytes);
+
+// What `deform` adds to the channels of engine/model/channels.h.
+inline constexpr std::string_view deformation_name = "deformation_mm";
 
 // "m" of "f1.distance_m"; "" where none is known.
 std::string unit_of(std::string_view channel_name);

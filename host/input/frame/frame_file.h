@@ -11,22 +11,23 @@
 namespace pmdsim {
 
 struct ReadChannel {
-  std::string name; // "distance_m", of several frequencies "f1.distance_m"
+  std::string name; // in UTF-8: "distance_m", of several frequencies "f1.distance_m"
   std::string unit; // by the name; "" where there is none, or none is known
   // Row-major, row 0 at the top, rows * columns; every bit as in the file.
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
 struct ReadFrame {
-  glm::uvec2 resolution{0, 0};         // columns, rows
-  std::vector<ReadChannel> channels{}; // in the order of the file; EXR sorts them by name
+  glm::uvec2 resolution{0, 0}; // columns, rows
+  // Of EXR sorted by name, of HDF5 in the order of for_each_channel() in engine/model/channels.h.
+  std::vector<ReadChannel> channels{};
 };
 
 // A file of at most 4 GiB, which its first bytes tell to be an EXR or an HDF5 file. EXR: one part of scan
 // lines, FLOAT and UINT, without compression or with RLE, ZIPS or ZIP. HDF5: the two-dimensional datasets of
-// the root group, float32 and uint32, all of one size, without compression or with gzip; other datasets are
-// not looked at. Nothing is allocated for values that the file has no bytes for. May be called from several
-// threads at once. Throws Error (input) that names the file.
+// the root group that have the names of channels, float32 and uint32, all of one size, without compression
+// or with gzip; nothing else is looked at. Nothing is allocated for values that the file has no bytes for.
+// May be called from several threads at once. Throws Error (input) that names the file.
 ReadFrame read_frame(const std::filesystem::path &file);
 
 } // namespace pmdsim

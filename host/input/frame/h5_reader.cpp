@@ -1,14 +1,47 @@
 #include "host/input/frame/frame_bytes.h"
 
+#include "engine/model/channels.h"
 #include "host/hdf5/memory_file.h"
 
-#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace pmdsim {
 namespace {
+
+// As setups have them at most: frequencies of a sensor, and taps of each.
+constexpr std::size_t max_frequencies = 16, max_taps = 16;
+
+// Before the names of channels: nothing, or the frequency that they belong to.
+std::vector<std::string> prefixes() {
+  std::vector<std::string> prefixes{""};
+  for (std::size_t f = 0; f < max_frequencies; ++f)
+    prefixes.push_back(fmt::format("f{}.", f));
+  return prefixes;
+}
+
+// Of all channels that a file may have, in the order in which the program writes them.
+std::vector<std::string> names_of_channels() {
+  std::vector<std::string> names;
+  for (const std::string &prefix : prefixes())
+    names.push_back(fmt::format("{}{}", prefix, deformation_name));
+  for (const std::string &prefix : prefixes())
+    for (const ChannelRow &row : channel_rows)
+      if (is_of_frequency(row) && !is_of_taps(row))
+        names.push_back(fmt::format("{}{}", prefix, row.name));
+  for (const std::string &prefix : prefixes())
+    for (const ChannelRow &row : channel_rows)
+      for (std::size_t k = 0; is_of_taps(row) && k < max_taps; ++k)
+        names.push_back(fmt::format("{}{}{}", prefix, row.name, k));
+  for (const ChannelRow &row : channel_rows)
+    if (!is_of_frequency(row))
+      names.emplace_back(row.name);
+  return names;
+}
 
 class H5Reader {
 public:
@@ -16,9 +49,11 @@ public:
     check(file_.id() < 0 ? -1 : 0);
   }
 
-  ReadFrame frame() const {
+  ReadFrame frame() {
     ReadFrame read;
-    for (const std::string &name : names()) {
+    for (const std::string &name : names_of_channels()) {
+      if (!is_there(name))
+        continue;
       const Hdf5Handle object = opened(H5Oopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
       if (H5Iget_type(object.id()) != H5I_DATASET)
         continue;
@@ -27,7 +62,8 @@ public:
         continue;
       require_readable(object.id(), name);
       const auto [rows, columns] = *sizes;
-      const glm::uvec2 resolution = checked_resolution(frame_, columns, rows, 1, stored_bytes(object.id()));
+      const glm::uvec2 resolution =
+          checked_resolution(frame_, columns, rows, 1, stored_bytes(object.id(), name));
       if (!read.channels.empty() && resolution != read.resolution)
         throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
                                               read.resolution.x, read.resolution.y));
@@ -35,7 +71,7 @@ public:
       read.channels.push_back(channel(object.id(), name, std::size_t{resolution.x} * resolution.y));
     }
     if (read.channels.empty())
-      throw frame_error(frame_, "expected two-dimensional datasets in the root group");
+      throw frame_error(frame_, "expected channels as two-dimensional datasets in the root group");
     return read;
   }
 
@@ -50,25 +86,16 @@ private:
       throw frame_error(frame_, fmt::format("cannot be read: {}", hdf5_reason()));
   }
 
-  // Of what stands in this file itself, in the order in which it was made, where the file knows it.
-  std::vector<std::string> names() const {
-    const Hdf5Handle creation = opened(H5Fget_create_plist(file_.id()), H5Pclose);
-    unsigned order = 0;
-    check(H5Pget_link_creation_order(creation.id(), &order));
-    std::vector<std::string> names;
-    const auto keep = [](hid_t, const char *name, const H5L_info_t *link, void *to) -> herr_t {
-      try {
-        if (link->type == H5L_TYPE_HARD)
-          static_cast<std::vector<std::string> *>(to)->emplace_back(name);
-        return 0;
-      } catch (...) { // no exception may pass through HDF5's C
-        return -1;
-      }
-    };
-    const bool is_ordered = (order & H5P_CRT_ORDER_INDEXED) != 0;
-    check(H5Literate(file_.id(), is_ordered ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, nullptr, keep,
-                     &names));
-    return names;
+  // In this file itself. One name is looked up at a time: where HDF5 1.10 lists the names of a damaged
+  // group, it frees what it never set.
+  bool is_there(const std::string &name) const {
+    const htri_t exists = H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT);
+    check(exists);
+    if (exists == 0)
+      return false;
+    H5L_info_t link{};
+    check(H5Lget_info(file_.id(), name.c_str(), &link, H5P_DEFAULT));
+    return link.type == H5L_TYPE_HARD;
   }
 
   // Rows and columns; nothing where there are others.
@@ -101,9 +128,15 @@ private:
                                             name));
   }
 
-  // What a hostile file says of it cannot be more than it has.
-  std::uint64_t stored_bytes(hid_t dataset) const {
-    return std::min<std::uint64_t>(H5Dget_storage_size(dataset), frame_.content.size());
+  // All together have no more than the file: several may be links to one, which are read one by one.
+  std::uint64_t stored_bytes(hid_t dataset, const std::string &name) {
+    const std::uint64_t bytes = H5Dget_storage_size(dataset);
+    if (bytes > frame_.content.size() - stored_bytes_)
+      throw frame_error(frame_, fmt::format("dataset {}: expected datasets of {} bytes together at most, as "
+                                            "the file has",
+                                            name, frame_.content.size()));
+    stored_bytes_ += bytes;
+    return bytes;
   }
 
   ReadChannel channel(hid_t dataset, const std::string &name, std::size_t values) const {
@@ -129,6 +162,7 @@ private:
 
   const FrameBytes &frame_;
   Hdf5MemoryFile file_;
+  std::uint64_t stored_bytes_ = 0; // of the datasets so far
 };
 
 } // namespace

@@ -38,8 +38,8 @@ struct WrittenFrame {
   ChannelSet channels() const {
     return {resolution,
             {{"distance_m", "m", std::span(distances), 0},
-             {"tap2", "W/(m² sr)", std::span(distances), 0},
              {"distance_m", "m", std::span(distances), 1},
+             {"tap2", "W/(m² sr)", std::span(distances), 1},
              {"object_id", "", std::span(ids)}}};
   }
   void write(const std::filesystem::path &path) const {
@@ -66,6 +66,16 @@ bool has_values(const ReadChannel &channel, const Channel &expected) {
                std::memcmp(read->data(), values.data(), values.size_bytes()) == 0;
       },
       expected.values);
+}
+
+void check_same(const ReadFrame &read, const ChannelSet &expected) {
+  CHECK(read.resolution == expected.resolution);
+  REQUIRE(read.channels.size() == expected.channels.size());
+  for (std::size_t i = 0; i < read.channels.size(); ++i) { // sorted by name, as in EXR files
+    CHECK(read.channels[i].name == expected.channels[i].name());
+    CHECK(read.channels[i].unit == expected.channels[i].unit);
+    CHECK(has_values(read.channels[i], expected.channels[i]));
+  }
 }
 
 std::string bytes_of(const std::filesystem::path &path) {
@@ -111,15 +121,41 @@ TEST_CASE("a frame comes back with all its bits, names, units and its size") {
       const WrittenFrame written(size);
       written.write(folder.path() / name);
       const ReadFrame read = read_frame(folder.path() / name);
-      CHECK(read.resolution == size);
-      const ChannelSet expected = written.channels();
-      REQUIRE(read.channels.size() == expected.channels.size());
-      for (std::size_t i = 0; i < read.channels.size(); ++i) { // sorted by name, as in EXR files
-        CHECK(read.channels[i].name == expected.channels[i].name());
-        CHECK(read.channels[i].unit == expected.channels[i].unit);
-        CHECK(has_values(read.channels[i], expected.channels[i]));
-      }
+      check_same(read, written.channels());
     }
+}
+
+TEST_CASE("every channel that a frame may have is read from HDF5, in the order in which it is written") {
+  const pmdsim::test::TemporaryFolder folder;
+  constexpr std::size_t frequencies = 16, taps = 16;
+  const std::vector<float> floats(2, 1.5f);
+  const std::vector<std::uint32_t> ids(2, 3u);
+  Measurement all;
+  all.resolution = {2, 1};
+  all.returns.resize(frequencies);
+  for (Return &of_frequency : all.returns)
+    of_frequency.taps.resize(taps);
+  for_each_channel(all, [&](const ChannelIndex &, auto &values) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<float>>)
+      values = floats;
+    else
+      values = ids;
+  });
+  ChannelSet written{all.resolution, {}};
+  for (std::size_t f = 0; f < frequencies; ++f)
+    written.channels.push_back({"deformation_mm", "mm", std::span(floats), f});
+  for (const Channel &channel : channels_of(all).channels)
+    written.channels.push_back(channel);
+  OutputFile file(folder.path() / "all.h5");
+  write_h5(file, written, {Sensor{}, 0, 0.0});
+  file.close();
+  file.publish();
+  const ReadFrame read = read_frame(folder.path() / "all.h5");
+  REQUIRE(read.channels.size() == written.channels.size());
+  for (std::size_t i = 0; i < read.channels.size(); ++i) {
+    CHECK(read.channels[i].name == written.channels[i].name());
+    CHECK(read.channels[i].unit == written.channels[i].unit);
+  }
 }
 
 TEST_CASE("compressed HDF5 datasets are read, and dimension scales are no channels") {
@@ -158,17 +194,17 @@ TEST_CASE("HDF5 files of other things are refused") {
   const pmdsim::test::TemporaryFolder folder;
   const std::vector<double> values(6, 1.0);
   const hsize_t sizes[2]{2, 3}, others[2]{3, 2};
-  check_refused(made_h5(folder, [](hid_t) {}), "expected two-dimensional datasets");
+  check_refused(made_h5(folder, [](hid_t) {}), "expected channels as two-dimensional datasets");
   check_refused(
       made_h5(folder, [&](hid_t file) { H5LTmake_dataset_double(file, "z_m", 2, sizes, values.data()); }),
       "dataset z_m: expected float32 or uint32");
   check_refused(made_h5(folder,
                         [&](hid_t file) {
                           const std::vector<float> floats(6);
-                          H5LTmake_dataset_float(file, "one", 2, sizes, floats.data());
-                          H5LTmake_dataset_float(file, "two", 2, others, floats.data());
+                          H5LTmake_dataset_float(file, "range_m", 2, sizes, floats.data());
+                          H5LTmake_dataset_float(file, "z_m", 2, others, floats.data());
                         }),
-                "dataset two: expected 3 x 2 pixels as the others have");
+                "dataset z_m: expected 3 x 2 pixels as the others have");
   check_refused(made_h5(folder,
                         [&](hid_t file) { // of which nothing is there
                           const hsize_t huge[2]{1u << 30, 1u << 30}, chunk[2]{1, 1024};
@@ -192,15 +228,76 @@ TEST_CASE("HDF5 files of other things are refused") {
                 "dataset z_m: expected values in this file");
 }
 
+TEST_CASE("HDF5 files whose names cannot be listed are read or refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  const WrittenFrame written({9, 70});
+  written.write(folder.path() / "frame.h5");
+  const std::string whole = bytes_of(folder.path() / "frame.h5");
+  std::size_t damaged = 0; // the types of links and the lengths of their names among them
+  for (std::size_t at = whole.find("distance_m"); at != whole.npos; at = whole.find("distance_m", at + 1))
+    for (std::size_t before = 1; before <= 16 && before <= at; ++before)
+      for (const char value : {'\0', '\x7f', '\xff'}) {
+        std::string changed = whole;
+        changed[at - before] = value;
+        INFO("byte " << at - before);
+        check_survives(folder.write("changed", changed));
+        ++damaged;
+      }
+  CHECK(damaged > 0);
+}
+
+TEST_CASE("links to one dataset hold no more than the file, links elsewhere are no channels") {
+  const pmdsim::test::TemporaryFolder folder;
+  const auto make = [&](bool is_linked_often) {
+    return made_h5(folder, [&](hid_t file) {
+      const hsize_t sizes[2]{256, 256}; // most of the file's bytes
+      const std::vector<float> values(256 * 256, 1.0f);
+      H5LTmake_dataset_float(file, "z_m", 2, sizes, values.data());
+      H5Lcreate_soft("/z_m", file, "range_m", H5P_DEFAULT, H5P_DEFAULT);
+      H5Lcreate_external("other.h5", "/z_m", file, "coverage", H5P_DEFAULT, H5P_DEFAULT);
+      if (is_linked_often)
+        H5Lcreate_hard(file, "z_m", file, "lit", H5P_DEFAULT, H5P_DEFAULT);
+    });
+  };
+  const ReadFrame read = read_frame(make(false));
+  REQUIRE(read.channels.size() == 1);
+  CHECK(read.channels[0].name == "z_m");
+  check_refused(make(true), "dataset lit: expected datasets of");
+}
+
+TEST_CASE("channels of EXR files have names in UTF-8") {
+  const pmdsim::test::TemporaryFolder folder;
+  WrittenFrame({2, 1}).write(folder.path() / "frame.exr");
+  const std::string whole = bytes_of(folder.path() / "frame.exr");
+  const auto renamed = [&](const std::string &beginning) {
+    std::string changed = whole;
+    changed.replace(changed.find("object_id"), beginning.size(), beginning);
+    return folder.write("renamed.exr", changed);
+  };
+  for (const std::string name : {"o\xc2\xb2", "o\xe2\x82\xac", "o\xf0\x9f\x93\xb7"})
+    CHECK(read_frame(renamed(name)).channels.back().name.starts_with(name));
+  for (const std::string name :
+       {"o\xb2", "o\xc0\xaf", "o\xc2", "o\xe0\x9f\xbf", "o\xed\xa0\x80", "o\xf4\x90\x80\x80", "o\xff"})
+    check_refused(renamed(name), "expected names of channels in UTF-8");
+  check_refused(renamed("object_i\xc2"), "expected names of channels in UTF-8");
+}
+
 TEST_CASE("a frame that ends too early is refused, wherever it ends") {
   const pmdsim::test::TemporaryFolder folder;
   for (const std::string name : {"frame.exr", "frame.h5"}) {
-    WrittenFrame({9, 70}).write(folder.path() / name);
+    const WrittenFrame written({9, 70});
+    written.write(folder.path() / name);
     const std::string whole = bytes_of(folder.path() / name);
-    for (std::size_t bytes = 0; bytes < whole.size(); bytes += 1 + bytes / 8) {
+    // HDF5 rounds the file up to whole pages; where its content ends stands in byte 40 and on.
+    std::uint64_t end = whole.size();
+    if (name == "frame.h5")
+      std::memcpy(&end, whole.data() + 40, sizeof(end));
+    REQUIRE(end <= whole.size());
+    for (std::size_t bytes = 0; bytes < end; bytes += 1 + bytes / 8) {
       INFO(name << ", the first " << bytes << " of " << whole.size() << " bytes");
       CHECK_THROWS_AS(read_frame(folder.write("part", whole.substr(0, bytes))), Error);
     }
+    check_same(read_frame(folder.write("content", whole.substr(0, end))), written.channels());
   }
 }
 
