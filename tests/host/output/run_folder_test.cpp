@@ -171,7 +171,10 @@ TEST_CASE("records without a run's file, and files that are none, are nobody's")
   std::ofstream(folder.path / "manifest.json") << "{}";
   const std::string text = GENERATE(as<std::string>(), "", "{", "{}", "[]",
                                     R"({"run": "a", "begun_by": {"host": "h", "process": 1}, "inputs": [3]})",
-                                    std::string(100'000, '['), "none");
+                                    std::string(100'000, '['),
+                                    R"({"run": "a", "begun_by": {"host": "h", "process": 1}, "program": )" +
+                                        std::string(100'000, '[') + std::string(100'000, ']') + "}",
+                                    "none");
   if (text != "none")
     std::ofstream(folder.path / "run.json") << text;
   if (text != "none")
