@@ -121,7 +121,8 @@ Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &
       exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured),
       sequence_(setup_,
                 {frames_, request.output_directory,
-                 request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again},
+                 request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again,
+                 request.accuracy.strict},
                 head_of(request, setup_, command, exposures_.camera())) {}
 
 std::string Capture::device_text() const {

@@ -42,7 +42,7 @@ FrameSequence::FrameSequence(const Setup &setup, SequenceRequest request, const 
 
 std::uint32_t FrameSequence::begin() {
   folder_.emplace(request_.directory, identity_of(run_), request_.frames, request_.earlier,
-                  throw_if_interrupted);
+                  throw_if_interrupted, request_.strict);
   request_.directory = folder_->path();
   if (!folder_->has_locks())
     fmt::print(stderr,
@@ -192,7 +192,12 @@ void FrameSequence::for_each_record(const std::function<void(const ordered_json 
     if (!record)
       throw Error(ExitCode::output,
                   fmt::format("{}: cannot be read: it has gone", path_of(record_name(frame))));
-    use(*record);
+    try {
+      use(*record);
+    } catch (const nlohmann::json::exception &) {
+      throw Error(ExitCode::input,
+                  fmt::format("{}: expected what this run leaves of a frame", path_of(record_name(frame))));
+    }
   }
 }
 

@@ -45,6 +45,7 @@ struct SequenceRequest {
   FrameRange frames{};
   std::filesystem::path directory;
   RunFolder::Earlier earlier = RunFolder::Earlier::made_again; // frames of an earlier run that was the same
+  bool strict = false; // a frame that is there counts only if it has no unpromised pixel
 };
 
 class FrameSequence {
@@ -65,7 +66,7 @@ public:
 
   const RunHead &run() const { return run_; }
   // The record of each frame that was asked for, in order, whoever made it. Throws Error (output) where one
-  // is missing.
+  // is missing, (input) where one has been edited so that `use` misses something.
   void for_each_record(const std::function<void(const nlohmann::ordered_json &)> &use) const;
   // A name with the directory in front.
   std::string path_of(const std::string &name) const { return (request_.directory / name).string(); }

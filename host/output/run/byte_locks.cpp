@@ -47,11 +47,11 @@ ByteLocks &ByteLocks::operator=(ByteLocks &&other) noexcept {
   return *this;
 }
 
-bool ByteLocks::set(int command, std::uint64_t byte, short type) {
+bool ByteLocks::set(std::uint64_t byte, short type) {
   if (!works_)
     return true;
   struct flock range = of_byte(byte, type);
-  while (::fcntl(descriptor_, command, &range) != 0) {
+  while (::fcntl(descriptor_, F_OFD_SETLK, &range) != 0) {
     if (errno == EAGAIN || errno == EACCES)
       return false;
     if (means_no_locks(errno)) {
@@ -65,9 +65,8 @@ bool ByteLocks::set(int command, std::uint64_t byte, short type) {
   return true;
 }
 
-bool ByteLocks::try_lock(std::uint64_t byte, Kind kind) { return set(F_OFD_SETLK, byte, type_of(kind)); }
-void ByteLocks::lock(std::uint64_t byte, Kind kind) { set(F_OFD_SETLKW, byte, type_of(kind)); }
-void ByteLocks::unlock(std::uint64_t byte) { set(F_OFD_SETLK, byte, F_UNLCK); }
+bool ByteLocks::try_lock(std::uint64_t byte, Kind kind) { return set(byte, type_of(kind)); }
+void ByteLocks::unlock(std::uint64_t byte) { set(byte, F_UNLCK); }
 
 bool ByteLocks::is_held_by_another(std::uint64_t byte) const {
   struct flock range = of_byte(byte, F_WRLCK);
@@ -81,15 +80,17 @@ bool ByteLocks::is_at(const std::filesystem::path &path) const {
          mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
-std::string ByteLocks::content() const {
+std::string ByteLocks::content(std::size_t max_bytes) const {
   std::string text;
   std::array<char, 1 << 16> piece{};
-  while (true) {
-    const ssize_t count = ::pread(descriptor_, piece.data(), piece.size(), static_cast<off_t>(text.size()));
+  while (text.size() < max_bytes) {
+    const std::size_t wanted = std::min(piece.size(), max_bytes - text.size());
+    const ssize_t count = ::pread(descriptor_, piece.data(), wanted, static_cast<off_t>(text.size()));
     if (count <= 0)
-      return text; // what cannot be read is not what anyone expects there
+      break; // what cannot be read is not what anyone expects there
     text.append(piece.data(), static_cast<std::size_t>(count));
   }
+  return text;
 }
 
 void ByteLocks::write(std::string_view text, const std::filesystem::path &path) const {

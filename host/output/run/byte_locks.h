@@ -2,6 +2,7 @@
 // Locks by which processes on one machine or several agree about a folder. Each is one byte of a file; the
 // operating system gives it back when its process ends, however it ends.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -26,8 +27,6 @@ public:
   // was where it fails. Where the file system has no locks every one is granted, and works() says so from
   // then on. Throws Error (output).
   bool try_lock(std::uint64_t byte, Kind kind);
-  // Waits for it.
-  void lock(std::uint64_t byte, Kind kind);
   void unlock(std::uint64_t byte);
   // Whether another holds it, of any kind.
   bool is_held_by_another(std::uint64_t byte) const;
@@ -35,12 +34,13 @@ public:
 
   // Whether the file is the one of that name, which may have been replaced since.
   bool is_at(const std::filesystem::path &path) const;
-  std::string content() const;
+  // Its first bytes, so many at most.
+  std::string content(std::size_t max_bytes) const;
   // Throws Error (output) that names `path`.
   void write(std::string_view text, const std::filesystem::path &path) const;
 
 private:
-  bool set(int command, std::uint64_t byte, short type);
+  bool set(std::uint64_t byte, short type);
 
   int descriptor_; // -1: moved from
   bool works_ = true;

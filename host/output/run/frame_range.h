@@ -24,7 +24,8 @@ struct Shard {
 
   // Its frames of `range`, whose step is 1.
   FrameRange of(const FrameRange &range) const {
-    const std::uint32_t ahead = (index + count - range.first % count) % count;
+    const std::uint32_t past = range.first % count;
+    const std::uint32_t ahead = index >= past ? index - past : count - (past - index);
     return ahead < range.end - range.first ? FrameRange{range.first + ahead, range.end, count}
                                            : FrameRange{range.end, range.end, count};
   }

@@ -1,14 +1,14 @@
 #include "host/output/run/frame_records.h"
 
 #include "engine/model/error.h"
+#include "host/input/file/input_file.h"
 #include "host/output/run/run_identity.h"
+#include "host/output/run/run_json.h"
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <charconv>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace pmdsim {
@@ -39,21 +39,55 @@ ordered_json sensor_json(const FrameRecord &part) {
   return json;
 }
 
-// Whether it looks as record_json() makes it, or json::exception. Names stay within the folder.
-bool has_its_form(const ordered_json &record) {
-  for (const ordered_json &sensor : record.at("sensors")) {
-    const auto &outputs = sensor.at("manifest").at("outputs").get_ref<const ordered_json::array_t &>();
-    for (const ordered_json &name : outputs)
-      if (name.get_ref<const std::string &>().find('/') != std::string::npos)
-        return false;
-    const auto is_size = [](const ordered_json &bytes) { return bytes.is_number_unsigned(); };
-    if (sensor.at("bytes").size() != outputs.size() || !std::ranges::all_of(sensor.at("bytes"), is_size))
-      return false;
-    for (const char *key : {"frame_ms", "passes_ms", "check_ms"})
-      if (!sensor.contains(key))
-        return false;
+using Array = ordered_json::array_t;
+
+// "NAME_0007.exr" of frame 7: in the folder, not hidden, and none of the run's own files.
+bool is_name_of_frame(const std::string &name, std::uint32_t frame) {
+  constexpr std::string_view no_plain_name("/\0", 2);
+  return !name.starts_with('.') && name.find_first_of(no_plain_name) == std::string::npos &&
+         name.find(fmt::format("_{:04}.", frame)) != std::string::npos;
+}
+
+// The three that follow: whether it looks as record_json() makes it, or json::exception.
+bool entry_has_its_form(const ordered_json &entry, std::uint32_t frame) {
+  const auto is_name = [&](const ordered_json &name) {
+    return is_name_of_frame(name.get_ref<const std::string &>(), frame);
+  };
+  return entry.at("sensor").is_string() && entry.at("frame") == frame && entry.at("time_s").is_number() &&
+         entry.at("mode").is_string() && entry.at("unpromised").is_number_unsigned() &&
+         entry.contains("error_claimed_m") &&
+         std::ranges::all_of(entry.at("outputs").get_ref<const Array &>(), is_name);
+}
+
+bool sensor_has_its_form(const ordered_json &sensor, std::uint32_t frame) {
+  const auto is_size = [](const ordered_json &bytes) { return bytes.is_number_unsigned(); };
+  const auto &bytes = sensor.at("bytes").get_ref<const Array &>();
+  const auto has = [&](const char *key) { return sensor.contains(key); };
+  return entry_has_its_form(sensor.at("manifest"), frame) &&
+         bytes.size() == sensor.at("manifest").at("outputs").size() && std::ranges::all_of(bytes, is_size) &&
+         std::ranges::all_of(std::array{"frame_ms", "passes_ms", "check_ms"}, has) &&
+         (!has("told") || sensor.at("told").is_object());
+}
+
+bool has_its_form(const ordered_json &record, std::uint32_t frame) {
+  const auto &sensors = record.at("sensors").get_ref<const Array &>();
+  return record.at("frame") == frame && !sensors.empty() &&
+         std::ranges::all_of(sensors,
+                             [&](const ordered_json &each) { return sensor_has_its_form(each, frame); });
+}
+
+// Nothing where there is no such file. It may go, or come, at any time.
+std::optional<std::string> text_of(const fs::path &file) {
+  std::error_code ignored;
+  if (fs::status(file, ignored).type() == fs::file_type::not_found)
+    return std::nullopt;
+  try {
+    return read_regular_file(file, max_run_json_bytes, Place{file});
+  } catch (const Error &) {
+    if (fs::status(file, ignored).type() == fs::file_type::not_found)
+      return std::nullopt;
+    throw;
   }
-  return true;
 }
 
 } // namespace
@@ -71,22 +105,14 @@ ordered_json record_json(const std::string &run_hash, const std::vector<FrameRec
 std::optional<ordered_json> read_record(const fs::path &folder, std::uint32_t frame,
                                         const std::string &run_hash) {
   const fs::path file = folder / record_name(frame);
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in && (errno == ENOENT || errno == ESTALE))
-    return std::nullopt;
-  if (!in)
-    throw Error(ExitCode::output,
-                fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
+  const std::optional<std::string> text = text_of(file);
+  auto record = text ? parsed_in_order(*text) : std::nullopt; // a power cut may leave half of it
   try {
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    ordered_json record = ordered_json::parse(text);
-    if (record.at("frame") == frame && record.at("run") == run_hash && has_its_form(record))
+    if (record && record->at("run") == run_hash && has_its_form(*record, frame))
       return record;
-    return std::nullopt;
-  } catch (const nlohmann::json::exception &) { // as a power cut may leave it
-    return std::nullopt;
+  } catch (const nlohmann::json::exception &) { // nor is it what was written
   }
+  return std::nullopt;
 }
 
 bool has_its_files(const fs::path &folder, const ordered_json &record) {
@@ -100,6 +126,16 @@ bool has_its_files(const fs::path &folder, const ordered_json &record) {
     }
   }
   return true;
+}
+
+bool has_unpromised(const ordered_json &record) {
+  const auto any = [](const ordered_json &of) {
+    const auto pixels = of.find("unpromised");
+    return pixels != of.end() && *pixels != 0;
+  };
+  return std::ranges::any_of(record.at("sensors"), [&](const ordered_json &sensor) {
+    return any(sensor.at("manifest")) || (sensor.contains("told") && any(sensor.at("told")));
+  });
 }
 
 std::vector<std::uint32_t> recorded_frames(const fs::path &folder) {

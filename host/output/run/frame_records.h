@@ -20,13 +20,17 @@ std::string record_name(std::uint32_t frame);
 // Of all sensors' parts of one frame.
 nlohmann::ordered_json record_json(const std::string &run_hash, const std::vector<FrameRecord> &parts);
 
-// Nothing where there is none, or one of another run, or not the whole of one. Throws Error (output) where it
-// cannot be read.
+// Nothing where there is none, or one of another run, or not the whole of one. What comes has all that is
+// asked of it here and by told_json(), and names no files but that frame's. Throws Error (input) where it
+// cannot be read or is no regular file.
 std::optional<nlohmann::ordered_json> read_record(const std::filesystem::path &folder, std::uint32_t frame,
                                                   const std::string &run_hash);
 
 // Whether the outputs that it names are there, each of its size.
 bool has_its_files(const std::filesystem::path &folder, const nlohmann::ordered_json &record);
+
+// Whether there are pixels that may be off by more than was asked for.
+bool has_unpromised(const nlohmann::ordered_json &record);
 
 // The numbers of the frames that have a record of whichever run, sorted.
 std::vector<std::uint32_t> recorded_frames(const std::filesystem::path &folder);

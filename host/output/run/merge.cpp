@@ -1,6 +1,7 @@
 #include "host/output/run/merge.h"
 
 #include "engine/model/error.h"
+#include "host/input/file/input_error.h"
 #include "host/output/files/manifest.h"
 #include "host/output/run/run_folder.h"
 
@@ -34,10 +35,10 @@ Source opened(const fs::path &folder, const std::function<void()> &check) {
   while (true) {
     check();
     Source source{folder, read_run_file(folder).run, std::nullopt};
-    if (const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC); descriptor >= 0)
+    if (const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); descriptor >= 0)
       source.lock.emplace(descriptor);
-    constexpr std::uint64_t living = 0; // as RunFolder has it
-    if (!source.lock || (source.lock->try_lock(living, ByteLocks::Kind::shared) && source.lock->is_at(file)))
+    if (!source.lock ||
+        (source.lock->try_lock(living_byte, ByteLocks::Kind::shared) && source.lock->is_at(file)))
       return source;
     std::this_thread::sleep_for(time_between_tries);
   }
@@ -59,8 +60,20 @@ std::vector<Source> opened_sources(const MergeRequest &request, const std::funct
   return sources;
 }
 
+// How many frames the setup has.
+std::uint32_t frame_count_of(const Source &source) {
+  static const ordered_json::json_pointer place("/setup/frames/count");
+  constexpr std::uint32_t most = 100'000; // as of any setup
+  const ordered_json &head = source.run.head;
+  const ordered_json count = head.contains(place) ? head.at(place) : ordered_json();
+  if (!count.is_number_unsigned() || count < 1 || count > most)
+    throw input_error(Place{source.path / run_file_name} / "setup" / "frames" / "count",
+                      fmt::format("expected the number of the run's frames, 1 to {}", most));
+  return count;
+}
+
 FrameRange frames_of(const MergeRequest &request, const Source &source) {
-  const auto count = source.run.head.at("setup").at("frames").at("count").get<std::uint32_t>();
+  const std::uint32_t count = frame_count_of(source);
   const FrameRange frames = request.frames.value_or(FrameRange{0, count});
   if (frames.end > count)
     throw Error(ExitCode::usage, fmt::format("--frames {}:{}: expected B at most {}, the frames of {}",

@@ -1,6 +1,7 @@
 #include "host/output/run/run_folder.h"
 
 #include "engine/model/error.h"
+#include "host/output/run/run_json.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <regex>
+#include <sys/stat.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -20,10 +22,11 @@ namespace fs = std::filesystem;
 using Kind = ByteLocks::Kind;
 
 // The bytes of run.json that are locked, by what they mean.
-constexpr std::uint64_t living = 0; // shared: is at work here; exclusive: alone
+constexpr std::uint64_t living = living_byte; // shared: is at work here; exclusive: alone
 constexpr std::uint64_t writing_manifest = 1;
 constexpr std::uint64_t first_frame = 16; // and those after it: that frame is being made
 constexpr auto waiting_time = std::chrono::milliseconds(10);
+constexpr int last_tries = 300; // to write a manifest when a run ends early
 
 Error unwritable(const fs::path &path, int error_number) {
   return {ExitCode::output, fmt::format("{}: cannot be written: {}", path.string(),
@@ -42,6 +45,10 @@ std::optional<ByteLocks> opened(const fs::path &file) {
     return ByteLocks(descriptor);
   if (errno != ENOENT)
     throw unwritable(file, errno);
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) == 0 && S_ISLNK(status.st_mode))
+    throw Error(ExitCode::output,
+                fmt::format("{}: cannot be written: it is a symbolic link to nothing", file.string()));
   return std::nullopt;
 }
 
@@ -70,11 +77,11 @@ bool is_of_a_run(const std::string &name) {
 } // namespace
 
 RunFolder::RunFolder(const fs::path &directory, RunIdentity run, const FrameRange &frames, Earlier earlier,
-                     const std::function<void()> &wait)
-    : directory_(directory), run_(std::move(run)) {
+                     std::function<void()> wait, bool strict)
+    : directory_(directory), run_(std::move(run)), wait_(std::move(wait)), strict_(strict) {
   while (!enter(frames, earlier)) {
     std::this_thread::sleep_for(waiting_time);
-    wait();
+    wait_();
   }
 }
 
@@ -111,7 +118,7 @@ bool RunFolder::enter(const FrameRange &frames, Earlier earlier) {
 
 // The run's file is a new one each time, as it tells who has begun; the old one stays locked until then.
 bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier earlier) {
-  const std::optional<RunFile> found = parsed_run_file(there.content());
+  const std::optional<RunFile> found = parsed_run_file(there.content(max_run_json_bytes));
   const bool same_run = found && found->run == run_;
   if (!same_run && earlier == Earlier::kept)
     throw Error(ExitCode::input, fmt::format("{}: --resume: it holds another run: {}", path().string(),
@@ -124,7 +131,7 @@ bool RunFolder::enter_alone(ByteLocks there, const FrameRange &frames, Earlier e
 }
 
 bool RunFolder::enter_beside_others(ByteLocks there) {
-  const std::optional<RunFile> found = parsed_run_file(there.content());
+  const std::optional<RunFile> found = parsed_run_file(there.content(max_run_json_bytes));
   if (found && found->run == run_) {
     joined_ = true;
     locks_ = std::move(there);
@@ -187,7 +194,7 @@ void RunFolder::remove_leftovers() const {
 
 std::optional<nlohmann::ordered_json> RunFolder::whole(std::uint32_t frame) const {
   auto record = read_record(path(), frame, run_.hash);
-  if (record && !has_its_files(path(), *record))
+  if (record && (!has_its_files(path(), *record) || (strict_ && has_unpromised(*record))))
     record.reset();
   return record;
 }
@@ -217,9 +224,18 @@ void RunFolder::publish(OutputSet &files, const nlohmann::ordered_json &record) 
   give_back(frame);
 }
 
-std::size_t RunFolder::write_manifest() {
+void RunFolder::lock_manifest(const std::function<void()> &wait) {
+  while (!locks_->try_lock(writing_manifest, Kind::exclusive)) {
+    std::this_thread::sleep_for(waiting_time);
+    wait();
+  }
+}
+
+std::size_t RunFolder::write_manifest() { return write_manifest(wait_); }
+
+std::size_t RunFolder::write_manifest(const std::function<void()> &wait) {
   std::size_t frames = 0;
-  locks_->lock(writing_manifest, Kind::exclusive);
+  lock_manifest(wait);
   OutputSet files(path());
   files.add(manifest_name, [&](OutputFile &file) {
     nlohmann::ordered_json head = run_.head;
@@ -244,8 +260,13 @@ std::size_t RunFolder::write_manifest() {
 
 bool RunFolder::keep_whole_frames() noexcept {
   try {
+    int tries = last_tries;
+    const auto wait = [&] { // an interruption, which may have brought us here, must not end it at once
+      if (--tries == 0)
+        throw Error(ExitCode::output, "another process writes the manifest");
+    };
     if (!recorded_frames(path()).empty())
-      write_manifest();
+      write_manifest(wait);
     return true;
   } catch (const std::exception &) { // the error that brought us here is the one to tell
     return false;

@@ -27,11 +27,11 @@ public:
   enum class Earlier { made_again, kept };
   // Creates the directory and begins the run there, or joins those that are at it. Where nobody else is, an
   // earlier run of another kind goes, its records and its manifest, unless the earlier frames are to be kept.
-  // `wait` is called while another process is about to begin; what it throws comes out.
-  // Throws Error: (input) where frames of another run are to be kept; (output) where others are at another
-  // run there, or nothing can be written.
+  // `wait` is called while another process is about to begin or writes the manifest; what it throws comes
+  // out. `strict`: a frame that has unpromised pixels is not whole. Throws Error: (input) where frames of
+  // another run are to be kept; (output) where others are at another run there, or nothing can be written.
   RunFolder(const std::filesystem::path &directory, RunIdentity run, const FrameRange &frames,
-            Earlier earlier, const std::function<void()> &wait);
+            Earlier earlier, std::function<void()> wait, bool strict = false);
   // Of a folder that has a run, to make its manifest again. Throws Error (input) where it has none.
   static RunFolder of_existing(const std::filesystem::path &directory, const std::function<void()> &wait);
   // Leaves nothing where no frame is whole, unless a manifest says so.
@@ -56,7 +56,7 @@ public:
   // Publishes the files and then the record of a frame that was granted.
   void publish(OutputSet &files, const nlohmann::ordered_json &record);
 
-  // From the records that are there. Of how many frames. Throws Error (output).
+  // From the records that are there. Of how many frames. Throws Error (output), or what `wait` throws.
   std::size_t write_manifest();
   // The same where a run ends early and some frames are whole. False where that fails.
   bool keep_whole_frames() noexcept;
@@ -69,10 +69,14 @@ private:
   void settle(ByteLocks mine);
   void clear(bool same_run, const FrameRange &frames, Earlier earlier) const;
   void remove_leftovers() const;
+  void lock_manifest(const std::function<void()> &wait);
+  std::size_t write_manifest(const std::function<void()> &wait);
   void leave();
 
   OutputDirectory directory_;
   RunIdentity run_;
+  std::function<void()> wait_;
+  bool strict_;
   std::optional<ByteLocks> locks_; // of run.json
   bool joined_ = false, has_manifest_ = false;
 };

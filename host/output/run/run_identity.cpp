@@ -1,14 +1,14 @@
 #include "host/output/run/run_identity.h"
 
 #include "engine/model/error.h"
+#include "host/input/file/input_file.h"
 #include "host/output/files/manifest.h"
+#include "host/output/run/run_json.h"
 
 #include <algorithm>
 #include <array>
 #include <climits>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <unistd.h>
 
 namespace pmdsim {
@@ -47,15 +47,27 @@ std::string short_text(const ordered_json &json, const Pointer &at) {
   return text;
 }
 
+// As it may stand in a message, in one line.
+std::string escaped(const std::string &text) {
+  const std::string quoted = ordered_json(text).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 std::string input_difference(const ordered_json &there, const ordered_json &here) {
   for (const ordered_json &input : here) {
     const auto same_name = [&](const ordered_json &other) { return other.at("file") == input.at("file"); };
     const auto found = std::ranges::find_if(there, same_name);
     if (found == there.end() || *found != input)
-      return fmt::format("the input file {} {}", input.at("file").get<std::string>(),
+      return fmt::format("the input file {} {}", escaped(input.at("file").get<std::string>()),
                          found == there.end() ? "was not read there" : "has changed");
   }
   return "the input files differ";
+}
+
+// Objects with a file's name, or json::exception.
+bool are_inputs(const ordered_json &inputs) {
+  const auto names_file = [](const ordered_json &input) { return input.at("file").is_string(); };
+  return inputs.is_array() && std::ranges::all_of(inputs, names_file);
 }
 
 } // namespace
@@ -76,12 +88,17 @@ std::string run_file_text(const RunIdentity &run, const Beginner &beginner) {
 
 std::optional<RunFile> parsed_run_file(const std::string &text) {
   try {
-    ordered_json json = ordered_json::parse(text);
-    const ordered_json begun = json.at("begun_by");
-    RunFile file{{{}, json.at("run")}, {begun.at("host"), begun.at("process")}};
-    json.erase("run");
-    json.erase("begun_by");
-    file.run.head = std::move(json);
+    std::optional<ordered_json> json = parsed_in_order(text);
+    if (!json)
+      return std::nullopt;
+    const ordered_json begun = json->at("begun_by");
+    if (!begun.at("process").is_number_integer() ||
+        (json->contains("inputs") && !are_inputs(json->at("inputs"))))
+      return std::nullopt;
+    RunFile file{{{}, json->at("run")}, {begun.at("host"), begun.at("process")}};
+    json->erase("run");
+    json->erase("begun_by");
+    file.run.head = std::move(*json);
     return file;
   } catch (const nlohmann::json::exception &) {
     return std::nullopt;
@@ -90,12 +107,16 @@ std::optional<RunFile> parsed_run_file(const std::string &text) {
 
 RunFile read_run_file(const std::filesystem::path &folder) {
   const std::filesystem::path file = folder / run_file_name;
-  std::ifstream in(file, std::ios::binary);
-  const auto found = parsed_run_file({std::istreambuf_iterator<char>(in), {}});
+  constexpr const char *expected = "expected what render or deform leaves beside its frames";
+  std::string text;
+  try {
+    text = read_regular_file(file, max_run_json_bytes, Place{file});
+  } catch (const Error &error) {
+    throw Error(error.code(), fmt::format("{}, {}", error.what(), expected));
+  }
+  const auto found = parsed_run_file(text);
   if (!found)
-    throw Error(ExitCode::input,
-                fmt::format("{}: {}, expected what render or deform leaves beside its frames", file.string(),
-                            in ? "is not a run's file" : "cannot be read"));
+    throw input_error(Place{file}, fmt::format("is not a run's file, {}", expected));
   return *found;
 }
 
@@ -109,9 +130,9 @@ std::string difference_text(const RunIdentity &there, const RunIdentity &here) {
     return input_difference(there.head.at(key), here.head.at(key));
   const std::string values =
       fmt::format("{} there, {} here", short_text(there.head, *found), short_text(here.head, *found));
-  if (key == "setup")
-    return fmt::format("the setup differs at {}: {}", pointer.substr(1 + key.size()), values);
-  return fmt::format("its {} differs: {}", key, values);
+  if (const std::string place = pointer.substr(1 + key.size()); key == "setup" && !place.empty())
+    return fmt::format("the setup differs at {}: {}", escaped(place), values);
+  return fmt::format("its {} differs: {}", escaped(key), values);
 }
 
 } // namespace pmdsim

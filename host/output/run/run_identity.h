@@ -2,6 +2,7 @@
 // What makes two runs the same: whatever decides what their frames hold. Of which frames there are, where
 // they are written, on which machine and when, it says nothing.
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,8 @@
 namespace pmdsim {
 
 inline constexpr const char *run_file_name = "run.json";
+// The byte of it that every process locks which lives in the folder: shared, or alone there.
+inline constexpr std::uint64_t living_byte = 0;
 inline constexpr const char *manifest_name = "manifest.json";
 
 struct RunIdentity {
@@ -33,9 +36,10 @@ struct RunFile {
   RunIdentity run;
   Beginner beginner;
 };
-// Nothing where the text is not that of such a file.
+// Nothing where the text is not that of such a file. Of the head only `inputs` is looked at: where there are
+// any, they name files.
 std::optional<RunFile> parsed_run_file(const std::string &text);
-// Of a folder. Throws Error (input) where it has none.
+// Of a folder. Throws Error (input) where it has none, or one that is no regular file.
 RunFile read_run_file(const std::filesystem::path &folder);
 
 // The first thing in which `there` differs from `here`, for people: "the setup differs at /sensors/0/samples:

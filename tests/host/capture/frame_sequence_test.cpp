@@ -35,7 +35,7 @@ Setup words(std::uint32_t frames, std::size_t sensors) {
 }
 
 std::string file_name(const SensorFrame &at, const std::string &sensor) {
-  return fmt::format("{}_{}.txt", sensor, at.frame);
+  return fmt::format("{}_{:04}.txt", sensor, at.frame);
 }
 
 class Sequence {
@@ -106,8 +106,8 @@ TEST_CASE("parts are measured frame by frame and sensor by sensor, each with the
   CHECK(sequence.measured[0].next_s == 0.0);
   CHECK(sequence.measured[1].next_s == 0.1);
   CHECK_FALSE(sequence.measured[3].next_s);
-  CHECK(content_of(sequence.directory() / "b_1.txt") == "frame 1 of sensor 1");
-  CHECK(sequence.listed() == std::set<std::string>{"a_0.txt", "b_0.txt", "a_1.txt", "b_1.txt"});
+  CHECK(content_of(sequence.directory() / "b_0001.txt") == "frame 1 of sensor 1");
+  CHECK(sequence.listed() == std::set<std::string>{"a_0000.txt", "b_0000.txt", "a_0001.txt", "b_0001.txt"});
 }
 
 TEST_CASE("a frame appears after those before it, with the files of all its sensors") {
@@ -117,10 +117,10 @@ TEST_CASE("a frame appears after those before it, with the files of all its sens
     write_slowly(at, file);
     const std::set<std::string> names = names_in(sequence.directory());
     for (std::uint32_t frame = 1; frame < 12; ++frame)
-      if (names.contains(fmt::format("a_{}.txt", frame)) &&
-          !names.contains(fmt::format("b_{}.txt", frame - 1)))
+      if (names.contains(fmt::format("a_{:04}.txt", frame)) &&
+          !names.contains(fmt::format("b_{:04}.txt", frame - 1)))
         in_order = false;
-    if (names.contains(fmt::format("a_{}.txt", at.frame)))
+    if (names.contains(fmt::format("a_{:04}.txt", at.frame)))
       in_order = false;
   });
   CHECK(in_order);
@@ -147,7 +147,7 @@ TEST_CASE("a file that cannot be written leaves the frames before it, even those
   CHECK_THROWS_WITH(write(), Catch::StartsWith(error + "; frame"));
   std::set<std::string> expected;
   for (std::uint32_t frame = 0; frame < failing; ++frame)
-    expected.insert({fmt::format("a_{}.txt", frame), fmt::format("b_{}.txt", frame)});
+    expected.insert({fmt::format("a_{:04}.txt", frame), fmt::format("b_{:04}.txt", frame)});
   CHECK(sequence.listed() == expected);
   for (std::uint32_t frame = 0; frame < failing; ++frame)
     expected.insert(fmt::format("{:04}.record.json", frame));

@@ -7,9 +7,11 @@
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <string>
+#include <sys/stat.h>
 
 using namespace pmdsim;
 
@@ -167,7 +169,12 @@ TEST_CASE("records without a run's file, and files that are none, are nobody's")
   std::filesystem::create_directory(folder.path);
   std::ofstream(folder.path / "0001.record.json") << R"({"frame": 1, "run": "a", "sensors": []})";
   std::ofstream(folder.path / "manifest.json") << "{}";
-  const std::string text = GENERATE("", "{", "{}", "[]", "none");
+  const std::string text = GENERATE(as<std::string>(), "", "{", "{}", "[]",
+                                    R"({"run": "a", "begun_by": {"host": "h", "process": 1}, "inputs": [3]})",
+                                    std::string(100'000, '['),
+                                    R"({"run": "a", "begun_by": {"host": "h", "process": 1}, "program": )" +
+                                        std::string(100'000, '[') + std::string(100'000, ']') + "}",
+                                    "none");
   if (text != "none")
     std::ofstream(folder.path / "run.json") << text;
   if (text != "none")
@@ -182,21 +189,100 @@ TEST_CASE("a record counts while its files are there, each of its size, and it i
   folder.make(run, 7);
   REQUIRE(run.whole(7));
   const auto file = folder.path / "pmd_0007.txt", record = folder.path / "0007.record.json";
+  const auto edit = [&](const std::function<void(nlohmann::json &)> &change) {
+    nlohmann::json json = nlohmann::json::parse(content_of(record));
+    change(json["sensors"][0]);
+    std::ofstream(record) << json;
+  };
   SECTION("a file has gone") { std::filesystem::remove(file); }
   SECTION("a file has grown") { std::ofstream(file, std::ios::app) << "x"; }
   SECTION("an empty record") { std::ofstream(record, std::ios::trunc); }
   SECTION("half a record") { std::filesystem::resize_file(record, 100); }
   SECTION("another run's") { std::ofstream(record) << R"({"frame": 7, "run": "b", "sensors": []})"; }
   SECTION("another frame's") { std::ofstream(record) << R"({"frame": 8, "run": "a", "sensors": []})"; }
+  SECTION("without sensors") { std::ofstream(record) << R"({"frame": 7, "run": "a", "sensors": []})"; }
+  SECTION("nested too deep") {
+    const std::string before = R"({"frame": 7, "run": "a", "sensors": )";
+    std::ofstream(record) << before << std::string(100'000, '[') << std::string(100'000, ']') << "}";
+  }
+  SECTION("without a time") {
+    edit([](nlohmann::json &sensor) { sensor["manifest"].erase("time_s"); });
+  }
+  SECTION("without a name") {
+    edit([](nlohmann::json &sensor) { sensor["manifest"].erase("sensor"); });
+  }
+  SECTION("sizes that are no list") {
+    edit([](nlohmann::json &sensor) { sensor["bytes"] = {{"a", 1}}; });
+  }
   SECTION("of another form") { std::ofstream(record) << R"({"frame": 7, "run": "a", "sensors": [{}]})"; }
-  SECTION("of files elsewhere") {
-    nlohmann::json json = nlohmann::json::parse(content_of(record));
-    json["sensors"][0]["manifest"]["outputs"][0] = "../out/pmd_0007.txt";
-    std::ofstream(record) << json;
+  SECTION("of files that are no frame's, or elsewhere") {
+    const std::string name = GENERATE("../out/pmd_0007.txt", "run.json", ".pmd_0007.txt", "pmd_0008.txt");
+    if (!std::filesystem::exists(folder.path / name))
+      std::filesystem::copy_file(file, folder.path / name);
+    edit([&](nlohmann::json &sensor) {
+      sensor["manifest"]["outputs"][0] = name;
+      sensor["bytes"][0] = std::filesystem::file_size(folder.path / name);
+    });
   }
   CHECK_FALSE(run.whole(7));
   folder.make(run, 7);
   CHECK(run.whole(7));
+}
+
+TEST_CASE("a record that is no regular file is refused, not waited for") {
+  const Folder folder;
+  RunFolder run = folder.entered();
+  REQUIRE(::mkfifo((folder.path / "0007.record.json").c_str(), 0600) == 0);
+  const Error refused = error_of([&] { run.whole(7); });
+  CHECK(refused.code() == ExitCode::input);
+  CHECK(refused.what() == (folder.path / "0007.record.json").string() + ": is no regular file");
+}
+
+TEST_CASE("where frames are to keep their promise, those that do not are not whole") {
+  const Folder folder;
+  RunFolder run = folder.entered();
+  folder.make(run, 1);
+  folder.make(run, 2);
+  folder.make(run, 3);
+  const auto edit = [&](const std::string &name, const char *part) {
+    nlohmann::json json = nlohmann::json::parse(content_of(folder.path / name));
+    json["sensors"][0][part]["unpromised"] = 5;
+    std::ofstream(folder.path / name) << json;
+  };
+  edit("0002.record.json", "manifest");
+  edit("0003.record.json", "told");
+  const RunFolder strict(folder.path, run_named("a"), {0, 100}, Earlier::kept, never, true);
+  CHECK(run.whole(2));
+  CHECK(run.whole(3));
+  CHECK(strict.whole(1));
+  CHECK_FALSE(strict.whole(2));
+  CHECK_FALSE(strict.whole(3));
+}
+
+TEST_CASE("a link to nothing in the place of the run's file is refused, not waited for") {
+  const Folder folder;
+  std::filesystem::create_directory(folder.path);
+  std::filesystem::create_symlink("nothing", folder.path / "run.json");
+  const Error refused = error_of([&] { folder.entered(); });
+  CHECK(refused.code() == ExitCode::output);
+  CHECK(refused.what() ==
+        (folder.path / "run.json").string() + ": cannot be written: it is a symbolic link to nothing");
+}
+
+TEST_CASE("waiting for another's manifest can be interrupted, and is not long where a run ends early") {
+  const Folder folder;
+  RunFolder run(folder.path, run_named("a"), {0, 100}, Earlier::made_again,
+                [] { throw Error(ExitCode::interrupted, "interrupted"); });
+  folder.make(run, 1);
+  constexpr std::uint64_t writing_manifest = 1;
+  {
+    ByteLocks other(::open((folder.path / "run.json").c_str(), O_RDWR | O_CLOEXEC));
+    REQUIRE(other.try_lock(writing_manifest, ByteLocks::Kind::exclusive));
+    CHECK(error_of([&] { run.write_manifest(); }).code() == ExitCode::interrupted);
+    CHECK_FALSE(run.keep_whole_frames());
+  }
+  CHECK(run.keep_whole_frames());
+  CHECK(folder.listed() == std::vector{1});
 }
 
 TEST_CASE("temporary files go with the last who lives there, and nobody else's") {
@@ -278,6 +364,7 @@ TEST_CASE("what differs between two runs is told by its place") {
     return of({{"version", "1"}, {"setup", {{"sensors", {{{"samples", 1}}, {{"samples", samples}}}}}}});
   };
   CHECK(difference_text(setup(2), setup(3)) == "the setup differs at /sensors/1/samples: 2 there, 3 here");
+  CHECK(difference_text(of({{"setup", 3}}), of({{"setup", {1}}})) == "its setup differs: 3 there, [1] here");
   CHECK(difference_text(of({{"version", "1"}, {"a", 1}}), of({{"version", "2"}, {"a", 2}})) ==
         "its version differs: \"1\" there, \"2\" here");
   const auto inputs = [&](const std::string &hash) {
@@ -309,4 +396,9 @@ TEST_CASE("a shard has the frames whose numbers leave its remainder") {
   CHECK(Shard{2, 8}.of({0, 2}).count() == 0);
   CHECK(Shard{0, 8}.of({5, 6}).count() == 0);
   CHECK(Shard{5, 8}.of({5, 6}).count() == 1);
+  constexpr std::uint32_t many = 4294967295;
+  CHECK(Shard{many - 1, many}.of({0, 10}).count() == 0);
+  CHECK(Shard{7, many}.of({3, 10}).at(0) == 7);
+  CHECK(Shard{7, many}.of({3, 10}).count() == 1);
+  CHECK(Shard{2, many}.of({3, 10}).count() == 0);
 }

@@ -59,7 +59,11 @@ TEST_CASE(
   CHECK(told.errors.starts_with("pmdsim: warning: pmd, frame 0: "));
   CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
   CHECK(std::ifstream(work / "out/pmd_0000.f0.error_bound_m.npy").good());
+  arguments.emplace_back("--resume");
+  CHECK(run_pmdsim(arguments).exit_code == 0); // as it is there
   arguments.emplace_back("--strict");
+  check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.0054 mm"});
+  std::erase(arguments, "--resume");
   check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.0054 mm"});
 }
 

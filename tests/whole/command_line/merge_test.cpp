@@ -115,11 +115,30 @@ TEST_CASE("folders of different runs, and such as hold none, are not merged") {
   }
   SECTION("none") {
     std::filesystem::create_directory(shards.work / "empty");
-    check_refusal(run_pmdsim({"merge", shards.work / "empty"}), 3, {"empty/run.json: cannot be read"});
-    check_refusal(run_pmdsim({"merge", shards.work / "absent"}), 3, {"absent/run.json: cannot be read"});
+    check_refusal(run_pmdsim({"merge", shards.work / "empty"}), 3,
+                  {"empty/run.json: no such file, expected what"});
+    check_refusal(run_pmdsim({"merge", shards.work / "absent"}), 3,
+                  {"absent/run.json: no such file, expected what"});
     shards.work.write("empty/run.json", "{}");
     check_refusal(run_pmdsim({"merge", shards.work / "empty"}), 3, {"is not a run's file"});
     CHECK_FALSE(std::filesystem::exists(shards.work / "absent"));
+  }
+  SECTION("a FIFO") {
+    std::filesystem::create_directory(shards.work / "empty");
+    REQUIRE(::mkfifo((shards.work / "empty/run.json").c_str(), 0600) == 0);
+    check_refusal(run_pmdsim({"merge", shards.work / "empty"}), 3, {"empty/run.json: is no regular file"});
+  }
+  SECTION("no number of frames") {
+    const auto frames =
+        GENERATE(R"({"count": -1})", R"({"count": 4000000000})", R"({"trajectory": "a"})", "3");
+    for (int i = 0; i < 3; ++i) {
+      const std::string file = fmt::format("shard{}/run.json", i);
+      json run = json::parse(bytes_in(shards.work / file));
+      run["setup"]["frames"] = json::parse(frames);
+      shards.work.write(file, run.dump());
+    }
+    check_refusal(run_pmdsim(arguments), 3,
+                  {"shard0/run.json: /setup/frames/count: expected the number of the run's frames"});
   }
   SECTION("into one of them") {
     check_refusal(

@@ -149,6 +149,36 @@ TEST_CASE("--resume makes frames whose files are missing or of another size, and
   }
 }
 
+TEST_CASE("--resume makes frames again whose records have been edited") {
+  const ManyFrames two(2);
+  two.run_well("alone");
+  two.run_well("out");
+  json record = json::parse(bytes_in(two.record("out", 1)));
+  record["sensors"][0]["manifest"].erase("time_s");
+  std::ofstream(two.record("out", 1)) << record;
+  const Run run = two.run("out", {"--resume", "--json"});
+  INFO(run.errors);
+  CHECK(run.exit_code == 0);
+  two.check_same("out", "alone");
+}
+
+TEST_CASE("--resume refuses a run's file whose setup or inputs are none") {
+  const ManyFrames one(1);
+  one.run_well("out");
+  auto run = nlohmann::ordered_json::parse(bytes_in(one.work / "out/run.json"));
+  std::string expected;
+  SECTION("inputs") {
+    run["inputs"] = nlohmann::ordered_json::parse(GENERATE(as<std::string>(), "3", "[3]"));
+    expected = "its run.json cannot be read";
+  }
+  SECTION("setup") {
+    run["setup"] = 3;
+    expected = "its setup differs: 3 there";
+  }
+  one.work.write("out/run.json", run.dump());
+  check_refusal(one.run("out", {"--resume"}), 3, {"--resume: it holds another run: " + expected});
+}
+
 TEST_CASE("--resume refuses a folder of another setup, scene, device, option, command or version") {
   const ManyFrames two(2);
   two.run_well("out");

@@ -1,0 +1,35 @@
+#include "host/output/run/run_json.h"
+
+#include "host/input/file/json_file.h"
+
+namespace pmdsim {
+namespace {
+
+// Whether brackets outside strings are nested deeper, of whatever text.
+bool is_too_deep(const std::string &text) {
+  std::size_t depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char character = text[i];
+    if (character == '"')
+      in_string = !in_string;
+    else if (in_string)
+      i += character == '\\' ? 1 : 0;
+    else if ((character == '{' || character == '[') && ++depth > max_json_depth)
+      return true;
+    else if ((character == '}' || character == ']') && depth > 0)
+      --depth;
+  }
+  return false;
+}
+
+} // namespace
+
+std::optional<nlohmann::ordered_json> parsed_in_order(const std::string &text) {
+  if (is_too_deep(text))
+    return std::nullopt;
+  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+}
+
+} // namespace pmdsim
