@@ -246,6 +246,36 @@ TEST_CASE("HDF5 files whose names cannot be listed are read or refused") {
   CHECK(damaged > 0);
 }
 
+TEST_CASE("compressed chunks that are too short or too long are refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  for (const std::size_t bytes : {0u, 8u, 20u, 24u, 28u, 4096u}) {
+    const auto path = made_h5(folder, [&](hid_t file) {
+      const hsize_t sizes[2]{2, 3}, at[2]{0, 0};
+      const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose);
+      const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      H5Pset_chunk(creation.id(), 2, sizes);
+      H5Pset_deflate(creation.id(), 1);
+      const Hdf5Handle dataset(
+          H5Dcreate2(file, "z_m", H5T_IEEE_F32LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+          H5Dclose);
+      std::vector<std::uint8_t> stored{0x78, 0x01, 0x01}; // zlib, one block as it is
+      for (const std::size_t length : {bytes, ~bytes})
+        for (const unsigned shift : {0u, 8u})
+          stored.push_back(static_cast<std::uint8_t>(length >> shift));
+      stored.insert(stored.end(), bytes, 0);
+      const auto sum = static_cast<std::uint32_t>(bytes << 16 | 1); // Adler-32 of zeros
+      for (const unsigned shift : {24u, 16u, 8u, 0u})
+        stored.push_back(static_cast<std::uint8_t>(sum >> shift));
+      H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, at, stored.size(), stored.data());
+    });
+    INFO(bytes << " bytes");
+    if (bytes == 24)
+      CHECK(std::get<std::vector<float>>(read_frame(path).channels.at(0).values) == std::vector<float>(6));
+    else
+      check_refused(path, "dataset z_m: expected whole chunks");
+  }
+}
+
 TEST_CASE("links to one dataset hold no more than the file, links elsewhere are no channels") {
   const pmdsim::test::TemporaryFolder folder;
   const auto make = [&](bool is_linked_often) {
