@@ -5,6 +5,8 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <libdeflate.h>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,16 +59,19 @@ public:
       const Hdf5Handle object = opened(H5Oopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
       if (H5Iget_type(object.id()) != H5I_DATASET)
         continue;
+      const Hdf5Handle creation = opened(H5Dget_create_plist(object.id()), H5Pclose);
+      require_readable(creation.id(), name);
       const auto sizes = sizes_of(object.id());
       if (!sizes)
         continue;
-      require_readable(object.id(), name);
       const auto [rows, columns] = *sizes;
       const glm::uvec2 resolution =
           checked_resolution(frame_, columns, rows, 1, stored_bytes(object.id(), name));
       if (!read.channels.empty() && resolution != read.resolution)
         throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
                                               read.resolution.x, read.resolution.y));
+      if (!has_whole_chunks(object.id(), creation.id(), *sizes))
+        throw frame_error(frame_, fmt::format("dataset {}: expected whole chunks", name));
       read.resolution = resolution;
       read.channels.push_back(channel(object.id(), name, std::size_t{resolution.x} * resolution.y));
     }
@@ -108,24 +113,67 @@ private:
     return sizes;
   }
 
-  // Nothing of another file, and no filter beyond the library's own.
-  void require_readable(hid_t dataset, const std::string &name) const {
-    const Hdf5Handle creation = opened(H5Dget_create_plist(dataset), H5Pclose);
-    bool is_readable =
-        H5Pget_layout(creation.id()) != H5D_VIRTUAL && H5Pget_external_count(creation.id()) <= 0;
-    const int filters = H5Pget_nfilters(creation.id());
-    for (int i = 0; i < filters; ++i) {
+  using Filters = std::vector<H5Z_filter_t>;
+
+  static Filters filters_of(hid_t creation) {
+    Filters filters;
+    const int count = H5Pget_nfilters(creation);
+    for (int i = 0; i < count; ++i) {
       unsigned flags = 0, config = 0;
       std::size_t values = 0;
-      const H5Z_filter_t filter = H5Pget_filter2(creation.id(), static_cast<unsigned>(i), &flags, &values,
-                                                 nullptr, 0, nullptr, &config);
-      is_readable = is_readable && (filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_SHUFFLE ||
-                                    filter == H5Z_FILTER_FLETCHER32);
+      filters.push_back(
+          H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, &config));
     }
-    if (!is_readable)
+    return filters;
+  }
+
+  // Nothing of another file, and no filters but shuffle, gzip or both.
+  void require_readable(hid_t creation, const std::string &name) const {
+    const Filters filters = filters_of(creation);
+    const bool is_readable = filters.empty() || filters == Filters{H5Z_FILTER_SHUFFLE} ||
+                             filters == Filters{H5Z_FILTER_DEFLATE} ||
+                             filters == Filters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE};
+    if (!is_readable || H5Pget_layout(creation) == H5D_VIRTUAL || H5Pget_external_count(creation) > 0)
       throw frame_error(frame_, fmt::format("dataset {}: expected values in this file, without compression "
                                             "or with gzip",
                                             name));
+  }
+
+  bool has_whole_chunks(hid_t dataset, hid_t creation, const std::array<hsize_t, 2> &sizes) const {
+    const Filters filters = filters_of(creation);
+    if (filters.empty())
+      return true;
+    std::array<hsize_t, 2> chunk{};
+    if (H5Pget_chunk(creation, 2, chunk.data()) != 2 || chunk[0] < 1 || chunk[1] < 1 || chunk[0] > sizes[0] ||
+        chunk[1] > sizes[1])
+      return false;
+    const unsigned deflate_mask = filters.back() == H5Z_FILTER_DEFLATE ? 1u << (filters.size() - 1) : 0;
+    for (hsize_t row = 0; row < sizes[0]; row += chunk[0])
+      for (hsize_t column = 0; column < sizes[1]; column += chunk[1])
+        if (!is_whole_chunk(dataset, {row, column}, chunk[0] * chunk[1] * sizeof(float), deflate_mask))
+          return false;
+    return true;
+  }
+
+  // HDF5 1.10 trusts that what a filter makes fills a chunk, and else reads beyond it.
+  bool is_whole_chunk(hid_t dataset, const std::array<hsize_t, 2> &at, hsize_t bytes,
+                      unsigned deflate_mask) const {
+    hsize_t stored = 0;
+    std::uint32_t left_out = 0;
+    check(H5Dget_chunk_storage_size(dataset, at.data(), &stored));
+    if (stored < 1 || stored > frame_.content.size())
+      return false;
+    std::vector<std::uint8_t> raw(stored);
+    check(H5Dread_chunk(dataset, H5P_DEFAULT, at.data(), &left_out, raw.data()));
+    return (deflate_mask & ~left_out) != 0 ? inflates_to(raw, bytes) : stored == bytes;
+  }
+
+  static bool inflates_to(const std::vector<std::uint8_t> &raw, hsize_t bytes) {
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
+        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    std::vector<std::uint8_t> whole(bytes);
+    return inflater && libdeflate_zlib_decompress(inflater.get(), raw.data(), raw.size(), whole.data(),
+                                                  whole.size(), nullptr) == LIBDEFLATE_SUCCESS;
   }
 
   // All together have no more than the file: several may be links to one, which are read one by one.

@@ -15,6 +15,7 @@
 #include <functional>
 #include <hdf5_hl.h>
 #include <iterator>
+#include <malloc.h>
 #include <random>
 #include <string>
 #include <vector>
@@ -228,22 +229,56 @@ TEST_CASE("HDF5 files of other things are refused") {
                 "dataset z_m: expected values in this file");
 }
 
-TEST_CASE("HDF5 files whose names cannot be listed are read or refused") {
+TEST_CASE("HDF5 files whose names cannot be listed are refused") {
   const pmdsim::test::TemporaryFolder folder;
-  const WrittenFrame written({9, 70});
-  written.write(folder.path() / "frame.h5");
-  const std::string whole = bytes_of(folder.path() / "frame.h5");
-  std::size_t damaged = 0; // the types of links and the lengths of their names among them
-  for (std::size_t at = whole.find("distance_m"); at != whole.npos; at = whole.find("distance_m", at + 1))
-    for (std::size_t before = 1; before <= 16 && before <= at; ++before)
-      for (const char value : {'\0', '\x7f', '\xff'}) {
-        std::string changed = whole;
-        changed[at - before] = value;
-        INFO("byte " << at - before);
-        check_survives(folder.write("changed", changed));
-        ++damaged;
-      }
-  CHECK(damaged > 0);
+  const std::vector<float> floats(2, 1.5f);
+  ChannelSet many{{2, 1}, {}}; // more than fit into memory that is handed out again as it is
+  for (const std::string quantity : {"amplitude", "distance_m", "phase_rad", "tap0", "tap1", "tap2"})
+    for (std::size_t f = 0; f < 16; ++f)
+      many.channels.push_back({quantity, "", std::span(floats), f});
+  OutputFile file(folder.path() / "many.h5");
+  write_h5(file, many, {Sensor{}, 0, 0.0});
+  file.close();
+  file.publish();
+  std::string changed = bytes_of(folder.path() / "many.h5");
+  // Version, flags, order and length come before the name of a link.
+  const std::size_t version = changed.find("f15.tap1") - 11;
+  REQUIRE(changed[version] == 1);
+  changed[version] = '\x7f';
+  folder.write("changed.h5", changed);
+  mallopt(M_PERTURB, 165); // memory that nobody has set is not 0
+  check_refused(folder.path() / "changed.h5", "cannot be read");
+  mallopt(M_PERTURB, 0);
+}
+
+TEST_CASE("compressed chunks that are too short or too long are refused") {
+  const pmdsim::test::TemporaryFolder folder;
+  for (const std::size_t bytes : {0u, 8u, 20u, 24u, 28u, 4096u}) {
+    const auto path = made_h5(folder, [&](hid_t file) {
+      const hsize_t sizes[2]{2, 3}, at[2]{0, 0};
+      const Hdf5Handle space(H5Screate_simple(2, sizes, nullptr), H5Sclose);
+      const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      H5Pset_chunk(creation.id(), 2, sizes);
+      H5Pset_deflate(creation.id(), 1);
+      const Hdf5Handle dataset(
+          H5Dcreate2(file, "z_m", H5T_IEEE_F32LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+          H5Dclose);
+      std::vector<std::uint8_t> stored{0x78, 0x01, 0x01}; // zlib, one block as it is
+      for (const std::size_t length : {bytes, ~bytes})
+        for (const unsigned shift : {0u, 8u})
+          stored.push_back(static_cast<std::uint8_t>(length >> shift));
+      stored.insert(stored.end(), bytes, 0);
+      const auto sum = static_cast<std::uint32_t>(bytes << 16 | 1); // Adler-32 of zeros
+      for (const unsigned shift : {24u, 16u, 8u, 0u})
+        stored.push_back(static_cast<std::uint8_t>(sum >> shift));
+      H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, at, stored.size(), stored.data());
+    });
+    INFO(bytes << " bytes");
+    if (bytes == 24)
+      CHECK(std::get<std::vector<float>>(read_frame(path).channels.at(0).values) == std::vector<float>(6));
+    else
+      check_refused(path, "dataset z_m: expected whole chunks");
+  }
 }
 
 TEST_CASE("links to one dataset hold no more than the file, links elsewhere are no channels") {
