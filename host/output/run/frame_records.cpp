@@ -110,9 +110,10 @@ std::optional<ordered_json> read_record(const fs::path &folder, std::uint32_t fr
   try {
     if (record && record->at("run") == run_hash && has_its_form(*record, frame))
       return record;
-  } catch (const nlohmann::json::exception &) { // nor is it what was written
+    return std::nullopt;
+  } catch (const nlohmann::json::exception &) { // it is not what was written
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 bool has_its_files(const fs::path &folder, const ordered_json &record) {
