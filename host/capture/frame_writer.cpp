@@ -7,7 +7,7 @@
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"
 
-#include <array>
+#include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -26,8 +26,14 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
 } // namespace
 
 std::string format_name(Format format) {
-  constexpr std::array names{"exr", "npz", "h5", "npy", "png", "csv"}; // in the order of Format
-  return names.at(static_cast<std::size_t>(format));
+  return std::string(format_names.at(static_cast<std::size_t>(format)));
+}
+
+Format format_named(std::string_view name) {
+  const auto found = std::ranges::find(format_names, name);
+  if (found == format_names.end())
+    throw std::logic_error("a format of no known name");
+  return static_cast<Format>(found - format_names.begin());
 }
 
 void require_names_for_files(const std::vector<Sensor> &sensors) {

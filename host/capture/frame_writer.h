@@ -6,17 +6,22 @@
 #include "host/output/files/channel.h"
 #include "host/output/files/output_set.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pmdsim {
 
 enum class Format { exr, npz, h5, npy, png, csv };
-// As the command line has it.
+// As the command line has them, in the order of Format.
+inline constexpr std::array<std::string_view, 6> format_names{"exr", "npz", "h5", "npy", "png", "csv"};
 std::string format_name(Format format);
+// Of one of these names.
+Format format_named(std::string_view name);
 
 // Throws Error (input) where a sensor's name cannot be part of a file's name; to be asked before measuring.
 void require_names_for_files(const std::vector<Sensor> &sensors);

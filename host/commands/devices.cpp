@@ -8,13 +8,6 @@
 namespace pmdsim {
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json device_json(const DeviceInfo &device) {
-  return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
-          {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};
-}
-
 std::string report_text(const std::vector<DeviceInfo> &devices) {
   std::string text;
   if (devices.empty())

@@ -14,11 +14,7 @@ pmdsim_status pmdsim_devices(const char **json) {
   return guarded([&] {
     required(json, "json");
     settle_environment();
-    *json = keep_for_thread(json_text(array_of(list_devices(), [](const DeviceInfo &device) {
-      return nlohmann::ordered_json{{"index", device.index},   {"name", device.name},
-                                    {"kind", device.kind},     {"driver", device.driver},
-                                    {"usable", device.usable}, {"lacks", device.lacks}};
-    })));
+    *json = keep_for_thread(json_text(array_of(list_devices(), device_json)));
   });
 }
 

@@ -90,6 +90,11 @@ ordered_json bounces_json(const BouncesReport &report) {
           {"claimed_m", report.claimed_m}};
 }
 
+ordered_json device_json(const DeviceInfo &device) {
+  return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
+          {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};
+}
+
 ordered_json passes_json(const std::vector<PassTime> &passes) {
   ordered_json json = ordered_json::object();
   for (const PassTime &pass : passes)

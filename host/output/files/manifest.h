@@ -102,6 +102,9 @@ nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 // elements, lines, products, claimed_m (null where nothing is claimed).
 nlohmann::ordered_json bounces_json(const BouncesReport &report);
 
+// index, name, kind, driver, usable, lacks.
+nlohmann::ordered_json device_json(const DeviceInfo &device);
+
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
