@@ -34,14 +34,16 @@ vk::raii::Context load() {
   }
 }
 
-vk::raii::Instance create(const vk::raii::Context &loader, bool validate, ValidationMessages &messages) {
+// With `messages` under the validation layer, which speaks there.
+vk::raii::Instance create(const vk::raii::Context &loader, ValidationMessages *messages) {
   const vk::ApplicationInfo application("pmdsim", 1, nullptr, 0, VK_API_VERSION_1_3);
   vk::InstanceCreateInfo info({}, &application);
   const auto synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
-  const auto messenger = messenger_info(messages);
-  const vk::ValidationFeaturesEXT features(synchronization, {}, &messenger);
   const char *extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-  if (validate) {
+  vk::DebugUtilsMessengerCreateInfoEXT messenger;
+  const vk::ValidationFeaturesEXT features(synchronization, {}, &messenger);
+  if (messages != nullptr) {
+    messenger = messenger_info(*messages);
     info.setPEnabledLayerNames(validation_layer).setPEnabledExtensionNames(extension).setPNext(&features);
   }
   return checked([&] {
@@ -53,11 +55,31 @@ vk::raii::Instance create(const vk::raii::Context &loader, bool validate, Valida
   });
 }
 
+// Drivers stay loaded once one has been: some, as NVIDIA's, crash or can no longer start after they have been
+// unloaded and loaded again. An instance holds its drivers, so that a process keeps its first one and never
+// lets go of it.
+struct Drivers {
+  vk::raii::Context loader;
+  vk::raii::Instance instance;
+};
+
+const Drivers &drivers() {
+  static const Drivers *const kept = [] {
+    vk::raii::Context loader = load();
+    vk::raii::Instance instance = create(loader, nullptr);
+    return new Drivers{std::move(loader), std::move(instance)};
+  }();
+  return *kept;
+}
+
 } // namespace
 
-Instance::Instance(bool validate) : loader_(load()), instance_(create(loader_, validate, messages_)) {
-  if (validate)
-    messenger_.emplace(instance_, messenger_info(messages_));
+Instance::Instance(bool validate) : instance_(&drivers().instance) {
+  if (!validate)
+    return;
+  validated_.emplace(create(drivers().loader, &messages_));
+  messenger_.emplace(*validated_, messenger_info(messages_));
+  instance_ = &*validated_;
 }
 
 Instance::~Instance() {
@@ -71,7 +93,7 @@ Instance::~Instance() {
 std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
   return checked([&]() -> std::vector<vk::raii::PhysicalDevice> {
     try {
-      vk::raii::PhysicalDevices found(instance_);
+      vk::raii::PhysicalDevices found(*instance_);
       return {std::make_move_iterator(found.begin()), std::make_move_iterator(found.end())};
     } catch (const vk::InitializationFailedError &) {
       return {}; // what the loader says where a driver is listed and none starts

@@ -13,8 +13,9 @@ using ValidationMessages = std::vector<std::string>;
 
 class Instance {
 public:
-  // With `validate` under VK_LAYER_KHRONOS_validation, synchronization validation included. Throws Error:
-  // no_device where there is no loader, no driver or (with `validate`) no layer.
+  // The process's, whose drivers stay loaded; with `validate` under VK_LAYER_KHRONOS_validation,
+  // synchronization validation included. Throws Error: no_device where there is no loader, no driver or (with
+  // `validate`) no layer.
   explicit Instance(bool validate);
   // Ends the process where the validation layer has spoken: nobody could throw what it says while objects are
   // destroyed.
@@ -22,14 +23,14 @@ public:
   Instance(const Instance &) = delete;
   Instance &operator=(const Instance &) = delete;
 
-  const vk::raii::Instance &get() const { return instance_; }
+  const vk::raii::Instance &get() const { return *instance_; }
   std::vector<vk::raii::PhysicalDevice> devices() const;
   const ValidationMessages &messages() const { return messages_; }
 
 private:
   ValidationMessages messages_;
-  vk::raii::Context loader_;
-  vk::raii::Instance instance_;
+  const vk::raii::Instance *instance_; // the process's, or the next one
+  std::optional<vk::raii::Instance> validated_;
   std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
 };
 
