@@ -18,6 +18,9 @@
  * time; another meanwhile gives PMDSIM_BUSY, but for pmdsim_simulator_cancel(). Frames are constant and may
  * be read by any thread.
  *
+ * Processes. A process that is forked from one that has used the library may read its frames and exec another
+ * program, and must not call the library otherwise: a fork copies no threads of the device.
+ *
  * Text is UTF-8 and ends with NUL. Text and values that the library returns are its own; each function says
  * how long they live.
  *
@@ -68,7 +71,7 @@ typedef enum pmdsim_status {
 typedef struct pmdsim_simulator pmdsim_simulator; /* a device and a setup */
 typedef struct pmdsim_frame pmdsim_frame;         /* what one sensor measured */
 
-/* The version of the library, "0.7.0", and its PMDSIM_ABI. */
+/* The version of the library, as "0.6.0", and its PMDSIM_ABI. */
 PMDSIM_API const char *pmdsim_version(void);
 PMDSIM_API int pmdsim_abi(void);
 
