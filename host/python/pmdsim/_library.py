@@ -208,5 +208,5 @@ def channels() -> List[Dict[str, Any]]:
 
 
 def version() -> str:
-    """The library's version, "0.7.0"."""
+    """The library's version, as "0.6.0"."""
     return _decoded(library().pmdsim_version())
