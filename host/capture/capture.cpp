@@ -63,15 +63,19 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
   frames_to_write(request, setup);
   require_names_for_files(setup.start.sensors);
   request.channels.require_in(setup, request.accuracy);
+  if (request.accuracy.strict && exposes_any_tap_by_tap(setup))
+    throw Error(ExitCode::accuracy, fmt::format("--strict: {}", tap_by_tap_is_exact));
+  if (request.formats == std::set{Format::png} && !request.channels.have_previews())
+    throw Error(ExitCode::usage, "--format png: no picture is made of any of --channels, expected another "
+                                 "format beside it");
 }
 
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
   Setup setup = loader.load(document);
   for (const std::string &warning : setup.warnings)
     fmt::print(stderr, "pmdsim: warning: {}\n", warning);
-  if (request.accuracy.mode != Mode::exact && exposes_any_tap_by_tap(setup))
-    fmt::print(stderr, "pmdsim: warning: frames whose taps are taken one after the other are taken in mode "
-                       "exact, and nothing is claimed of their errors\n");
+  if (request.accuracy.mode != Mode::exact && !request.accuracy.strict && exposes_any_tap_by_tap(setup))
+    fmt::print(stderr, "pmdsim: warning: {}\n", tap_by_tap_is_exact);
   if (request.samples)
     set_samples(setup, *request.samples);
   return setup;

@@ -56,6 +56,11 @@ bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor);
 
 bool exposes_any_tap_by_tap(const Setup &setup);
 
+// What is told of such frames where an error is asked for.
+inline constexpr const char *tap_by_tap_is_exact =
+    "frames whose taps are taken one after the other are taken in mode exact, and nothing is claimed of "
+    "their errors";
+
 // Samples that are measured for one frame, in all its exposures; of one sensor, and of all.
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);

@@ -47,9 +47,8 @@ json json_of_line(std::string_view line, std::size_t lines_before, const std::fi
 
 json changes_for(const PosesFromFile &poses, const SetupDocument &document) {
   const json trajectory{
-      {"trajectory", std::filesystem::proximate(
-                         poses.file, document.file.parent_path().empty() ? "." : document.file.parent_path())
-                         .string()}};
+      {"trajectory",
+       std::filesystem::proximate(poses.file, document.folder.empty() ? "." : document.folder).string()}};
   const char *list = "nodes";
   for (const char *other : {"illuminators", "sensors"})
     if (has_one_named(document.json, other, poses.name))

@@ -112,6 +112,8 @@ WantedChannels::WantedChannels(const std::vector<std::string> &names,
   }
   if (names.empty())
     throw Error(ExitCode::usage, "--channels: expected at least one name");
+  std::ranges::sort(names_); // the same channels in another order are the same run
+  names_.erase(std::ranges::unique(names_).begin(), names_.end());
 }
 
 bool WantedChannels::has(const ChannelIndex &channel) const {
@@ -131,6 +133,11 @@ bool WantedChannels::has_own(const std::string &name) const {
 bool WantedChannels::have_taps() const {
   return std::ranges::any_of(channel_rows,
                              [&](const ChannelRow &row) { return is_of_taps(row) && has(row); });
+}
+
+bool WantedChannels::have_previews() const {
+  return !own_names_.empty() ||
+         std::ranges::any_of(channel_rows, [&](const ChannelRow &row) { return row.preview && has(row); });
 }
 
 WantedChannels WantedChannels::with(const ChannelRow &row) const {

@@ -24,7 +24,7 @@ public:
                           const std::vector<std::string> &own_names = {});
 
   bool are_all() const { return names_.empty(); }
-  // As they were asked for; none where all are.
+  // In the order of the alphabet; none where all are.
   const std::vector<std::string> &names() const { return names_; }
 
   // Whether a channel is wanted; one of a command; a row, of some frequency; and any that is of taps.
@@ -32,6 +32,8 @@ public:
   bool has_own(const std::string &name) const;
   bool has(const ChannelRow &row) const;
   bool have_taps() const;
+  // Whether there may be a picture of any.
+  bool have_previews() const;
 
   // The same and one more, of all frequencies; nothing changes where all are wanted.
   WantedChannels with(const ChannelRow &row) const;

@@ -89,10 +89,9 @@ hid_t driver_id() {
 
 } // namespace
 
-Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (H5Pset_driver(access.id(), driver_id(), &bytes) >= 0)
-    file_ = {H5Fopen("frame", H5F_ACC_RDONLY, access.id()), H5Fclose};
+Hdf5MemoryFile::Hdf5MemoryFile(std::string_view bytes) : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {
+  if (H5Pset_driver(access_.id(), driver_id(), &bytes) >= 0)
+    file_ = {H5Fopen("frame", H5F_ACC_RDONLY, access_.id()), H5Fclose};
 }
 
 Hdf5MemoryFile::~Hdf5MemoryFile() {

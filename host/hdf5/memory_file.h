@@ -21,6 +21,7 @@ public:
   hid_t id() const { return file_.id(); }
 
 private:
+  Hdf5Handle access_; // closed last, as HDF5 forgets why it failed when it closes anything
   Hdf5Handle file_;
 };
 

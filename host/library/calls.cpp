@@ -29,15 +29,25 @@ pmdsim_status keep(pmdsim_status status, const char *message, const Whereabouts 
   return status;
 }
 
+pmdsim_status keep(const Error &error) noexcept {
+  const std::string_view file = error.where().file;
+  const bool is_text = file == setup_text || file == changes_text;
+  // The program's options are arguments here.
+  const bool names_option =
+      error.code() == ExitCode::usage && std::string_view(error.what()).starts_with("--");
+  const char *message = error.what() + (names_option ? 2 : 0);
+  const auto status = static_cast<pmdsim_status>(error.code());
+  return is_text ? keep(status, message, {"", error.where().place}) : keep(status, message, error.where());
+}
+
 // What stands at the front of a caller's struct. A struct smaller than the first version's is none.
 std::size_t size_of(const void *given, std::size_t first_size, const char *name) {
   std::size_t size = 0;
   std::memcpy(&size, given, sizeof(size));
   constexpr std::size_t largest = 4096; // of any version to come
   if (size < first_size || size > largest)
-    throw bad_argument(
-        fmt::format("{}: expected a struct_size of {} bytes or more, as its sizeof is, found {}", name,
-                    first_size, size));
+    throw bad_argument(fmt::format("{}: expected a struct_size of {} to {} bytes, as its sizeof is, found {}",
+                                   name, first_size, largest, size));
   return size;
 }
 
@@ -61,7 +71,7 @@ pmdsim_status handled_exception() noexcept {
   } catch (const Refusal &refusal) {
     return keep(refusal.status, refusal.message.c_str());
   } catch (const Error &error) {
-    return keep(static_cast<pmdsim_status>(error.code()), error.what(), error.where());
+    return keep(error);
   } catch (const std::bad_alloc &) {
     return keep(PMDSIM_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &error) {

@@ -10,6 +10,9 @@
 
 namespace pmdsim::library {
 
+// What errors name in place of a file, where text is in none.
+inline constexpr const char *setup_text = "the setup", *changes_text = "the changes";
+
 // A status that is no exit code of the program.
 struct Refusal {
   pmdsim_status status;

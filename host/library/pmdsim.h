@@ -96,7 +96,8 @@ PMDSIM_API pmdsim_status pmdsim_simulator_create(const char *device, pmdsim_simu
 PMDSIM_API pmdsim_status pmdsim_simulator_destroy(pmdsim_simulator *simulator);
 
 /* Takes a setup (docs/setup.md) in place of the one before: a file, or `length` bytes of text whose relative
- * paths start from `directory` (NULL: the process's). Changes that were set are gone. PMDSIM_BAD_INPUT. */
+ * paths start from `directory` (NULL: the process's). Paths do not follow the process to another directory
+ * later. Changes that were set are gone. PMDSIM_BAD_INPUT. */
 PMDSIM_API pmdsim_status pmdsim_simulator_load(pmdsim_simulator *simulator, const char *file);
 PMDSIM_API pmdsim_status pmdsim_simulator_load_text(pmdsim_simulator *simulator, const char *text,
                                                     size_t length, const char *directory);
@@ -120,14 +121,14 @@ PMDSIM_API pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator,
 
 /* Changes the setup: `json` is an object of paths and values, {"sensors/0/focal_length_m": 0.02,
  * "nodes/robot/pose": {"matrix": [[...], [...], [...], [...]]}}. A path is a JSON pointer, with or without
- * its first slash, and may have the "name" of an element for its index. All changes together are checked as a
- * setup is, and taken or refused; they stay until the next load. Scene files are not read again.
- * PMDSIM_BAD_INPUT. */
+ * its first slash, and may have the "name" of an element for its index; a number is an index. All changes
+ * together are checked as a setup is, and taken or refused; they stay until the next load. Scene files are
+ * not read again. PMDSIM_BAD_INPUT. */
 PMDSIM_API pmdsim_status pmdsim_simulator_set(pmdsim_simulator *simulator, const char *json);
 
 /* {"device", "driver", "setup" (as used, all defaults filled in), "sensors" (their names), "frames" (their
  * number), "warnings" (lines)}, as JSON that lives until the next call with the simulator. Without a setup
- * "setup" is null. */
+ * "setup" is null, and nothing follows. */
 PMDSIM_API pmdsim_status pmdsim_simulator_describe(pmdsim_simulator *simulator, const char **json);
 
 /* Ends the call that the simulator is in, soon, with PMDSIM_CANCELLED; from any thread, but from no signal

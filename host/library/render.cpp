@@ -107,7 +107,7 @@ FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
 }
 
 nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, double time_s,
-                                 double max_error_m) {
+                                 const Accuracy &asked) {
   const Measurement &measured = taken.measurement;
   nlohmann::ordered_json json = frame_json({taken.sensor, frame, time_s, measured.frame_ms, measured.passes,
                                             taken.mode, measured.accuracy, measured.bounces});
@@ -115,8 +115,11 @@ nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, d
   json["frame_ms"] = measured.frame_ms;
   json["passes_ms"] = passes_json(measured.passes);
   json["check_ms"] = measured.accuracy.check_ms;
-  const std::string warning = unpromised_text(measured.accuracy, max_error_m);
-  json["warnings"] = warning.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json{warning};
+  json["warnings"] = nlohmann::ordered_json::array();
+  if (taken.mode == Mode::exact && asked.mode != Mode::exact)
+    json["warnings"].push_back(tap_by_tap_is_exact);
+  if (const std::string text = unpromised_text(measured.accuracy, asked.max_error_m); !text.empty())
+    json["warnings"].push_back(text);
   return json;
 }
 
@@ -143,8 +146,8 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     made->camera = session.camera();
     made->taken = session.take(sensor, frame, request, stop_when_cancelled);
     made->channels = pmdsim::channels_of(made->taken->measurement);
-    made->report = json_text(
-        report_of(*made->taken, frame, session.setup().frames.time_s(frame), request.accuracy.max_error_m));
+    made->report =
+        json_text(report_of(*made->taken, frame, session.setup().frames.time_s(frame), request.accuracy));
     *result = add_frame(std::move(made));
   });
 }

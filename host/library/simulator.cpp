@@ -12,8 +12,18 @@
 namespace pmdsim::library {
 namespace {
 
-std::filesystem::path text_file(const char *directory) {
-  return std::filesystem::path(directory ? directory : "") / "setup";
+// Relative paths stay as they are, whatever the process's directory is later.
+SetupDocument settled(SetupDocument document) {
+  std::error_code error;
+  if (const auto current = std::filesystem::current_path(error); !error)
+    document.folder = current / document.folder;
+  return document;
+}
+
+SetupDocument document_of(std::string_view text, const char *directory) {
+  SetupDocument document = parse_setup_document(text, setup_text);
+  document.folder = directory ? directory : "";
+  return settled(std::move(document));
 }
 
 std::string_view text_of(const char *text, std::size_t length) { return {&required(text, "text"), length}; }
@@ -68,14 +78,13 @@ pmdsim_status pmdsim_simulator_destroy(pmdsim_simulator *simulator) {
 }
 
 pmdsim_status pmdsim_simulator_load(pmdsim_simulator *simulator, const char *file) {
-  return guarded([&] { InCall(simulator)->session.load(read_setup_document(&required(file, "file"))); });
+  return guarded(
+      [&] { InCall(simulator)->session.load(settled(read_setup_document(&required(file, "file")))); });
 }
 
 pmdsim_status pmdsim_simulator_load_text(pmdsim_simulator *simulator, const char *text, size_t length,
                                          const char *directory) {
-  return guarded([&] {
-    InCall(simulator)->session.load(parse_setup_document(text_of(text, length), text_file(directory)));
-  });
+  return guarded([&] { InCall(simulator)->session.load(document_of(text_of(text, length), directory)); });
 }
 
 pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator, const char *text, size_t length,
@@ -83,7 +92,7 @@ pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator, const char
   return guarded([&] {
     const InCall in(simulator);
     const auto scene = std::make_shared<const Scene>(scene_of(struct_of(mesh, sizeof(pmdsim_mesh), "mesh")));
-    in->session.load(parse_setup_document(text_of(text, length), text_file(directory)), scene);
+    in->session.load(document_of(text_of(text, length), directory), scene);
   });
 }
 
@@ -92,7 +101,7 @@ pmdsim_status pmdsim_simulator_set(pmdsim_simulator *simulator, const char *json
     const InCall in(simulator);
     if (!in->session.has_setup())
       throw bad_argument("the simulator has no setup that could be changed");
-    in->session.set(parse_json(&required(json, "json"), "json", Comments::refused));
+    in->session.set(parse_json(&required(json, "json"), changes_text, Comments::refused));
   });
 }
 

@@ -5,6 +5,7 @@
 #include "tests/program/program.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,12 @@ struct Loaded {
   std::string file;
   pmdsim_simulator *simulator = nullptr;
 
-  explicit Loaded(const std::string &setup = small_setup(), const char *device = nullptr) {
+  // With files of these names and contents beside the setup.
+  explicit Loaded(const std::string &setup = small_setup(), const char *device = nullptr,
+                  const std::map<std::string, std::string> &files = {}) {
     work.write("wall.gltf", wall_gltf());
+    for (const auto &[name, content] : files)
+      work.write(name, content);
     file = work.write("setup.json", setup);
     REQUIRE(pmdsim_simulator_create(device, &simulator) == PMDSIM_OK);
     REQUIRE(pmdsim_simulator_load(simulator, file.c_str()) == PMDSIM_OK);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,37 @@ TEST_CASE("A setup that is changed is measured, and one that is refused stays") 
   CHECK(floats_of(again, "phase_rad") == floats_of(nearer, "phase_rad"));
   for (pmdsim_frame *frame : {before, nearer, again})
     CHECK(pmdsim_frame_destroy(frame) == PMDSIM_OK);
+}
+
+TEST_CASE("Files of a setup stay where they were when the process goes to another directory") {
+  const Loaded loaded(
+      with(small_setup(), "\"diodes\"", "\"pattern\": {\"file\": \"pattern.csv\"}, \"diodes\""), nullptr,
+      {{"pattern.csv", "angle_deg,relative\n0,1\n90,1\n"}});
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(loaded.work / ".");
+  REQUIRE(pmdsim_simulator_load(loaded.simulator, "setup.json") == PMDSIM_OK);
+  std::filesystem::current_path(before);
+  const pmdsim_status status = pmdsim_simulator_set(loaded.simulator, R"({"sensors/0/taps": 5})");
+  INFO(told());
+  CHECK(status == PMDSIM_OK);
+}
+
+TEST_CASE("Frames whose taps are taken one after the other say that no error is claimed of them") {
+  json setup = json::parse(small_setup());
+  setup["sensors"][0]["tap_interval_s"] = 0.001;
+  setup["sensors"][0]["pose"] = {{"trajectory", "poses.csv"}};
+  const std::string poses = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,1,0,0\n1,0,0,0.1,0,1,0,0\n";
+  const Loaded loaded(setup.dump(), nullptr, {{"poses.csv", poses}});
+  pmdsim_render_options options{};
+  options.struct_size = sizeof(options);
+  options.max_error_m = 1e-5;
+  pmdsim_frame *frame = loaded.render(&options);
+  const char *report = nullptr;
+  REQUIRE(pmdsim_frame_report(frame, &report) == PMDSIM_OK);
+  CHECK(json::parse(report)["warnings"].dump().starts_with("[\"frames whose taps"));
+  CHECK(pmdsim_frame_destroy(frame) == PMDSIM_OK);
+  options.strict = 1;
+  CHECK(pmdsim_render(loaded.simulator, 0, 0, &options, &frame) == PMDSIM_BAD_ACCURACY);
 }
 
 TEST_CASE("A node of the scene is put elsewhere") {

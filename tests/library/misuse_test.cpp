@@ -134,6 +134,9 @@ TEST_CASE("Options that are wrong") {
   CHECK(status_with(&Options::samples, "2x2") == PMDSIM_BAD_ARGUMENT);
   CHECK(status_with(&Options::paths, 100u) == PMDSIM_BAD_ARGUMENT); // only the reference follows paths
   CHECK(status_with(&Options::strict, 1) == PMDSIM_BAD_ARGUMENT);   // of mode exact
+  CHECK(status_with(&Options::channels, "distance") == PMDSIM_BAD_ARGUMENT);
+  CHECK(tells("unknown channel \"distance\""));
+  CHECK(told().starts_with("channels: "));
   CHECK(status_with(&Options::max_error_m, 1e-5) == PMDSIM_OK);
 }
 
@@ -177,6 +180,11 @@ TEST_CASE("Setups and changes that are wrong") {
   CHECK(pmdsim_simulator_load(loaded.simulator, "/no/such.json") == PMDSIM_BAD_INPUT);
   CHECK(std::string(pmdsim_error_file()) == "/no/such.json");
   CHECK(pmdsim_simulator_load_text(loaded.simulator, "\"text\"", 6, nullptr) == PMDSIM_BAD_INPUT);
+  CHECK(tells("the setup: "));
+  CHECK(std::string(pmdsim_error_file()).empty());
+  CHECK(status_of("[") == PMDSIM_BAD_INPUT);
+  CHECK(tells("the changes:1:"));
+  CHECK(std::string(pmdsim_error_file()).empty());
   pmdsim_frame *frame = loaded.render(); // the setup is what it was
   pmdsim_frame_destroy(frame);
 }

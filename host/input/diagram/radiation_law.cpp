@@ -69,7 +69,7 @@ Pattern law_in_setup(const ordered_json &pattern, const Place &place, DiagramFil
   for (const LawName &law : law_names)
     if (const auto value = pattern.find(law.key); value != pattern.end() && !value->is_string())
       return numbered(law, value->is_number() ? value->get<double>() : 0.0);
-  const std::filesystem::path file = place.file.parent_path() / pattern.at("file").get<std::string>();
+  const std::filesystem::path file = place.folder / pattern.at("file").get<std::string>();
   return {Pattern::Kind::diagram, 0.0, diagrams.read(file, place / "file")};
 }
 

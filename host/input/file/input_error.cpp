@@ -15,9 +15,13 @@ std::string one_line(std::string text) {
 
 } // namespace
 
-Place operator/(const Place &place, const std::string &key) { return {place.file, place.pointer / key}; }
+Place operator/(const Place &place, const std::string &key) {
+  return {place.file, place.pointer / key, place.folder};
+}
 
-Place operator/(const Place &place, std::size_t index) { return {place.file, place.pointer / index}; }
+Place operator/(const Place &place, std::size_t index) {
+  return {place.file, place.pointer / index, place.folder};
+}
 
 Error input_error(const Place &place, std::string_view message) {
   std::string line = place.pointer.empty()

@@ -17,6 +17,7 @@ namespace pmdsim {
 struct Place {
   std::filesystem::path file;
   nlohmann::json::json_pointer pointer = nlohmann::json::json_pointer();
+  std::filesystem::path folder = file.parent_path(); // where relative paths in it start
 };
 
 Place operator/(const Place &place, const std::string &key);

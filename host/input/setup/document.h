@@ -9,8 +9,9 @@
 namespace pmdsim {
 
 struct SetupDocument {
-  std::filesystem::path file; // names it in errors; relative paths start from its folder
-  nlohmann::json json{};      // unchecked, without presets and defaults
+  std::filesystem::path file;                        // names it in errors
+  nlohmann::json json{};                             // unchecked, without presets and defaults
+  std::filesystem::path folder = file.parent_path(); // where relative paths in it start
 };
 
 // Throws Error (input).

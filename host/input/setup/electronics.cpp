@@ -43,16 +43,16 @@ std::vector<double> contrasts_of(const ordered_json &contrast, const Place &plac
   return each;
 }
 
-constexpr std::size_t max_picture_bytes = std::size_t{1} << 28;
+constexpr std::size_t max_picture_bytes = std::size_t{1} << 28, max_picture_pixels = std::size_t{1} << 26;
 
 // The picture's channel as stored, 0 to 1.
 std::vector<float> background_image_of(const ordered_json &background, const Place &place,
                                        const Sensor &sensor) {
-  const std::filesystem::path file = place.file.parent_path() / background.at("texture").get<std::string>();
+  const std::filesystem::path file = place.folder / background.at("texture").get<std::string>();
   const std::string bytes = read_regular_file(file, max_picture_bytes, place);
   const Place in_file{file};
   const ImagePixels pixels = decoded_image(
-      {reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size()}, sensor.pixel_count(), in_file);
+      {reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size()}, max_picture_pixels, in_file);
   if (pixels.size != sensor.resolution)
     throw input_error(in_file,
                       fmt::format("expected the sensor's {} x {} pixels, found {} x {}", sensor.resolution.x,

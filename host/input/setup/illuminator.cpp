@@ -72,7 +72,7 @@ std::vector<Diode> ring_diodes(const ordered_json &rings, const Diode &diode, co
 
 std::vector<Diode> file_diodes(const std::string &name, double intensity, const Place &place,
                                DiagramFiles &diagrams) {
-  std::vector<Diode> diodes = read_diode_file(place.file.parent_path() / name, place, diagrams);
+  std::vector<Diode> diodes = read_diode_file(place.folder / name, place, diagrams);
   for (std::size_t i = 0; i < diodes.size(); ++i) {
     diodes[i].intensity_w_sr *= intensity;
     if (diodes[i].intensity_w_sr > max_intensity_w_sr)

@@ -197,8 +197,8 @@ SetupLoader::SetupLoader(SetupLoader &&) noexcept = default;
 SetupLoader &SetupLoader::operator=(SetupLoader &&) noexcept = default;
 
 Setup SetupLoader::load(const SetupDocument &document) {
-  const Place root{document.file};
-  const std::filesystem::path folder = document.file.parent_path();
+  const Place root{.file = document.file, .folder = document.folder};
+  const std::filesystem::path &folder = document.folder;
   check_frames(document, root);
   Setup setup;
   setup.as_used = checked_setup(document);
@@ -227,7 +227,7 @@ Setup SetupLoader::load(const SetupDocument &document) {
 }
 
 Setup SetupLoader::load(const SetupDocument &document, const std::shared_ptr<const Scene> &given) {
-  const Place root{document.file};
+  const Place root{.file = document.file, .folder = document.folder};
   check_frames(document, root);
   SetupDocument with_scene = document;
   if (with_scene.json.is_object() && with_scene.json.contains("scene"))

@@ -148,8 +148,7 @@ Trajectories read_trajectories(const ordered_json &setup, const Place &root) {
   Trajectories trajectories;
   for_each_trajectory(setup, root, [&](const std::string &name, const Place &place) {
     if (!trajectories.contains(name))
-      trajectories[name] =
-          std::make_shared<const Trajectory>(read_trajectory(root.file.parent_path() / name, place));
+      trajectories[name] = std::make_shared<const Trajectory>(read_trajectory(root.folder / name, place));
   });
   return trajectories;
 }

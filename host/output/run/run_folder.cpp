@@ -243,7 +243,8 @@ std::size_t RunFolder::write_manifest(const std::function<void()> &wait) {
     JsonPieces pieces([&](std::string_view text) { file.write(text); }, head);
     pieces.list("frames", [&](const JsonPieces::Add &add) {
       for (const std::uint32_t frame : recorded_frames(path()))
-        if (const auto record = read_record(path(), frame, run_.hash)) {
+        if (const auto record = read_record(path(), frame, run_.hash);
+            record && has_its_files(path(), *record)) {
           ++frames;
           for (const auto &sensor : record->at("sensors"))
             add(sensor.at("manifest"));

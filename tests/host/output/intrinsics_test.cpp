@@ -54,6 +54,8 @@ nlohmann::json manifest_of(const RunHead &run, const std::vector<FrameRecord> &f
   for (const FrameRecord &frame : frames) {
     REQUIRE(run_folder.claim(frame.frame) == RunFolder::Claim::granted);
     OutputSet files(folder.path());
+    for (const auto &[name, bytes] : frame.outputs)
+      files.add(name, [size = bytes](OutputFile &file) { file.write(std::string(size, ' ')); });
     run_folder.publish(files, record_json("hash", {frame}));
   }
   CHECK(run_folder.write_manifest() == frames.size());

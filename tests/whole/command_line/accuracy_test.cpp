@@ -67,6 +67,19 @@ TEST_CASE(
   check_refusal(run_pmdsim(arguments), 8, {"returns of pixels", "expected at most 0.0054 mm"});
 }
 
+TEST_CASE("nothing is promised of frames whose taps are taken one after the other") {
+  const Workspace work;
+  const std::vector<std::string> arguments{
+      "render", scene("motion.json"),         "-o",          work / "out", "--frames", "0:1",
+      "--set",  "sensors/0/resolution=[8,6]", "--max-error", "10um"};
+  const Run told = run_pmdsim(arguments);
+  CHECK(told.exit_code == 0);
+  CHECK(told.errors.find("nothing is claimed of their errors") != std::string::npos);
+  std::vector<std::string> strict = arguments;
+  strict.insert(strict.end(), {"--strict"});
+  check_refusal(run_pmdsim(strict), 8, {"--strict: ", "nothing is claimed of their errors"});
+}
+
 TEST_CASE("what cannot be asked for is refused before anything is read") {
   const Workspace work;
   const auto refuse = [&](const std::vector<std::string> &more, const std::vector<std::string> &fragments) {

@@ -59,7 +59,7 @@ TEST_CASE("render writes only the channels that are asked for, with the bytes th
   CHECK(bytes_in(wall.space / "some/pmd_0000.profile.csv")
             .starts_with("column,x_m,angle_deg,distance_m,z_m\n"));
   CHECK(manifest_in(wall.space / "all").at("channels").is_null());
-  CHECK(manifest_in(wall.space / "some").at("channels") == nlohmann::json{"z_m", "distance_m"});
+  CHECK(manifest_in(wall.space / "some").at("channels") == nlohmann::json{"distance_m", "z_m"});
   CHECK(manifest_in(wall.space / "some").at("setup") == manifest_in(wall.space / "all").at("setup"));
 }
 
@@ -104,7 +104,15 @@ TEST_CASE("channels that there are not are refused, and nothing is written") {
   check_refusal(wall.run("render", "out", {"--channels", "z_m,f1.distance_m"}), 2,
                 {"setup.json has \"f1.distance_m\""});
   check_refusal(wall.run("render", "out", {"--channels", "unwrap_ok"}), 2, {"setup.json has \"unwrap_ok\""});
+  check_refusal(wall.run("render", "out", {"--channels", "range_m", "--format", "png"}), 2,
+                {"--format png: no picture is made of any of --channels"});
   CHECK(!std::filesystem::exists(wall.space / "out"));
+}
+
+TEST_CASE("the same channels in another order are the same run") {
+  const WallSetup wall;
+  require_success(wall.run("render", "out", {"--channels", "z_m,distance_m"}));
+  require_success(wall.run("render", "out", {"--resume", "--channels", "distance_m,z_m,z_m"}));
 }
 
 TEST_CASE("whole frames become NumPy's archives and HDF5 files, the same at every run") {

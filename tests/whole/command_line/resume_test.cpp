@@ -149,6 +149,19 @@ TEST_CASE("--resume makes frames whose files are missing or of another size, and
   }
 }
 
+TEST_CASE("a manifest has no frames whose files are missing or of another size") {
+  const ManyFrames four(4);
+  four.run_well("out");
+  std::filesystem::remove(four.work / "out/pmd_0001.range_m.npy");
+  std::ofstream(four.work / "out/second_0003.exr", std::ios::app) << "more";
+  REQUIRE(run_pmdsim({"merge", four.work / "out"}).exit_code == 0);
+  std::vector<int> frames;
+  const json manifest = json::parse(bytes_in(four.work / "out/manifest.json"));
+  for (const json &frame : manifest["frames"])
+    frames.push_back(frame["frame"]);
+  CHECK(frames == std::vector<int>{0, 0, 2, 2});
+}
+
 TEST_CASE("--resume makes frames again whose records have been edited") {
   const ManyFrames two(2);
   two.run_well("alone");

@@ -191,6 +191,13 @@ TEST_CASE("what is no frame is refused by the file's name and a reason") {
   check_refused(folder.write("short.exr", std::string("\x76\x2f\x31\x01\x02\0\0\0", 8)), "cannot be read");
 }
 
+TEST_CASE("of a HDF5 file that is cut short it is said that it is") {
+  const pmdsim::test::TemporaryFolder folder;
+  WrittenFrame({64, 64}).write(folder.path() / "whole.h5");
+  const std::string whole = bytes_of(folder.path() / "whole.h5");
+  check_refused(folder.write("short.h5", whole.substr(0, whole.size() / 2)), "truncated file");
+}
+
 TEST_CASE("HDF5 files of other things are refused") {
   const pmdsim::test::TemporaryFolder folder;
   const std::vector<double> values(6, 1.0);
