@@ -22,6 +22,13 @@ def run(name: str, *arguments: str) -> str:
     return done.stdout
 
 
+def refused(name: str, *arguments: str) -> str:
+    """What it says where it ends with exit code 2."""
+    done = subprocess.run([sys.executable, str(examples / name), *arguments], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, ""), done
+    return done.stderr
+
+
 class Examples(unittest.TestCase):
     def test_calibrate_wiggling(self) -> None:
         output = run("calibrate_wiggling.py")
@@ -38,12 +45,13 @@ class Examples(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             views = Path(folder)
             run("random_views.py", "-o", folder, "--count", "5", "--binning", "16", "--part", "0/2")
-            self.assertEqual(sorted(file.name[5:11] for file in views.iterdir()), ["000000", "000002", "000004"])
+            names = ["parameters.json", "view_000000.npz", "view_000002.npz", "view_000004.npz"]
+            self.assertEqual(sorted(file.name for file in views.iterdir()), names)
             times = {file: file.stat().st_mtime_ns for file in views.iterdir()}
             self.assertIn(
                 "3 of them are there", run("random_views.py", "-o", folder, "--count", "5", "--binning", "16")
             )
-            self.assertEqual(len(list(views.iterdir())), 5)
+            self.assertEqual(len(list(views.iterdir())), 6)
             for file, when in times.items():
                 self.assertEqual(file.stat().st_mtime_ns, when)
             with np.load(views / "view_000003.npz") as view:
@@ -56,6 +64,18 @@ class Examples(unittest.TestCase):
             run("random_views.py", "-o", folder, "--count", "5", "--binning", "16")
             with np.load(views / "view_000003.npz") as view:
                 self.assertEqual(view["noisy_distance_m"].tobytes(), kept)
+            for arguments in (["--seed", "1", "--binning", "16"], ["--binning", "8"]):
+                errors = refused("random_views.py", "-o", folder, "--count", "5", *arguments)
+                self.assertRegex(errors, f"^random_views.py: {folder}: .* other parameters: .*\n$")
+            (views / "parameters.json").unlink()
+            self.assertIn("unknown", refused("random_views.py", "-o", folder, "--count", "5", "--binning", "16"))
+
+    def test_wrong_arguments_of_random_views(self) -> None:
+        for arguments in (["--binning", "0"], ["--seed", "-1"], ["--count", "x"], ["-o", __file__]):
+            with self.subTest(arguments):
+                errors = refused("random_views.py", *arguments)
+                self.assertIn(f"random_views.py: {__file__ if '-o' in arguments else 'error: argument'}", errors)
+                self.assertNotIn("Traceback", errors)
 
 
 if __name__ == "__main__":

@@ -55,6 +55,8 @@ class Misuse(unittest.TestCase):
             "paths: expected 0, or 16": dict(paths=100),
             "channels: expected names": dict(channels=[]),
             "channels: .* found \\[3\\]": dict(channels=[3]),
+            "channels: .* found 5": dict(channels=5),
+            r"set: expected .* a dict of paths and values, found \[1\]": dict(set=[1]),
             "device: expected a whole number": dict(device=-1),
         }.items():
             self.refused(pmdsim.ArgumentError, text, render(**options))
@@ -64,6 +66,8 @@ class Misuse(unittest.TestCase):
         self.refused(ValueError, "mode", render(mode=3))
 
     def test_setups(self) -> None:
+        endless = small_setup()
+        endless["nodes"] = endless
         for text, setup in {
             "expected a path, a dict or a pmdsim.Setup": 3,
             "found b'x'": b"x",
@@ -73,6 +77,7 @@ class Misuse(unittest.TestCase):
             "/bounces: expected numbers, text": small_setup(bounces=object()),
             "expected a key that is text": small_setup(nodes={1: 2}),
             "/sensors: expected numbers, text, .* found {": small_setup(sensors={1, 2}),
+            "setup: .* a value that contains itself": endless,
         }.items():
             self.refused(pmdsim.ArgumentError, text, lambda: pmdsim.render(setup))
         error = self.refused(pmdsim.InputError, "focal_lenth_m", lambda: pmdsim.render(small_setup(focal_lenth_m=1)))
@@ -128,7 +133,13 @@ class Misuse(unittest.TestCase):
                 pmdsim.ArgumentError, "one of node", lambda: simulator.move(node="a", sensor=0, pose=np.eye(4))
             )
             self.refused(pmdsim.InputError, "nobody", lambda: simulator.move(node="nobody", pose=np.eye(4)))
-            self.refused(pmdsim.InputError, "", lambda: simulator.move(sensor="a/b~c", pose=np.eye(4)))
+            self.refused(pmdsim.InputError, "a/b~c", lambda: simulator.move(node="a/b~c", pose=np.eye(4)))
+            self.refused(pmdsim.ArgumentError, "node: .* found 3", lambda: simulator.move(node=3, pose=np.eye(4)))
+            for part in ("sensor", "illuminator"):
+                self.refused(
+                    pmdsim.ArgumentError, f"{part}: .*'1'", lambda: simulator.move(**{part: "1"}, pose=np.eye(4))
+                )
+                self.refused(pmdsim.InputError, "7", lambda: simulator.move(**{part: 7}, pose=np.eye(4)))
 
     def test_scenes(self) -> None:
         for text, wrong in {
@@ -136,6 +147,10 @@ class Misuse(unittest.TestCase):
                 [[0, 0], [1, 1]], [[0, 1, 1]]
             ),
             r"vertices: expected the shape \(n, 3\), found \(0": lambda: pmdsim.Scene(np.zeros((0, 3)), [[0, 1, 2]]),
+            r"vertices: .* rows of one length, found \[\[1, 2, 3\], \[1\]\]": lambda: pmdsim.Scene(
+                [[1, 2, 3], [1]], [[0, 1, 2]]
+            ),
+            "triangles: .* rows of one length": lambda: pmdsim.Scene(triangle, [[0, 1, 2], [0]]),
             "vertices: expected real numbers": lambda: pmdsim.Scene([["a", "b", "c"]], [[0, 0, 0]]),
             "vertices: expected real numbers, found the type complex": lambda: pmdsim.Scene([[1j, 0, 0]], [[0, 0, 0]]),
             r"vertices\[1, 2\]: .* found nan": lambda: pmdsim.Scene([[0, 0, 0], [0, 0, np.nan]], [[0, 1, 1]]),
@@ -173,6 +188,26 @@ class Misuse(unittest.TestCase):
         self.refused(pmdsim.Error, "vertex 0", lambda: pmdsim.render(without_scene(), scene=scene))
         vertices[0, 0], triangles[0, 0] = 0, 77
         self.refused(pmdsim.Error, "77", lambda: pmdsim.render(without_scene(), scene=scene))
+
+    def test_the_arrays_of_a_scene_cannot_be_replaced(self) -> None:
+        scene = pmdsim.Scene(triangle, [[0, 1, 2]], reflectivity=0.5, object_ids=[0])
+        for name in ("vertices", "triangles", "reflectivity", "object_ids", "double_sided"):
+            with self.subTest(name), self.assertRaises(AttributeError):
+                setattr(scene, name, np.zeros((9, 3), dtype=np.float32))
+
+    def test_the_form_of_a_scene_s_arrays_is_its_own(self) -> None:
+        """numpy lets the owner of an array change its shape and type in place."""
+        vertices, triangles = wall().vertices.copy(), wall().triangles.copy()
+        scene = pmdsim.Scene(vertices, triangles)
+        expected = pmdsim.render(without_scene(), scene=scene).distance_m.tobytes()
+        for array in (vertices, triangles, scene.vertices, scene.triangles):
+            array.shape = (array.size, 1)
+            array.dtype = np.uint8
+        self.assertEqual(scene.vertices.shape, (4, 3))
+        self.assertEqual(scene.triangles.dtype, np.uint32)
+        self.assertEqual(pmdsim.render(without_scene(), scene=scene).distance_m.tobytes(), expected)
+        scene.vertices[:, 2] = -1.0
+        self.assertAlmostEqual(float(np.nanmean(pmdsim.render(without_scene(), scene=scene).z_m)), 1.0, places=6)
 
     def test_closed_simulators(self) -> None:
         simulator = pmdsim.Simulator(small_setup())

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import pmdsim
-from setups import same_bytes, scenes, small_setup, without_scene, wall, write_by_program
+from setups import python, same_bytes, scenes, small_setup, without_scene, wall, write_by_program
 
 two_frequencies = {
     "sensors": [
@@ -98,12 +98,25 @@ class Render(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "f0.distance_m or f1.distance_m"):
             frame.distance_m
         self.assertFalse(hasattr(frame, "f2"))
+        without = {"sensors": [dict(two_frequencies["sensors"][0])]}
+        del without["sensors"][0]["unwrap_range_m"]
+        with self.assertRaisesRegex(pmdsim.ArgumentError, r"points_m: the frame has f0.distance_m, f1.distance_m; "):
+            pmdsim.render(small_setup(**without)).points_m
+        with self.assertRaisesRegex(pmdsim.ArgumentError, "points_m: the frame has no distance_m; "):
+            pmdsim.render(small_setup(), channels="range_m").points_m
         np.testing.assert_array_equal(frame.points_m, frame.points_of("unwrapped_distance_m"))
 
     def test_chosen_channels(self) -> None:
         whole, few = pmdsim.render(small_setup()), pmdsim.render(small_setup(), channels=["distance_m", "range_m"])
         self.assertEqual(set(few.channels), {"distance_m", "range_m"})
         self.assertEqual(few.distance_m.tobytes(), whole.distance_m.tobytes())
+        electronics = {"preset": "kinect_v2_like", "integration_time_s": 1e-4, "lens_f_number": 1.0}
+        counting = {"sensors": [{**two_frequencies["sensors"][0], "taps": 12, "electronics": electronics}]}
+        for changes in ({}, two_frequencies, counting):
+            setup = small_setup(**changes)
+            names = pmdsim.render(setup).channels
+            self.assertEqual(pmdsim.render(setup, channels=names).channels, names)
+        self.assertEqual(pmdsim.render(small_setup(), channels="tap2").channels, ("tap0", "tap1", "tap2", "tap3"))
 
     def test_arrays_are_views_that_outlive_the_frame(self) -> None:
         with pmdsim.Simulator(small_setup()) as simulator:
@@ -133,6 +146,7 @@ class Render(unittest.TestCase):
                 self.assertEqual(made.report, original.report)
                 self.assertEqual(made.distance_m.tobytes(), original.distance_m.tobytes())
                 self.assertFalse(made.distance_m.flags.writeable)
+                self.assertFalse(np.shares_memory(made.distance_m, original.distance_m))
                 np.testing.assert_allclose(made.points_m, original.points_m, rtol=0, atol=1e-12)
 
     def test_save_and_load(self) -> None:
@@ -145,6 +159,22 @@ class Render(unittest.TestCase):
             self.assertEqual(again.report, json.loads(json.dumps(frame.report)))
             np.testing.assert_array_equal(again.points_m, frame.points_m)
             self.assertEqual(os.listdir(folder), ["a.npz"])
+
+    def test_a_full_disk(self) -> None:
+        """Files of 1,000 bytes at most stand for it: one error, and nothing else is printed."""
+        with tempfile.TemporaryDirectory() as folder:
+            child = python(
+                "import resource, sys, pmdsim\n"
+                "from setups import small_setup\n"
+                "frame = pmdsim.render(small_setup())\n"
+                "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+                "try: frame.save(sys.argv[1])\n"
+                "except pmdsim.OutputError as error: print(error)\n",
+                f"{folder}/a.npz",
+            )
+            output, errors = child.communicate(timeout=60)
+            self.assertEqual((output, errors), (f"{folder}/a.npz: cannot be written: File too large\n", ""))
+            self.assertEqual(os.listdir(folder), [])
 
     def test_xarray(self) -> None:
         """With a module in xarray's place, which notes what it is given."""

@@ -9,9 +9,10 @@ import pickle
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any, List
 
 import pmdsim
-from setups import scenes, small_setup
+from setups import scenes, small_setup, wall
 
 
 class SetupTest(unittest.TestCase):
@@ -83,6 +84,69 @@ class SetupTest(unittest.TestCase):
             self.assertEqual(pmdsim.Setup.load(f"{folder}/again.json"), setup)
             self.assertEqual(sorted(os.listdir(folder)), ["again.json", "setup.json"])
 
+    def test_a_byte_order_mark(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "setup.json"
+            file.write_text('\ufeff{"bounces": "all"}', encoding="utf-8")
+            self.assertEqual(pmdsim.Setup.load(file), {"bounces": "all"})
+
+    def test_values_that_are_no_setup(self) -> None:
+        endless: List[Any] = []
+        endless.append(endless)
+        for values in ([1], [], "room.json", 3, {"sensors": endless}):
+            with self.subTest(type(values)), self.assertRaises(pmdsim.ArgumentError):
+                pmdsim.Setup(values)  # type: ignore[arg-type]
+
+    def test_a_file_that_cannot_be_written(self) -> None:
+        """A partial file that is a folder can neither be opened nor removed, as on a read-only file system."""
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / f"setup.json.{os.getpid()}.partial").mkdir()
+            with self.assertRaisesRegex(pmdsim.OutputError, "setup.json: cannot be written: Is a directory"):
+                self.setup.save(f"{folder}/setup.json")
+
+    def test_nothing_is_left_of_what_cannot_be_written(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            self.setup.scene = "room\udce4.glb"
+            with self.assertRaisesRegex(pmdsim.ArgumentError, "^/scene: ") as caught:
+                self.setup.save(f"{folder}/setup.json")
+            self.assertEqual(caught.exception.place, "/scene")
+            (Path(folder) / "taken").mkdir()
+            self.setup.scene = "room.glb"
+            with self.assertRaises(pmdsim.OutputError):
+                self.setup.save(f"{folder}/taken")
+            self.assertEqual(os.listdir(folder), ["taken"])
+
+    def test_errors_name_the_file_that_there_is(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "room.json"
+            file.write_text(json.dumps(small_setup(bounces=-1)))
+            loaded = pmdsim.Setup.load(file)
+            of_a_folder = pmdsim.Setup(small_setup(bounces=-1), directory=folder)
+            for setup, scene, name in (
+                (file, None, str(file)),
+                (file, wall(), str(file)),
+                (loaded, None, str(file)),
+                (loaded.copy(), None, str(file)),
+                (pickle.loads(pickle.dumps(loaded)), None, str(file)),
+                (of_a_folder, None, ""),
+                (dict(loaded), None, ""),
+            ):
+                with self.subTest(name), self.assertRaises(pmdsim.InputError) as caught:
+                    pmdsim.render(setup, scene=scene)
+                self.assertEqual((caught.exception.file, caught.exception.place), (name, "/bounces"))
+                self.assertRegex(str(caught.exception), f"^{name or 'the setup'}: /bounces: expected ")
+
+    def test_errors_of_changes_name_the_file_that_there_is(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "room.json"
+            file.write_text(json.dumps(small_setup()))
+            with pmdsim.Simulator(pmdsim.Setup.load(file)) as simulator:
+                with self.assertRaises(pmdsim.InputError):
+                    simulator.load(small_setup(bounces=-1))  # after which the one before stays
+                with self.assertRaisesRegex(pmdsim.InputError, f"^{file}: /bounces: ") as caught:
+                    simulator.set("bounces", -1)
+                self.assertEqual(caught.exception.file, str(file))
+
     def test_every_shipped_setup_is_read_as_the_library_does(self) -> None:
         for file in sorted(scenes.rglob("*.json")):
             with self.subTest(file.name):
@@ -96,10 +160,11 @@ class SetupTest(unittest.TestCase):
                 ('{"scene": "a", "scene": "b"}', "twice", ""),
                 ("[]", "expected a JSON object", ""),
                 ('{"bounces": NaN}', "NaN", ""),
-                ('{"sensors": [{"nam": 1}]}', "/sensors/0/nam", "/sensors/0/nam"),
+                ('{"sensors": [{"nam": 1}]}', f"^{file}: /sensors/0/nam: there is no key", "/sensors/0/nam"),
+                ("[" * 100000, "expected fewer levels", ""),
             ):
                 file.write_text(text)
-                with self.subTest(text), self.assertRaisesRegex(pmdsim.InputError, message) as caught:
+                with self.subTest(text[:80]), self.assertRaisesRegex(pmdsim.InputError, message) as caught:
                     pmdsim.Setup.load(file)
                 self.assertEqual((caught.exception.file, caught.exception.place), (str(file), place))
             with self.assertRaisesRegex(pmdsim.InputError, "cannot be read"):

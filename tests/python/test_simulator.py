@@ -73,6 +73,23 @@ class SimulatorTest(unittest.TestCase):
             rows = simulator.setup.illuminators[0].pose.matrix
             np.testing.assert_allclose(np.array(rows)[:3, :3], [[1, 0, 0], [0, 0, 1], [0, -1, 0]], atol=1e-12)
 
+    def test_names_that_are_numbers(self) -> None:
+        setup = small_setup()
+        setup["sensors"] = [{**setup["sensors"][0], "name": name} for name in ("1", "0")]
+        setup["illuminators"] = [
+            {**setup["illuminators"][0], "name": name, "pose": {"sensor": "1"}} for name in ("1", "0")
+        ]
+        pose = np.eye(4)
+        pose[0, 3] = 7.0
+        with pmdsim.Simulator(setup) as simulator:
+            simulator.move(sensor="1", pose=pose)
+            simulator.move(illuminator="0", pose=pose)
+            used = simulator.setup
+        self.assertEqual(used.sensors[0].pose.matrix[0][3], 7.0)
+        self.assertEqual(used.illuminators[1].pose.matrix[0][3], 7.0)
+        for part, other in ((used.sensors, 1), (used.illuminators, 0)):
+            self.assertNotIn("matrix", part[other].get("pose", {}))
+
     def test_quaternions(self) -> None:
         """As they turn vectors: v + 2 w (u x v) + 2 u x (u x v)."""
         turn = np.array([0.1, -0.7, 0.3, 0.5])
@@ -106,6 +123,10 @@ class SimulatorTest(unittest.TestCase):
             self.assertEqual(found, expected)
             one = [frame.frame for frame in simulator.frames(sensors=["second"], frames=[2, 0], mode="exact")]
             self.assertEqual(one, [2, 0])
+            self.assertEqual([frame.frame for frame in simulator.frames(sensors="second", frames=np.int64(1))], [1])
+            for wrong in (1.5, "1", [0, -1], None, [None]):
+                with self.subTest(wrong), self.assertRaises(pmdsim.ArgumentError):
+                    simulator.frames(sensors=0, frames=[wrong] if wrong is None else wrong)
             self.assertAlmostEqual(simulator.render(frame=2).time_s, 0.2)
             self.assertEqual(simulator.render(sensor="second").shape, simulator.render(sensor=1).shape)
 
@@ -184,10 +205,13 @@ class SimulatorTest(unittest.TestCase):
 
             def work() -> None:
                 begun.set()
-                try:
-                    simulator.render()
-                except pmdsim.Error as error:
-                    ended.append(error)
+                while not ended:
+                    try:
+                        simulator.render()
+                    except pmdsim.BusyError:  # the other thread was there first
+                        pass
+                    except pmdsim.Error as error:
+                        ended.append(error)
 
             thread = threading.Thread(target=work)
             thread.start()

@@ -60,6 +60,9 @@ class Sweep(unittest.TestCase):
             (v[intensity], f.frame) for v, f in pmdsim.sweep(setup, {intensity: [1, 2]}, frames=[0, 2], scene=wall())
         ]
         self.assertEqual(found, [(1, 0), (1, 2), (2, 0), (2, 2)])
+        for number in (2, np.int64(2), np.array([2])):
+            found = [f.frame for _, f in pmdsim.sweep(setup, {intensity: [1]}, frames=number, scene=wall())]
+            self.assertEqual(found, [2])
 
     def test_the_first_error_ends_it(self) -> None:
         for workers in (1, 2):
@@ -108,6 +111,8 @@ class Sweep(unittest.TestCase):
             dict(variations={intensity: [1]}, workers=0),
             dict(variations={intensity: [1]}, workers=1.5),
             dict(variations={intensity: [1]}, frames=[-1]),
+            dict(variations={intensity: [1]}, frames=1.5),
+            dict(variations={intensity: [1]}, frames="0"),
             dict(variations={intensity: [1]}, mode="best"),
         ):
             with self.subTest(str(wrong)), self.assertRaises(pmdsim.ArgumentError):

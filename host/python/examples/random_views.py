@@ -4,15 +4,17 @@
 Every view is one file, view_000000.npz, with the arrays `noisy_distance_m`, `noisy_amplitude`, `clean_distance_m`,
 `clean_amplitude`, `range_m` (ground truth), `object_id` and `world_from_camera` (4 x 4). A view follows from the seed
 and its number alone, and its file appears whole or not at all: start the script again, and it makes what is missing.
-Several processes share the work with --part.
+Several processes share the work with --part. The folder's parameters.json has the seed and the binning of its views; a
+folder of others is refused.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 from pathlib import Path
-from typing import Dict, List, Tuple
+from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 
@@ -93,8 +95,12 @@ def random_view(seed: int, number: int) -> Dict[str, object]:
     }
 
 
+def partial_of(file: Path) -> Path:
+    return file.with_name(f".{file.name}.{os.getpid()}.partial")
+
+
 def write(file: Path, frame: pmdsim.Frame) -> None:
-    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
+    partial = partial_of(file)
     with open(partial, "wb") as out:
         np.savez(
             out,
@@ -109,6 +115,28 @@ def write(file: Path, frame: pmdsim.Frame) -> None:
     os.replace(partial, file)
 
 
+def prepare(folder: Path, parameters: Dict[str, int]) -> None:
+    """Makes the folder, or ValueError where it has views of other parameters."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "parameters.json"
+    if not file.exists() and not any(folder.glob("view_*.npz")):
+        partial = partial_of(file)
+        partial.write_text(json.dumps(parameters))
+        os.replace(partial, file)
+    found = json.loads(file.read_text()) if file.exists() else "unknown ones"
+    if found != parameters:
+        raise ValueError(f"the folder has views of other parameters: expected {parameters}, found {found}")
+
+
+def whole(least: int, most: int) -> Callable[[str], int]:
+    def whole_number(text: str) -> int:
+        if not least <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"expected a whole number from {least} to {most}, found {text}")
+        return int(text)
+
+    return whole_number
+
+
 def part(text: str) -> Tuple[int, int]:
     index, of = (int(number) for number in text.split("/"))
     if not 0 <= index < of:
@@ -119,15 +147,19 @@ def part(text: str) -> Tuple[int, int]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=Path("out/random_views"), help="folder [%(default)s]")
-    parser.add_argument("--count", type=int, default=1000, help="views [%(default)s]")
-    parser.add_argument("--seed", type=int, default=0, help="of the room and all views [%(default)s]")
-    parser.add_argument("--binning", type=int, default=8, help="8: 64 x 53 pixels, 1: 512 x 424 [%(default)s]")
+    parser.add_argument("--count", type=whole(0, 10**6), default=1000, help="views [%(default)s]")
+    parser.add_argument("--seed", type=whole(0, 2**63), default=0, help="of the room and all views [%(default)s]")
+    parser.add_argument("--binning", type=whole(1, 16), default=8, help="8: 64 x 53 pixels, 1: 512 x 424 [%(default)s]")
     parser.add_argument(
         "--part", type=part, default=(0, 1), metavar="i/n", help="every n-th view from the i-th on, from 0"
     )
     arguments = parser.parse_args()
 
-    arguments.output.mkdir(parents=True, exist_ok=True)
+    try:
+        prepare(arguments.output, {"seed": arguments.seed, "binning": arguments.binning})
+    except (OSError, ValueError) as error:
+        text = error.strerror if isinstance(error, OSError) else error
+        parser.exit(2, f"{parser.prog}: {arguments.output}: {text}\n")
     index, of = arguments.part
     files = {number: arguments.output / f"view_{number:06d}.npz" for number in range(index, arguments.count, of)}
     missing = {number: file for number, file in files.items() if not file.exists()}

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, Dict, Tuple, Type
+
+_breaks = re.compile(r"[\x00-\x1f\x7f]+")
 
 
 class Error(Exception):
@@ -11,10 +14,11 @@ class Error(Exception):
     Attributes
     ----------
     file : str
-        The file that is wrong, or "".
+        The file that is wrong, or "". A setup that is changed or given beside a scene is still that of the file that
+        it was read from; one of dicts has none.
     place : str
-        The place in it, a JSON pointer or "LINE:COLUMN", or "". Of a setup that is no file it is the place in
-        the setup.
+        The place in it, a JSON pointer, "LINE:COLUMN" or, of tables such as CSV, "LINE", or "". Of a setup that is
+        no file it is the place in the setup, of an array of a pmdsim.Scene the index in it, "[0, 2]".
     code : int
         The pmdsim_status of the C interface; up to 8 they are the program's exit codes.
     """
@@ -22,8 +26,8 @@ class Error(Exception):
     code = 1
 
     def __init__(self, message: str, file: str = "", place: str = "") -> None:
-        super().__init__(message)
-        self.message = message
+        self.message = _breaks.sub(" ", message)  # names of files may have line breaks
+        super().__init__(self.message)
         self.file = file
         self.place = place
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Union
+import zipfile
+from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._errors import ArgumentError, OutputError, UnknownChannelError
+from ._errors import ArgumentError, UnknownChannelError
+from ._files import file_name, write_whole
 from ._frame_sources import ArraySource, Source, is_pinhole
 
 if TYPE_CHECKING:
@@ -76,7 +79,8 @@ class Frame:
     directions : float64 (rows, columns, 3)
         Unit vectors from the lens through the pixels' centres, camera frame.
     points_m : float64 (rows, columns, 3)
-        Where the measured distance lies along them, world frame, metres; NaN where nothing returned.
+        Where the measured distance lies along them, world frame, metres; NaN where nothing returned. Of several
+        frequencies `unwrapped_distance_m`; ArgumentError where there is none, or no distance.
     """
 
     __slots__ = ("_source", "_arrays", "_report", "_directions", "__weakref__")
@@ -161,7 +165,8 @@ class Frame:
         if len(distances) > 1 and "unwrapped_distance_m" in self.channels:
             return "unwrapped_distance_m"
         if len(distances) != 1:
-            raise UnknownChannelError(
+            # No AttributeError, after which Python would ask for a channel points_m.
+            raise ArgumentError(
                 f"points_m: the frame has {', '.join(distances) or 'no distance_m'}; "
                 "points_of(channel) takes any distance"
             )
@@ -225,6 +230,9 @@ class Frame:
         except ArgumentError:
             return None
 
+    def __copy__(self) -> "Frame":
+        return copy.deepcopy(self)
+
     def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (dict(self.items()), self.units, self.report, self._kept_directions())
 
@@ -237,11 +245,11 @@ class Frame:
         Raises
         ------
         ArgumentError
-            The name does not end in .npz.
+            The name does not end in .npz, or no file can have it.
         OutputError
             The file cannot be written.
         """
-        name = os.fspath(file)
+        name = file_name(file, "file")
         if not name.endswith(".npz"):
             raise ArgumentError(f"{name}: expected a name that ends in .npz")
         arrays = dict(self.items())
@@ -249,7 +257,7 @@ class Frame:
         directions = self._kept_directions()
         if directions is not None:
             arrays["directions"] = directions
-        _write_npz(name, arrays)
+        write_whole(name, lambda stream: _write_npz(stream, arrays))
 
     def to_xarray(self) -> "xarray.Dataset":
         """The channels as xarray.Dataset with the dimensions row and column and each channel's units.
@@ -268,16 +276,12 @@ class Frame:
         return xarray.Dataset(variables, attrs=attributes)
 
 
-def _write_npz(name: str, arrays: Dict[str, NDArray[Any]]) -> None:
-    partial = f"{name}.{os.getpid()}.partial"
-    try:
-        with open(partial, "wb") as file:
-            np.savez(file, **arrays)
-        os.replace(partial, name)
-    except OSError as error:
-        if os.path.exists(partial):
-            os.remove(partial)
-        raise OutputError(f"{name}: cannot be written: {error.strerror}", name) from None
+def _write_npz(stream: BinaryIO, arrays: Dict[str, NDArray[Any]]) -> None:
+    """As numpy.savez, which leaves the archive open where the disk is full."""
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
+                np.lib.format.write_array(entry, array, allow_pickle=False)
 
 
 def _restored(

@@ -201,7 +201,7 @@ class FileSource:
     def array(self, name: str) -> NDArray[Any]:
         file = self._files[name]
         try:
-            return np.load(file, mmap_mode="r", allow_pickle=False)
+            return np.lib.format.open_memmap(file, mode="r")
         except (OSError, ValueError, EOFError) as error:
             raise InputError(f"{file}: cannot be read: {error}", file) from None
 

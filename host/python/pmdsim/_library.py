@@ -177,17 +177,13 @@ def _json_of(function_name: str) -> Any:
 
 
 def devices() -> List[Dict[str, Any]]:
-    """The usable devices, in the order of their indices.
+    """The devices of Vulkan's drivers, in the order of their indices; none where there is no driver.
 
     Returns
     -------
     list of dict
-        Each with "name", "driver" and "kind" ("CPU", "discrete GPU", ...).
-
-    Raises
-    ------
-    NoDeviceError
-        There is no Vulkan at all.
+        Each with "index", which the argument `device` takes, "name", "driver", "kind" ("CPU", "discrete GPU", ...),
+        "usable", and "lacks", what a device lacks that is not usable.
 
     Examples
     --------
@@ -203,7 +199,7 @@ def schema() -> Dict[str, Any]:
 
 
 def channels() -> List[Dict[str, Any]]:
-    """The channels that frames may have, each with "name", "unit" and "about"."""
+    """The channels that frames may have, each with "name", "unit", "about" and "of_taps"."""
     return _json_of("pmdsim_channels")
 
 

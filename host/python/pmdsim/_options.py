@@ -4,28 +4,33 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, List, Optional, Sequence, Union
+import re
+from typing import Any, Optional, Sequence, Union
 
 from ._errors import ArgumentError
 from ._library import RenderOptions
-from ._values import length_m, whole_number
+from ._text import short, text_bytes
+from ._values import length_m, several, whole_number
 
 Channels = Union[str, Sequence[str]]
 Length = Union[str, float]
+
+# "tap3", "f1.tap_a_e0": frames have a channel of each tap, and the library is asked for all of them by one name.
+_numbered_tap = re.compile(r"((?:f\d+\.)?tap(?:_\w+?)?)\d+")
 
 
 def _one_of(value: Any, what: str, names: Sequence[str]) -> Optional[bytes]:
     if value is None:
         return None
-    if value not in names or not isinstance(value, str):
-        raise ArgumentError(f"{what}: expected {', '.join(names[:-1])} or {names[-1]}, found {value!r:.80}")
+    if not isinstance(value, str) or value not in names:
+        raise ArgumentError(f"{what}: expected {', '.join(names[:-1])} or {names[-1]}, found {short(value)}")
     return value.encode()
 
 
 def _samples(value: Any) -> Optional[bytes]:
     if value is None:
         return None
-    if value == "auto":
+    if isinstance(value, str) and value == "auto":
         return b"auto"
     return str(whole_number(value, "samples", 1, 16)).encode()
 
@@ -33,10 +38,15 @@ def _samples(value: Any) -> Optional[bytes]:
 def _channels(value: Optional[Channels]) -> Optional[bytes]:
     if value is None:
         return None
-    names: List[Any] = value.split(",") if isinstance(value, str) else list(value)
+    names = value.split(",") if isinstance(value, str) else several(value)
     if not names or not all(isinstance(name, str) and name for name in names):
-        raise ArgumentError(f"channels: expected names of channels, found {value!r:.80}")
-    return ",".join(names).encode()
+        raise ArgumentError(f"channels: expected names of channels, found {short(value)}")
+    return text_bytes(",".join(dict.fromkeys(_without_tap_number(name) for name in names)), "channels")
+
+
+def _without_tap_number(name: str) -> str:
+    tap = _numbered_tap.fullmatch(name)
+    return tap.group(1) if tap else name
 
 
 def _relative_error(value: Any) -> float:
@@ -44,10 +54,10 @@ def _relative_error(value: Any) -> float:
         return 0.0
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not 0.0 < number <= 1.0:
-        raise ArgumentError(f"max_amplitude_error: expected a number above 0, at most 1, found {value!r:.80}")
+        raise ArgumentError(f"max_amplitude_error: expected a number above 0, at most 1, found {short(value)}")
     return number
 
 

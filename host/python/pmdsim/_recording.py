@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -12,25 +13,46 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import ArgumentError, InputError
+from ._files import file_bytes, file_name
 from ._frame import Frame
 from ._frame_sources import ArraySource, FileSource, FrameHandle, ReadSource
 from ._library import check, library
+from ._text import short
 
 if TYPE_CHECKING:
     import xarray
 
 
-def _read_npz(file: str, report: Dict[str, Any]) -> Frame:
+def _arrays_of_npz(file: str) -> Dict[str, NDArray[Any]]:
     try:
-        with open(file, "rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
+        with open(file, "rb") as stream:
+            # numpy takes what is no archive for something else, and says so.
+            if stream.read(2) != b"PK":
+                raise zipfile.BadZipFile("it begins otherwise")
+            stream.seek(0)
+            with np.load(stream, allow_pickle=False) as archive:
+                return {name: archive[name] for name in archive.files}
     except (OSError, ValueError, EOFError, KeyError) as error:
         raise InputError(f"{file}: cannot be read: {error}", file) from None
     except Exception as error:  # zipfile.BadZipFile and zlib.error
-        raise InputError(f"{file}: no NPZ file: {error}", file) from None
-    if "report" in arrays:
-        report = report or json.loads(str(arrays.pop("report")))
-        arrays.pop("report", None)
+        raise InputError(f"{file}: expected a .npz file: {error}", file) from None
+
+
+def _saved_report(text: str, file: str) -> Dict[str, Any]:
+    try:
+        report = json.loads(text)
+    except (ValueError, RecursionError):
+        report = None
+    if not isinstance(report, dict):
+        raise InputError(f'{file}: expected "report" to be a JSON object, found {short(text)}', file)
+    return report
+
+
+def _read_npz(file: str, report: Dict[str, Any]) -> Frame:
+    arrays = _arrays_of_npz(file)
+    saved = arrays.pop("report", None)
+    if saved is not None and not report:
+        report = _saved_report(str(saved), file)
     directions = arrays.pop("directions", None)
     images = {name: array for name, array in arrays.items() if array.ndim == 2}
     if not images:
@@ -40,7 +62,7 @@ def _read_npz(file: str, report: Dict[str, Any]) -> Frame:
 
 def _read_by_library(file: str, report: Dict[str, Any]) -> Frame:
     handle = ctypes.c_void_p()
-    check(library().pmdsim_frame_read(file.encode("utf-8", "surrogateescape"), ctypes.byref(handle)))
+    check(library().pmdsim_frame_read(file_bytes(file, "path"), ctypes.byref(handle)))
     return Frame(ReadSource(FrameHandle(handle.value or 0), report))
 
 
@@ -93,7 +115,7 @@ class Recording:
     """
 
     def __init__(self, folder: Union[str, "os.PathLike[str]"]) -> None:
-        self.folder = os.fspath(folder)
+        self.folder = file_name(folder, "folder")
         self.manifest: Dict[str, Any] = _read_manifest(self.folder)
         self._entries: List[Dict[str, Any]] = self.manifest["frames"]
         self.sensors: List[str] = list(dict.fromkeys(entry["sensor"] for entry in self._entries))
@@ -123,11 +145,11 @@ class Recording:
             A file of it is missing or wrong.
         """
         if not isinstance(key, tuple) or len(key) != 2:
-            raise ArgumentError(f"expected recording[sensor, frame], found {key!r:.80}")
+            raise ArgumentError(f"expected recording[sensor, frame], found {short(key)}")
         sensor, number = self._sensor_name(key[0]), key[1]
-        if (sensor, number) not in self._by_key:
+        if not isinstance(number, (int, np.integer)) or (sensor, number) not in self._by_key:
             numbers = self._numbers(sensor)
-            raise ArgumentError(f"{self.folder}: {sensor} has {len(numbers)} frames, but no frame {number!r:.80}")
+            raise ArgumentError(f"{self.folder}: {sensor} has {len(numbers)} frames, but no frame {short(number)}")
         return self._read(self._by_key[sensor, number])
 
     def _sensor_name(self, sensor: Union[int, str]) -> str:
@@ -135,8 +157,10 @@ class Recording:
             return sensor
         if isinstance(sensor, (int, np.integer)) and 0 <= sensor < len(self.sensors):
             return self.sensors[sensor]
+        if not self.sensors:
+            raise ArgumentError(f"{self.folder}: there are no frames")
         raise ArgumentError(
-            f"{self.folder}: expected one of the sensors {', '.join(self.sensors)}, found {sensor!r:.80}"
+            f"{self.folder}: expected one of the sensors {', '.join(self.sensors)}, found {short(sensor)}"
         )
 
     def _numbers(self, sensor: str) -> List[int]:
@@ -212,12 +236,19 @@ def _read_manifest(folder: str) -> Dict[str, Any]:
     except (OSError, ValueError) as error:
         raise InputError(f"{file}: cannot be read: {error}", file) from None
     frames = manifest.get("frames") if isinstance(manifest, dict) else None
-    if not isinstance(frames, list) or not all(
-        isinstance(entry, dict) and isinstance(entry.get("sensor"), str) and isinstance(entry.get("frame"), int)
-        for entry in frames
-    ):
+    if not isinstance(frames, list) or not all(map(_is_entry, frames)):
         raise InputError(f'{file}: expected a manifest with "frames"', file, "/frames")
     return manifest
+
+
+def _is_entry(entry: Any) -> bool:
+    return (
+        isinstance(entry, dict)
+        and isinstance(entry.get("sensor"), str)
+        and isinstance(entry.get("frame"), int)
+        and isinstance(entry.get("outputs", []), list)
+        and all(isinstance(name, str) for name in entry.get("outputs", []))
+    )
 
 
 def load(path: Union[str, "os.PathLike[str]"]) -> Union[Recording, Frame]:
@@ -239,13 +270,15 @@ def load(path: Union[str, "os.PathLike[str]"]) -> Union[Recording, Frame]:
     ------
     InputError
         The folder or file is missing or wrong.
+    ArgumentError
+        No file can have that name.
 
     Examples
     --------
     >>> for frame in pmdsim.load("out/room/render").frames:               # doctest: +SKIP
     ...     print(frame.sensor, frame.frame, frame.amplitude.max())
     """
-    name = os.fspath(path)
+    name = file_name(path, "path")
     if os.path.isdir(name):
         return Recording(name)
     reader: Optional[Callable[[str, Dict[str, Any]], Frame]] = _readers.get(os.path.splitext(name)[1].lower())

@@ -10,7 +10,8 @@ from ._errors import DeviceLostError, Error, InternalError
 from ._frame import Frame
 from ._options import Channels, Length, render_options
 from ._scene import Scene
-from ._simulator import Device, SetupLike, Simulator
+from ._setup_input import SetupLike
+from ._simulator import Device, Simulator
 
 _Key = Tuple[Optional[Device], int]
 
@@ -80,7 +81,9 @@ def render(
     samples : int or "auto", optional
         S of S x S samples a pixel, 1 to 16; the setup's by default.
     channels : list of str, or str with commas, optional
-        Names of channels ("distance_m", "range_m", ...); all by default. What only others need is not computed.
+        Names of channels ("distance_m", "range_m", ...), such as another frame's `channels`; all by default. Of
+        several frequencies "distance_m" is that of each, "f1.distance_m" that of one. "tap", and likewise "tap3", is
+        all taps. What only others need is not computed.
     paths : int, optional
         Of the reference, for each pixel where light bounces.
     strict : bool, optional

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._errors import ArgumentError
 from ._library import Mesh
+from ._text import short
 
 _farthest_m = 1e9
 
@@ -43,7 +44,11 @@ class Scene:
     >>> with pmdsim.Simulator({"sensors": [...], "illuminators": [...]}, scene=wall) as simulator:   # doctest: +SKIP
     ...     frame = simulator.render()
 
-    The arrays are those of the caller where they need no copy: change them and load the scene again to see it.
+    Notes
+    -----
+    The arrays are attributes that cannot be replaced: make a new scene for others. Their values may be changed in
+    place, `scene.vertices[:, 2] -= 1`, which shows when the scene is loaded again and is checked then. They are views
+    of the caller's arrays where these needed no copy.
     """
 
     def __init__(
@@ -55,36 +60,69 @@ class Scene:
         object_ids: Optional[ArrayLike] = None,
         double_sided: bool = True,
     ) -> None:
-        self.vertices: NDArray[np.float64] = _vertices(vertices)
-        self.triangles: NDArray[np.uint32] = _triangles(triangles, len(self.vertices))
-        count = len(self.triangles)
-        self.reflectivity: Optional[NDArray[np.float64]] = _reflectivity(reflectivity, count)
-        self.object_ids: Optional[NDArray[np.uint32]] = (
-            None if object_ids is None else _indices(object_ids, "object_ids", (count,), count, "the triangles")
-        )
-        self.double_sided = bool(double_sided)
+        # Views of its own, which nobody else has: numpy lets callers change an array's shape and type in place.
+        self._vertices = _vertices(vertices).view()
+        self._triangles = _triangles(triangles, len(self._vertices)).view()
+        count = len(self._triangles)
+        reflectivities = _reflectivity(reflectivity, count)
+        self._reflectivity = None if reflectivities is None else reflectivities.view()
+        ids = None if object_ids is None else _indices(object_ids, "object_ids", (count,), count, "the triangles")
+        self._object_ids = None if ids is None else ids.view()
+        self._double_sided = bool(double_sided)
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(n, 3), metres."""
+        return self._vertices.view()
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """(m, 3), indices of vertices."""
+        return self._triangles.view()
+
+    @property
+    def reflectivity(self) -> Optional[NDArray[np.float64]]:
+        """(m,), 0 to 1; None where all is reflected."""
+        return None if self._reflectivity is None else self._reflectivity.view()
+
+    @property
+    def object_ids(self) -> Optional[NDArray[np.uint32]]:
+        """(m,); None where all are 0."""
+        return None if self._object_ids is None else self._object_ids.view()
+
+    @property
+    def double_sided(self) -> bool:
+        """Whether the lens sees backs, too."""
+        return self._double_sided
 
     def __repr__(self) -> str:
-        return f"<pmdsim.Scene of {len(self.triangles)} triangles, {len(self.vertices)} vertices>"
+        return f"<pmdsim.Scene of {len(self._triangles)} triangles, {len(self._vertices)} vertices>"
 
     def _mesh(self) -> Mesh:
         """The library's view of the arrays, which keeps them."""
         mesh = Mesh(
             struct_size=ctypes.sizeof(Mesh),
-            positions_m=self.vertices.ctypes.data,
-            vertex_count=len(self.vertices),
-            triangles=self.triangles.ctypes.data,
-            triangle_count=len(self.triangles),
-            reflectivity=None if self.reflectivity is None else self.reflectivity.ctypes.data,
-            object_ids=None if self.object_ids is None else self.object_ids.ctypes.data,
-            double_sided=int(self.double_sided),
+            positions_m=self._vertices.ctypes.data,
+            vertex_count=len(self._vertices),
+            triangles=self._triangles.ctypes.data,
+            triangle_count=len(self._triangles),
+            reflectivity=None if self._reflectivity is None else self._reflectivity.ctypes.data,
+            object_ids=None if self._object_ids is None else self._object_ids.ctypes.data,
+            double_sided=int(self._double_sided),
         )
         mesh.scene = self
         return mesh
 
 
+def _array(values: Any, what: str) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{what}: expected numbers in rows of one length, found {short(values)}") from None
+
+
 def _real(values: Any, what: str) -> NDArray[np.float64]:
-    array = np.asarray(values)
+    array = _array(values, what)
     if array.dtype.kind not in "fiu":
         raise ArgumentError(f"{what}: expected real numbers, found the type {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.float64)
@@ -106,7 +144,7 @@ def _vertices(values: Any) -> NDArray[np.float64]:
 
 
 def _indices(values: Any, what: str, shape: Tuple[Optional[int], ...], count: int, of: str) -> NDArray[np.uint32]:
-    array = np.asarray(values)
+    array = _array(values, what)
     if array.dtype.kind not in "iu":
         raise ArgumentError(f"{what}: expected whole numbers, found the type {array.dtype}")
     if array.ndim != len(shape) or any(n is not None and n != m for n, m in zip(shape, array.shape)):

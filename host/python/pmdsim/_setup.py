@@ -8,11 +8,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
-from ._errors import InputError, OutputError, UnknownKeyError
+from ._errors import ArgumentError, InputError, UnknownKeyError
+from ._files import file_name, write_whole
 from ._library import schema as library_schema
 from ._scene import Scene
 from ._setup_text import parse_setup
-from ._values import plain
+from ._text import short
+from ._values import json_text, too_deep
 
 Schema = Dict[str, Any]
 
@@ -124,7 +126,7 @@ class Part(Dict[str, Any]):
     """An object in a setup: a dict whose keys are attributes, too."""
 
     # Attributes of this class that are no keys.
-    _own = frozenset({"_schema", "_place", "directory"})
+    _own = frozenset({"_schema", "_place", "_file", "directory"})
 
     def __init__(self, values: Mapping[str, Any], schema: Schema, place: str) -> None:
         super().__init__()
@@ -138,7 +140,7 @@ class Part(Dict[str, Any]):
         if not isinstance(key, str) or (known and key not in known):
             place = f"{self._place}/{key}"
             raise UnknownKeyError(
-                f"{place}: there is no key {key!r}; expected one of {', '.join(sorted(known or ()))}", place=place
+                f"{place}: there is no key {short(key)}; expected one of {', '.join(sorted(known or ()))}", place=place
             )
 
     def __setitem__(self, key: str, value: Any) -> None:
@@ -209,8 +211,11 @@ class Setup(Part):
     Raises
     ------
     UnknownKeyError
-        At once, where a key is set or asked for that setups do not have. It is an InputError, an AttributeError and
-        a KeyError. Values are checked when a simulator loads the setup.
+        At once, where a key is set, or asked for as an attribute, that setups do not have, and where `values` has
+        one. It is an InputError, an AttributeError and a KeyError. Values are checked when a simulator loads the
+        setup.
+    ArgumentError
+        `values` are no mapping, or contain themselves.
 
     Examples
     --------
@@ -227,8 +232,14 @@ class Setup(Part):
         *,
         directory: Optional[Union[str, "os.PathLike[str]"]] = None,
     ) -> None:
-        self.directory: Optional[str] = None if directory is None else os.fspath(directory)
-        super().__init__(values or {}, _root_schema(), "")
+        if values is not None and not isinstance(values, Mapping):
+            raise ArgumentError(f"setup: expected a dict, found {short(values)}; Setup.load reads files")
+        self.directory: Optional[str] = None if directory is None else file_name(directory, "directory")
+        self._file = ""  # that it was read from, for errors
+        try:
+            super().__init__(values or {}, _root_schema(), "")
+        except RecursionError:
+            raise too_deep("setup") from None
 
     @classmethod
     def load(cls, file: Union[str, "os.PathLike[str]"]) -> "Setup":
@@ -237,18 +248,23 @@ class Setup(Part):
         Raises
         ------
         InputError
-            The file cannot be read, is no JSON object, or has an unknown or doubled key.
+            The file cannot be read, is no JSON object, or has an unknown or doubled key; an unknown one is an
+            UnknownKeyError.
+        ArgumentError
+            No file can have that name.
         """
-        name = os.fspath(file)
+        name = file_name(file, "file")
         try:
-            text = Path(name).read_text(encoding="utf-8")
+            text = Path(name).read_text(encoding="utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:
             raise InputError(f"{name}: cannot be read: {error}", name) from None
         values = parse_setup(text, name)
         try:
-            return cls(values, directory=os.path.dirname(os.path.abspath(name)))
+            setup = cls(values, directory=os.path.dirname(os.path.abspath(name)))
         except UnknownKeyError as error:
-            raise UnknownKeyError(f"{name}{error.message}", name, error.place) from None
+            raise UnknownKeyError(f"{name}: {error.message}", name, error.place) from None
+        setup._file = os.path.abspath(name)
+        return setup
 
     def save(self, file: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the setup as JSON, whole or not at all. Relative paths in it stay as they are.
@@ -256,23 +272,17 @@ class Setup(Part):
         Raises
         ------
         ArgumentError
-            A value is none that JSON has, or the scene is one of arrays.
+            A value is none that JSON has, or the scene is one of arrays; or no file can have that name.
         OutputError
             The file cannot be written.
         """
-        name = os.fspath(file)
-        text = json.dumps(plain(self), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-        partial = f"{name}.{os.getpid()}.partial"
-        try:
-            Path(partial).write_text(text, encoding="utf-8")
-            os.replace(partial, name)
-        except OSError as error:
-            Path(partial).unlink(missing_ok=True)
-            raise OutputError(f"{name}: cannot be written: {error.strerror}", name) from None
+        name = file_name(file, "file")
+        text = json_text(self, "setup", indent=2) + "\n"
+        write_whole(name, lambda stream: stream.write(text.encode("utf-8")))
 
     def copy(self) -> "Setup":
         """A setup of its own, to the last list."""
-        return Setup(_copied(self), directory=self.directory)
+        return _restored(_copied(self), self.directory, self._file)
 
     __copy__ = copy
 
@@ -280,8 +290,10 @@ class Setup(Part):
         return self.copy()
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (_copied(self), self.directory)
+        return _restored, (_copied(self), self.directory, self._file)
 
 
-def _restored(values: Dict[str, Any], directory: Optional[str]) -> Setup:
-    return Setup(values, directory=directory)
+def _restored(values: Dict[str, Any], directory: Optional[str], file: str = "") -> Setup:
+    setup = Setup(values, directory=directory)
+    setup._file = file
+    return setup

@@ -7,6 +7,7 @@ import re
 from typing import Any, Dict, List, Tuple
 
 from ._errors import InputError
+from ._text import short
 
 # Text in quotes, which stays, or a comment, which becomes as many spaces and lines.
 _quoted_or_comment = re.compile(r'"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -24,7 +25,7 @@ def parse_setup(text: str, file: str) -> Dict[str, Any]:
         found: Dict[str, Any] = {}
         for key, value in pairs:
             if key in found:
-                raise InputError(f"{file}: the key {key!r} is there twice in one object", file)
+                raise InputError(f"{file}: the key {short(key)} is there twice in one object", file)
             found[key] = value
         return found
 
@@ -36,6 +37,8 @@ def parse_setup(text: str, file: str) -> Dict[str, Any]:
     except json.JSONDecodeError as error:
         place = f"{error.lineno}:{error.colno}"
         raise InputError(f"{file}:{place}: no JSON: {error.msg}", file, place) from None
+    except RecursionError:
+        raise InputError(f"{file}: expected fewer levels", file) from None
     if not isinstance(setup, dict):
         raise InputError(f"{file}: expected a JSON object", file)
     return setup

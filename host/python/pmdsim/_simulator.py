@@ -8,21 +8,21 @@ import os
 import warnings
 import weakref
 from functools import partial
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Set, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Set, TypeVar, Union
 
 from ._calls import Caller
-from ._errors import ArgumentError, HandleError, PmdsimWarning
+from ._errors import ArgumentError, Error, HandleError, PmdsimWarning
 from ._frame import Frame
 from ._frame_sources import FrameHandle, LibrarySource
 from ._library import check, library
 from ._options import Channels, Length, render_options
 from ._scene import Scene
 from ._setup import Setup
-from ._values import json_bytes, pose_value, whole_number
+from ._setup_input import SetupInput, SetupLike, changes_of, name_file
+from ._text import short, text_bytes
+from ._values import json_text, pose_value, several, whole_number
 
 Result = TypeVar("Result")
-Path = Union[str, "os.PathLike[str]"]
-SetupLike = Union[Path, Mapping[str, Any]]
 Device = Union[str, int]
 
 _most = 2**32 - 1
@@ -47,7 +47,7 @@ def _device_name(device: Optional[Device]) -> Optional[bytes]:
     if device is None:
         return None
     if isinstance(device, str):
-        return device.encode()
+        return text_bytes(device, "device")
     return str(whole_number(device, "device", 0, _most)).encode()
 
 
@@ -60,28 +60,6 @@ def _destroy(handle: int, process: int, caller: Caller) -> None:
     if os.getpid() == process:
         caller.stop()
         library().pmdsim_simulator_destroy(handle)
-
-
-def _file_name(setup: Path) -> bytes:
-    name = os.fspath(setup)
-    return name if isinstance(name, bytes) else name.encode("utf-8", "surrogateescape")
-
-
-def changes_of(changes: Mapping[str, Any]) -> Dict[str, Any]:
-    """Paths and values as the library takes them: a node, a sensor or an illuminator that is given a pose as a matrix
-    or as a position and a quaternion gets it as its pose."""
-    found: Dict[str, Any] = {}
-    for path, value in changes.items():
-        if not isinstance(path, str):
-            raise ArgumentError(f'expected paths like "sensors/0/focal_length_m", found {path!r:.80}')
-        parts = path.strip("/").split("/")
-        is_whole_node = len(parts) == 2 and parts[0] == "nodes"
-        if is_whole_node and not (isinstance(value, Mapping) and "pose" in value):
-            path, value = "/".join([*parts, "pose"]), pose_value(value, path)
-        elif parts[-1] == "pose" and len(parts) == 3:
-            value = pose_value(value, path)
-        found[path] = value
-    return found
 
 
 class Simulator:
@@ -139,6 +117,7 @@ class Simulator:
         self._finalizer = weakref.finalize(self, _destroy, self._handle, self._owner, self._caller)
         self._described: Optional[Dict[str, Any]] = None
         self._warned: Set[str] = set()
+        self._setup_file = ""  # of a setup that was read here, and not by the library
         if setup is not None:
             try:
                 self._load(setup, scene, stacklevel=3)
@@ -166,10 +145,8 @@ class Simulator:
     def close(self) -> None:
         """Gives the device and the memory back; frames that were measured stay. Twice does no harm.
 
-        Raises
-        ------
-        BusyError
-            Another thread is in a call.
+        A call that another thread is in goes on to its end, and memory and device are given back then; `cancel` before
+        ends it soon.
         """
         handle, self._handle = self._handle, 0
         if not handle or self._owner != os.getpid() or not self._finalizer.alive:
@@ -206,8 +183,13 @@ class Simulator:
     def __reduce__(self) -> Any:
         raise TypeError("a simulator belongs to its process and cannot be pickled; make one in each")
 
-    def _call(self, function: Callable[[], Result]) -> Result:
-        return self._caller(function)
+    def _call(self, function: Callable[[], Result], setup_file: str) -> Result:
+        """`setup_file` is that of the setup that errors may tell of."""
+        try:
+            return self._caller(function)
+        except Error as error:
+            name_file(error, setup_file)
+            raise
 
     def load(self, setup: SetupLike, *, scene: Optional[Scene] = None) -> None:
         """Takes a setup in place of the one before; changes that were set are gone.
@@ -231,37 +213,12 @@ class Simulator:
 
     def _load(self, setup: SetupLike, scene: Optional[Scene], stacklevel: int) -> None:
         handle = self._usable()
-        if not isinstance(setup, (str, os.PathLike, Mapping)):
-            raise ArgumentError(f"setup: expected a path, a dict or a pmdsim.Setup, found {setup!r:.80}")
-        if isinstance(setup, (str, os.PathLike)) and scene is not None:
-            setup = Setup.load(setup)
-        if isinstance(setup, Mapping):
-            self._load_values(handle, setup, scene)
-        else:
-            name = _file_name(setup)
-            self._call(lambda: check(library().pmdsim_simulator_load(handle, name)))
+        given = SetupInput(setup, scene)
+        self._call(lambda: given.load(handle), given.file)
+        self._setup_file = given.file
         self._described = None
         self._warned = set()
         self._warn(stacklevel + 1)
-
-    def _load_values(self, handle: int, setup: Mapping[str, Any], scene: Optional[Scene]) -> None:
-        values = dict(setup)
-        if scene is None and isinstance(values.get("scene"), Scene):
-            scene = values["scene"]
-        if scene is not None:
-            values.pop("scene", None)
-        text = json_bytes(values)
-        directory = getattr(setup, "directory", None)
-        folder = None if directory is None else _file_name(directory)
-        if scene is None:
-            self._call(lambda: check(library().pmdsim_simulator_load_text(handle, text, len(text), folder)))
-            return
-        if not isinstance(scene, Scene):
-            raise ArgumentError(f"scene: expected a pmdsim.Scene, found {scene!r:.80}")
-        mesh = scene._mesh()  # which keeps the arrays, however long the call takes
-        self._call(
-            lambda: check(library().pmdsim_simulator_load_mesh(handle, text, len(text), folder, ctypes.byref(mesh)))
-        )
 
     def set(self, path: Union[str, Mapping[str, Any]], value: Any = None) -> None:
         """Changes the setup: `set(path, value)`, or several at once, `set({path: value, ...})`.
@@ -270,7 +227,8 @@ class Simulator:
         ----------
         path : str or dict
             A path is a JSON pointer into the setup, with or without its first slash; the name of an element may
-            stand for its index: "sensors/pmd/focal_length_m", "illuminators/0/diodes/rings/0/radius_m".
+            stand for its index: "sensors/pmd/focal_length_m", "illuminators/0/diodes/rings/0/radius_m". A number in
+            it is always an index.
         value : numbers, text, lists, dicts, numpy arrays
             What stands there from now on. A pose may be what `move` takes.
 
@@ -278,12 +236,14 @@ class Simulator:
         ------
         InputError
             The changed setup is wrong. All changes are taken together, or none.
+        ArgumentError
+            A path is no text, or a value is none that JSON has.
 
         Notes
         -----
         Changes stay until the next load. Scene files are not read again.
         """
-        if not isinstance(path, Mapping):
+        if isinstance(path, str):
             path = {path: value}
         elif value is not None:
             raise ArgumentError("set: expected a path and a value, or a dict of them alone")
@@ -291,8 +251,8 @@ class Simulator:
 
     def _set(self, changes: Mapping[str, Any], stacklevel: int) -> None:
         handle = self._usable()
-        text = json_bytes(changes_of(changes))
-        self._call(lambda: check(library().pmdsim_simulator_set(handle, text)))
+        text = json_text(changes_of(changes), "set").encode("utf-8")
+        self._call(lambda: check(library().pmdsim_simulator_set(handle, text)), self._setup_file)
         self._described = None
         self._warn(stacklevel)
 
@@ -320,16 +280,18 @@ class Simulator:
         Raises
         ------
         ArgumentError
-            The pose's shape is wrong, or a number in it is not finite.
+            The pose's shape is wrong, or a number in it is not finite; or there is no sensor or illuminator of that
+            name.
         InputError
-            There is no such node, or the matrix does more than turn and move.
+            There is no such node or index, or the matrix does more than turn and move.
         """
         named = {"nodes": node, "sensors": sensor, "illuminators": illuminator}
         given = [(part, name) for part, name in named.items() if name is not None]
         if len(given) != 1:
             raise ArgumentError("move: expected one of node, sensor and illuminator")
         part, name = given[0]
-        self._set({f"{part}/{_escaped(name)}/pose": pose_value(pose)}, stacklevel=4)
+        element = _escaped(name) if part == "nodes" else self._index(part, name)
+        self._set({f"{part}/{element}/pose": pose_value(pose)}, stacklevel=4)
 
     def _warn(self, stacklevel: int) -> None:
         for line in self._description().get("warnings", ()):
@@ -346,7 +308,7 @@ class Simulator:
                 check(library().pmdsim_simulator_describe(handle, ctypes.byref(text)))
                 return json.loads(text.value or b"{}")
 
-            self._described = self._call(describe)
+            self._described = self._call(describe, self._setup_file)
         return self._described
 
     @property
@@ -379,13 +341,15 @@ class Simulator:
         self._usable()
         return self._description().get(key)
 
-    def _sensor_index(self, sensor: Union[int, str]) -> int:
-        if not isinstance(sensor, str):
-            return whole_number(sensor, "sensor", 0, _most)
-        names = self.sensors
-        if sensor not in names:
-            raise ArgumentError(f"sensor: expected one of {', '.join(names) or 'a setup'}, found {sensor!r:.80}")
-        return names.index(sensor)
+    def _index(self, part: str, element: Any) -> int:
+        """The index of one of the "sensors" or "illuminators" by name or index."""
+        what = part[: -len("s")]
+        if not isinstance(element, str):
+            return whole_number(element, what, 0, _most)
+        names = [described["name"] for described in (self._told("setup") or {}).get(part, ())]
+        if element not in names:
+            raise ArgumentError(f"{what}: expected one of {', '.join(names) or 'a setup'}, found {short(element)}")
+        return names.index(element)
 
     def render(
         self,
@@ -413,7 +377,7 @@ class Simulator:
 
     def _render(self, sensor: Union[int, str], frame: int, options: Any, stacklevel: int) -> Frame:
         handle = self._usable()
-        sensor_index = self._sensor_index(sensor)
+        sensor_index = self._index("sensors", sensor)
         frame_index = whole_number(frame, "frame", 0, _most)
 
         def measure() -> FrameHandle:
@@ -423,7 +387,7 @@ class Simulator:
             )
             return FrameHandle(result.value or 0)
 
-        measured = Frame(LibrarySource(self._call(measure)))
+        measured = Frame(LibrarySource(self._call(measure, self._setup_file)))
         for line in measured.report.get("warnings", ()):
             if line not in self._warned:
                 warnings.warn(line, PmdsimWarning, stacklevel=stacklevel)
@@ -432,17 +396,17 @@ class Simulator:
     def frames(
         self,
         *,
-        sensors: Optional[Iterable[Union[int, str]]] = None,
-        frames: Optional[Iterable[int]] = None,
+        sensors: Optional[Union[int, str, Iterable[Union[int, str]]]] = None,
+        frames: Optional[Union[int, Iterable[int]]] = None,
         **options: Any,
     ) -> Iterator[Frame]:
         """Measures frame after frame, of every sensor each.
 
         Parameters
         ----------
-        sensors : iterable of int or str, optional
+        sensors : int or str, or iterable of these, optional
             Indices or names; by default all.
-        frames : iterable of int, optional
+        frames : int or iterable of int, optional
             Numbers, e.g. range(10, 20); by default all that the setup has.
         **options
             As for `render`.
@@ -453,8 +417,10 @@ class Simulator:
             Frame 0 of each sensor, then frame 1, ...; `frame.sensor` and `frame.frame` tell which.
         """
         prepared = render_options(**options)
-        chosen = [self._sensor_index(sensor) for sensor in (self.sensors if sensors is None else sensors)]
-        return self._measured_in_turn(chosen, range(self.frame_count) if frames is None else frames, prepared)
+        wanted = self.sensors if sensors is None else several(sensors)
+        numbers = range(self.frame_count) if frames is None else several(frames)
+        chosen = [self._index("sensors", sensor) for sensor in wanted]
+        return self._measured_in_turn(chosen, [whole_number(n, "frames", 0, _most) for n in numbers], prepared)
 
     def _measured_in_turn(self, sensors: List[int], frames: Iterable[int], options: Any) -> Iterator[Frame]:
         for frame in frames:
@@ -462,6 +428,8 @@ class Simulator:
                 yield self._render(sensor, frame, options, stacklevel=3)
 
 
-def _escaped(name: Union[str, int]) -> Union[str, int]:
+def _escaped(node: Any) -> str:
     """A name as a part of a JSON pointer."""
-    return name.replace("~", "~0").replace("/", "~1") if isinstance(name, str) else name
+    if not isinstance(node, str):
+        raise ArgumentError(f"node: expected a name, found {short(node)}")
+    return node.replace("~", "~0").replace("/", "~1")

@@ -14,21 +14,23 @@ from ._errors import ArgumentError, CancelledError
 from ._frame import Frame
 from ._options import render_options
 from ._scene import Scene
-from ._simulator import Device, SetupLike, Simulator, changes_of
-from ._values import whole_number
+from ._setup_input import SetupLike, changes_of
+from ._simulator import Device, Simulator
+from ._text import short
+from ._values import several, whole_number
 
 Variant = Dict[str, Any]
 
 
 def _variants(variations: Mapping[str, Iterable[Any]], combine: str) -> Iterator[Variant]:
     if combine not in ("product", "zip"):
-        raise ArgumentError(f'combine: expected "product" or "zip", found {combine!r:.80}')
+        raise ArgumentError(f'combine: expected "product" or "zip", found {short(combine)}')
     if not isinstance(variations, Mapping) or not variations:
-        raise ArgumentError(f"variations: expected a dict of paths and values, found {variations!r:.80}")
+        raise ArgumentError(f"variations: expected a dict of paths and values, found {short(variations)}")
     lists: List[Sequence[Any]] = []
     for path, values in variations.items():
         if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
-            raise ArgumentError(f"variations[{path!r}]: expected a list of values, found {values!r:.80}")
+            raise ArgumentError(f"variations[{short(path)}]: expected a list of values, found {short(values)}")
         lists.append(list(values))
         changes_of({path: value for value in lists[-1][:1]})
     lengths = {len(values) for values in lists}
@@ -156,7 +158,7 @@ def sweep(
     ...     print(variant, frame.distance_m.mean())                               # doctest: +SKIP
     """
     count = whole_number(workers, "workers", 1, 1024)
-    numbers = [0] if frames is None else [frames] if isinstance(frames, int) else list(frames)
+    numbers = [0] if frames is None else several(frames)
     chosen = [whole_number(number, "frames", 0, 2**32 - 1) for number in numbers]
     prepared = render_options(**options)
     variants = _variants(variations, combine)

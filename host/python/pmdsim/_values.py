@@ -5,34 +5,35 @@ from __future__ import annotations
 import json
 import math
 import os
-from typing import Any, Dict, Mapping, Optional, Union
+from typing import Any, Dict, List, Mapping, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import ArgumentError
+from ._text import checked_text, short
 
 
 def _refused(value: Any, place: str, expected: str) -> ArgumentError:
-    return ArgumentError(f"{place or '/'}: expected {expected}, found {value!r:.80}", place=place)
+    return ArgumentError(f"{place or '/'}: expected {expected}, found {short(value)}", place=place)
 
 
 def plain(value: Any, place: str = "") -> Any:
     """The same value of dict, list, str, numbers, bool and None alone, or ArgumentError with the place."""
-    if value is None or isinstance(value, (bool, str)):
+    if value is None or isinstance(value, bool):
         return value
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        if not math.isfinite(value):
+    if isinstance(value, str):
+        return checked_text(value, place or "/", place)
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        if not _is_finite(value):
             raise _refused(value, place, "a finite number")
-        return float(value)
+        return int(value) if isinstance(value, (int, np.integer)) else float(value)
     if isinstance(value, np.bool_):
         return bool(value)
     if isinstance(value, np.ndarray):
         return plain(value.tolist(), place)
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return plain(os.fspath(value), place)
     if isinstance(value, Mapping):
         return {_key(key, place): plain(element, f"{place}/{key}") for key, element in value.items()}
     if isinstance(value, (list, tuple)):
@@ -40,22 +41,47 @@ def plain(value: Any, place: str = "") -> Any:
     raise _refused(value, place, "numbers, text, lists, dicts or numpy arrays")
 
 
+def _is_finite(number: Any) -> bool:
+    try:
+        return math.isfinite(number)
+    except OverflowError:  # of a whole number beyond all doubles
+        return False
+
+
 def _key(key: Any, place: str) -> str:
     if not isinstance(key, str):
         raise _refused(key, place, "a key that is text")
-    return key
+    return checked_text(key, place or "/", place)
 
 
-def json_bytes(value: Any) -> bytes:
-    """The value as JSON, in which numbers are the same doubles again."""
-    return json.dumps(plain(value), ensure_ascii=False, allow_nan=False).encode("utf-8")
+def too_deep(what: str) -> ArgumentError:
+    """For a RecursionError."""
+    return ArgumentError(f"{what}: expected fewer levels, found a value that contains itself, or nearly so")
+
+
+def json_text(value: Any, what: str, indent: Optional[int] = None) -> str:
+    """The value as JSON, in which numbers are the same doubles again, or ArgumentError."""
+    try:
+        return json.dumps(plain(value), ensure_ascii=False, allow_nan=False, indent=indent)
+    except RecursionError:
+        raise too_deep(what) from None
+
+
+def several(values: Any) -> List[Any]:
+    """A list of what may be one thing alone, such as a number or a name."""
+    if isinstance(values, str):
+        return [values]
+    try:
+        return list(values)
+    except TypeError:
+        return [values]
 
 
 def whole_number(value: Any, what: str, least: int, most: int) -> int:
     """An index or a count."""
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and least <= value <= most:
         return int(value)
-    raise ArgumentError(f"{what}: expected a whole number from {least} to {most}, found {value!r:.80}")
+    raise ArgumentError(f"{what}: expected a whole number from {least} to {most}, found {short(value)}")
 
 
 _units_per_m = {"um": 1e6, "mm": 1e3, "m": 1.0}
@@ -71,9 +97,9 @@ def length_m(value: Union[str, float], what: str) -> float:
                     return number / per_m
                 break
     elif isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
-        if math.isfinite(value) and value > 0.0:
+        if _is_finite(value) and value > 0.0:
             return float(value)
-    raise ArgumentError(f'{what}: expected metres above 0, or a length like "10um", found {value!r:.80}')
+    raise ArgumentError(f'{what}: expected metres above 0, or a length like "10um", found {short(value)}')
 
 
 def _number(text: str) -> Optional[float]:
@@ -109,10 +135,10 @@ def pose_value(pose: Any, what: str = "pose") -> Dict[str, Any]:
 def _numbers(values: Any, what: str) -> NDArray[np.float64]:
     try:
         numbers = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ArgumentError(f"{what}: expected numbers, found {values!r:.80}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise ArgumentError(f"{what}: expected numbers, found {short(values)}") from None
     if not np.isfinite(numbers).all():
-        raise ArgumentError(f"{what}: expected finite numbers, found {values!r:.80}")
+        raise ArgumentError(f"{what}: expected finite numbers, found {short(values)}")
     return numbers
 
 
