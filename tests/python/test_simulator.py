@@ -5,9 +5,12 @@ from __future__ import annotations
 import gc
 import json
 import os
+import shutil
+import tempfile
 import threading
 import unittest
 import weakref
+from pathlib import Path
 
 import numpy as np
 
@@ -28,6 +31,24 @@ class SimulatorTest(unittest.TestCase):
             self.assertNotEqual(first.distance_m.tobytes(), second.distance_m.tobytes())
             self.assertEqual(first.distance_m.tobytes(), third.distance_m.tobytes())
             self.assertEqual(simulator.setup.sensors[0].focal_length_m, 0.0018)
+
+    def test_files_stay_where_they_were_when_the_process_goes_elsewhere(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(scenes / "wall_2m.gltf", folder)
+            setup = small_setup(scene="wall_2m.gltf")
+            (Path(folder) / "setup.json").write_text(json.dumps(setup))
+            before = os.getcwd()
+            os.chdir(folder)
+            try:
+                simulators = [pmdsim.Simulator(of) for of in ("setup.json", setup, pmdsim.Setup(setup))]
+            finally:
+                os.chdir(before)
+            for simulator in simulators:
+                with simulator:
+                    simulator.set("sensors/0/taps", 5)
+                    used = simulator.setup
+                    self.assertEqual(used.directory, os.path.realpath(folder))
+                    np.testing.assert_array_equal(pmdsim.render(used).range_m, simulator.render().range_m)
 
     def test_a_wrong_change_changes_nothing(self) -> None:
         with pmdsim.Simulator(small_setup()) as simulator:

@@ -39,6 +39,7 @@ class SetupInput:
         if scene is not None and not isinstance(scene, Scene):
             raise ArgumentError(f"scene: expected a pmdsim.Scene, found {short(scene)}")
         self.file = ""  # that text was read from
+        self.directory = ""  # absolute, where relative paths start
         self._path = b""  # of a setup that the library reads
         self._text: Optional[bytes] = None
         self._folder: Optional[bytes] = None
@@ -49,6 +50,7 @@ class SetupInput:
             self._take(Setup.load(setup), scene)
         else:
             self._path = file_bytes(setup, "setup")
+            self.directory = os.path.dirname(os.path.abspath(os.fsdecode(self._path)))
 
     def _take(self, setup: Mapping[str, Any], scene: Optional[Scene]) -> None:
         values = dict(setup)
@@ -61,6 +63,7 @@ class SetupInput:
         folder = getattr(setup, "directory", None)
         if folder is not None:
             self._folder = file_bytes(folder, "directory")
+        self.directory = os.path.abspath(folder or "")
         self.file = getattr(setup, "_file", "")
 
     def load(self, simulator: int) -> None:

@@ -118,6 +118,7 @@ class Simulator:
         self._described: Optional[Dict[str, Any]] = None
         self._warned: Set[str] = set()
         self._setup_file = ""  # of a setup that was read here, and not by the library
+        self._setup_directory = ""
         if setup is not None:
             try:
                 self._load(setup, scene, stacklevel=3)
@@ -215,7 +216,7 @@ class Simulator:
         handle = self._usable()
         given = SetupInput(setup, scene)
         self._call(lambda: given.load(handle), given.file)
-        self._setup_file = given.file
+        self._setup_file, self._setup_directory = given.file, given.directory
         self._described = None
         self._warned = set()
         self._warn(stacklevel + 1)
@@ -333,9 +334,9 @@ class Simulator:
 
     @property
     def setup(self) -> Optional[Setup]:
-        """The setup as used, with all changes and defaults; a copy. None without a setup."""
+        """The setup as used, with all changes and defaults and its directory; a copy. None without a setup."""
         setup = self._told("setup")
-        return None if setup is None else Setup(setup)
+        return None if setup is None else Setup(setup, directory=self._setup_directory)
 
     def _told(self, key: str) -> Any:
         self._usable()
