@@ -5,6 +5,7 @@
 #include "host/capture/exposure.h"
 #include "host/capture/progress.h"
 #include "host/output/files/manifest.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <chrono>
@@ -175,7 +176,8 @@ SetupBench bench_setup(const Setup &setup, const BenchRequest &request, const st
     } catch (const Error &error) {
       if (request.one_mode || error.code() != ExitCode::accuracy)
         throw;
-      fmt::print(stderr, "pmdsim: warning: mode {} is left out: {}\n", mode_name(mode), error.what());
+      warn({warning_code("mode-left-out"), setup.file.string(),
+            fmt::format("mode {} is left out: {}", mode_name(mode), error.what())});
     }
   }
   if (modes.front() == Mode::exact && !bench.adaptive && !on_reference)

@@ -1,6 +1,7 @@
 #include "host/capture/capture.h"
 
 #include "engine/model/error.h"
+#include "host/input/file/input_error.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -72,10 +73,10 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
 
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
   Setup setup = loader.load(document);
-  for (const std::string &warning : setup.warnings)
-    fmt::print(stderr, "pmdsim: warning: {}\n", warning);
+  for (const Warning &warning : setup.warnings)
+    warn(warning);
   if (request.accuracy.mode != Mode::exact && !request.accuracy.strict && exposes_any_tap_by_tap(setup))
-    fmt::print(stderr, "pmdsim: warning: {}\n", tap_by_tap_is_exact);
+    warn(tap_by_tap_warning(setup));
   if (request.samples)
     set_samples(setup, *request.samples);
   return setup;
@@ -84,8 +85,8 @@ Setup requested_setup(const CaptureRequest &request, const SetupDocument &docume
 Setup requested_setup_without_bounces(const CaptureRequest &request) {
   Setup setup = requested_setup(request);
   if (setup.bounces.any())
-    fmt::print(stderr,
-               "pmdsim: warning: light that bounces is left out, as sums over the diodes are compared\n");
+    warn(input_warning(warning_code("bounces-left-out"), Place{setup.file} / "bounces",
+                       "light that bounces is left out, as sums over the diodes are compared"));
   setup.bounces = {};
   return setup;
 }
@@ -104,9 +105,9 @@ void leave_out_electronics(Setup &setup) {
     sensor["scatter"] = nlohmann::ordered_json::array();
   }
   if (any)
-    fmt::print(stderr,
-               "pmdsim: warning: electronics, scatter and unwrapping are left out, as frames without noise "
-               "are compared\n");
+    warn(input_warning(warning_code("electronics-left-out"), Place{setup.file} / "sensors",
+                       "electronics, scatter and unwrapping are left out, as frames without noise are "
+                       "compared"));
 }
 
 namespace {
@@ -137,8 +138,10 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
                          const std::string &label) {
   bar_->begin(at.label + label, samples_of_frame(setup_, setup_.start.sensors[at.sensor]));
   TakenFrame taken = exposures_.take(at.sensor, at.frame, light, interruptible_progress(*bar_), next_s);
-  if (const std::string warning = unpromised_text(taken.measurement.accuracy, max_error_m_); !warning.empty())
-    fmt::print(stderr, "pmdsim: warning: {}, frame {}: {}\n", taken.sensor.name, at.frame, warning);
+  if (auto warning = unpromised_warning(taken.measurement.accuracy, max_error_m_, taken.sensor)) {
+    warning->place += fmt::format(", frame {}", at.frame);
+    warn(*warning);
+  }
   return taken;
 }
 

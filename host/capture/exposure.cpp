@@ -7,6 +7,7 @@
 #include "engine/signal/unwrapping.h"
 #include "host/capture/multipath_of_taps.h"
 #include "host/capture/progress.h"
+#include "host/input/file/input_error.h"
 
 #include <algorithm>
 #include <numeric>
@@ -58,6 +59,10 @@ bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor) {
 bool exposes_any_tap_by_tap(const Setup &setup) {
   return std::ranges::any_of(setup.start.sensors,
                              [&](const Sensor &sensor) { return exposes_tap_by_tap(setup, sensor); });
+}
+
+Warning tap_by_tap_warning(const Setup &setup) {
+  return input_warning(warning_code("tap-by-tap-exact"), Place{setup.file}, tap_by_tap_is_exact);
 }
 
 double samples_of_frame(const Setup &setup, const Sensor &sensor) {

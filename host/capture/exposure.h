@@ -57,6 +57,7 @@ bool exposes_tap_by_tap(const Setup &setup, const Sensor &sensor);
 bool exposes_any_tap_by_tap(const Setup &setup);
 
 // What is told of such frames where an error is asked for.
+Warning tap_by_tap_warning(const Setup &setup);
 inline constexpr const char *tap_by_tap_is_exact =
     "frames whose taps are taken one after the other are taken in mode exact, and nothing is claimed of "
     "their errors";

@@ -4,6 +4,7 @@
 #include "host/capture/pipeline.h"
 #include "host/capture/progress.h"
 #include "host/input/file/content_hash.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <chrono>
@@ -45,9 +46,8 @@ std::uint32_t FrameSequence::begin() {
                   throw_if_interrupted, request_.strict);
   request_.directory = folder_->path();
   if (!folder_->has_locks())
-    fmt::print(stderr,
-               "pmdsim: warning: {}: its file system has no locks, no other process may write there\n",
-               request_.directory.string());
+    warn({warning_code("no-locks"), request_.directory.string(),
+          "its file system has no locks, no other process may write there"});
   const std::vector<std::uint32_t> recorded = recorded_frames(request_.directory);
   for (std::uint32_t i = 0; i < request_.frames.count(); ++i)
     if (const std::uint32_t frame = request_.frames.at(i);

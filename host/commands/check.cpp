@@ -81,7 +81,7 @@ ordered_json bounces_json(const Setup &setup, const std::optional<BouncesForecas
 
 // The keys of the first sensor (and its first frequency) stand at the top too.
 ordered_json report_json(const Setup &setup, const Findings &findings) {
-  std::vector<std::string> warnings = setup.warnings;
+  std::vector<Warning> warnings = setup.warnings;
   std::ranges::copy(warnings_of(setup, findings), std::back_inserter(warnings));
   const ordered_json sensors = array_of(findings.sensors, sensor_json);
   ordered_json report{{"triangles", setup.start.scene.triangles.size()},
@@ -98,7 +98,7 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
     report[key] = sensors[0][key];
   report["illuminators"] = array_of(findings.illuminators, illuminator_json);
   report["sensors"] = sensors;
-  report["warnings"] = warnings;
+  report["warnings"] = array_of(warnings, warning_json);
   return report;
 }
 
@@ -211,8 +211,8 @@ std::string report_text(const Setup &setup, const Findings &findings) {
 void run_check(const Options &options) {
   const Setup setup = requested_setup(options.capture);
   const Findings findings = findings_of(setup);
-  for (const std::string &warning : warnings_of(setup, findings))
-    fmt::print(stderr, "pmdsim: warning: {}\n", warning);
+  for (const Warning &warning : warnings_of(setup, findings))
+    warn(warning);
   print(options.json ? json_text(report_json(setup, findings)) : report_text(setup, findings));
 }
 

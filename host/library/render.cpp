@@ -106,20 +106,22 @@ FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
           paths_of(options.paths, on_reference), channels_of(options.channels)};
 }
 
-nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, double time_s,
+nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, const Setup &setup,
                                  const Accuracy &asked) {
   const Measurement &measured = taken.measurement;
-  nlohmann::ordered_json json = frame_json({taken.sensor, frame, time_s, measured.frame_ms, measured.passes,
-                                            taken.mode, measured.accuracy, measured.bounces});
+  nlohmann::ordered_json json =
+      frame_json({taken.sensor, frame, setup.frames.time_s(frame), measured.frame_ms, measured.passes,
+                  taken.mode, measured.accuracy, measured.bounces});
   json.erase("outputs");
   json["frame_ms"] = measured.frame_ms;
   json["passes_ms"] = passes_json(measured.passes);
   json["check_ms"] = measured.accuracy.check_ms;
-  json["warnings"] = nlohmann::ordered_json::array();
+  std::vector<Warning> warnings;
   if (taken.mode == Mode::exact && asked.mode != Mode::exact)
-    json["warnings"].push_back(tap_by_tap_is_exact);
-  if (const std::string text = unpromised_text(measured.accuracy, asked.max_error_m); !text.empty())
-    json["warnings"].push_back(text);
+    warnings.push_back(tap_by_tap_warning(setup));
+  if (const auto warning = unpromised_warning(measured.accuracy, asked.max_error_m, taken.sensor))
+    warnings.push_back(*warning);
+  json["warnings"] = array_of(warnings, warning_json);
   return json;
 }
 
@@ -146,8 +148,7 @@ pmdsim_status pmdsim_render(pmdsim_simulator *simulator, uint32_t sensor, uint32
     made->camera = session.camera();
     made->taken = session.take(sensor, frame, request, stop_when_cancelled);
     made->channels = pmdsim::channels_of(made->taken->measurement);
-    made->report =
-        json_text(report_of(*made->taken, frame, session.setup().frames.time_s(frame), request.accuracy));
+    made->report = json_text(report_of(*made->taken, frame, session.setup(), request.accuracy));
     *result = add_frame(std::move(made));
   });
 }

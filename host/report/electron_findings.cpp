@@ -4,6 +4,7 @@
 #include "engine/reference/reference.h"
 #include "host/output/files/manifest.h"
 #include "host/report/findings.h"
+#include "host/report/report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,13 +145,14 @@ nlohmann::ordered_json electrons_json(const std::optional<ElectronFindings> &fin
           {"distance_noise_m", {or_null(findings->least_noise_m), or_null(findings->most_noise_m)}}};
 }
 
-std::string full_warning(const Sensor &sensor, const ElectronFindings &findings) {
+std::optional<Warning> full_warning(const Sensor &sensor, const ElectronFindings &findings) {
   if (findings.share_full == 0.0)
-    return "";
-  return fmt::format(
-      "sensor {}: a tap will be full in about {:.3g} % of the pixels, the fullest with {:.3g} times "
-      "what it can hold: a shorter integration_time_s or a larger lens_f_number helps",
-      sensor.name, 100.0 * findings.share_full, findings.fullest_over_well);
+    return std::nullopt;
+  return Warning{
+      warning_code("full-taps"), place_of(sensor),
+      fmt::format("a tap will be full in about {:.3g} % of the pixels, the fullest with {:.3g} times "
+                  "what it can hold: a shorter integration_time_s or a larger lens_f_number helps",
+                  100.0 * findings.share_full, findings.fullest_over_well)};
 }
 
 } // namespace pmdsim

@@ -28,7 +28,7 @@ std::optional<ElectronFindings> electron_findings(const Setup &setup, const Sens
 std::string electrons_text(const ElectronFindings &findings);
 nlohmann::ordered_json electrons_json(const std::optional<ElectronFindings> &findings);
 
-// Empty where no tap is to be full.
-std::string full_warning(const Sensor &sensor, const ElectronFindings &findings);
+// Nothing where no tap is to be full.
+std::optional<Warning> full_warning(const Sensor &sensor, const ElectronFindings &findings);
 
 } // namespace pmdsim

@@ -112,29 +112,30 @@ LightFindings findings_of_light(const Illuminator &illuminator, DiagramAngles &k
   return light;
 }
 
-void add_view_warnings(std::vector<std::string> &warnings, const SensorFindings &findings) {
+void add_view_warnings(std::vector<Warning> &warnings, const SensorFindings &findings) {
   const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   if (visible.is_empty())
-    warnings.push_back(fmt::format("sensor {}: no ray of a coarse frame hits the scene; is the camera turned "
-                                   "away, or are the scene's back faces culled?",
-                                   sensor.name));
+    warnings.push_back({warning_code("nothing-in-view"), place_of(sensor),
+                        "no ray of a coarse frame hits the scene; is the camera turned away, or are the "
+                        "scene's back faces culled?"});
   for (std::size_t i = 0; i < shares_beyond.size(); ++i)
     if (shares_beyond[i] > 0.0)
       warnings.push_back(
-          fmt::format("sensor {} at {}: what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % "
-                      "of it beyond the ambiguity range of {:.6g} m: distances wrap",
-                      sensor.name, frequency_text(sensor.modulation_hz[i]), visible.min_m, visible.max_m,
-                      100.0 * shares_beyond[i], sensor.ambiguity_m(i)));
+          {warning_code("beyond-ambiguity"),
+           fmt::format("{} at {}", place_of(sensor), frequency_text(sensor.modulation_hz[i])),
+           fmt::format("what is visible lies {:.6g} m to {:.6g} m away, {:.3g} % of it beyond the ambiguity "
+                       "range of {:.6g} m: distances wrap",
+                       visible.min_m, visible.max_m, 100.0 * shares_beyond[i], sensor.ambiguity_m(i))});
 }
 
-void add_tap_warning(std::vector<std::string> &warnings, const Sensor &sensor, const FrameTimes &frames) {
+void add_tap_warning(std::vector<Warning> &warnings, const Sensor &sensor, const FrameTimes &frames) {
   constexpr double rounding = 1e-9;
   const double frame_s = 1.0 / frames.rate_hz, taps_s = tap_sequence_s(sensor);
   if (frames.count > 1 && taps_s > frame_s * (1.0 + rounding))
-    warnings.push_back(
-        fmt::format("sensor {}: its taps take {:.6g} s, longer than the {:.6g} s from one frame "
-                    "to the next: frames overlap",
-                    sensor.name, taps_s, frame_s));
+    warnings.push_back({warning_code("frames-overlap"), place_of(sensor),
+                        fmt::format("its taps take {:.6g} s, longer than the {:.6g} s from one frame to the "
+                                    "next: frames overlap",
+                                    taps_s, frame_s)});
 }
 
 // No shape stands in its own light.
@@ -181,15 +182,16 @@ Findings findings_of(const Setup &setup) {
   return findings;
 }
 
-std::vector<std::string> warnings_of(const Setup &setup, const Findings &findings) {
-  std::vector<std::string> warnings;
+std::vector<Warning> warnings_of(const Setup &setup, const Findings &findings) {
+  std::vector<Warning> warnings;
   if (setup.start.scene.shape_count() > 0)
     for (const SensorFindings &sensor : findings.sensors)
       add_view_warnings(warnings, sensor);
   for (const SensorFindings &sensor : findings.sensors) {
     add_tap_warning(warnings, sensor.sensor, setup.frames);
-    if (sensor.electrons && sensor.electrons->share_full > 0.0)
-      warnings.push_back(full_warning(sensor.sensor, *sensor.electrons));
+    if (sensor.electrons)
+      if (const auto full = full_warning(sensor.sensor, *sensor.electrons))
+        warnings.push_back(*full);
   }
   return warnings;
 }

@@ -64,8 +64,8 @@ struct Findings {
 
 Findings findings_of(const Setup &setup);
 
-// The warnings beyond those of loading the setup, one line each. `findings` are the setup's.
-std::vector<std::string> warnings_of(const Setup &setup, const Findings &findings);
+// The warnings beyond those of loading the setup. `findings` are the setup's.
+std::vector<Warning> warnings_of(const Setup &setup, const Findings &findings);
 
 // c / (2 f) with f the greatest common divisor of the frequencies; nothing where they are not whole numbers
 // of hertz.

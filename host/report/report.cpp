@@ -52,6 +52,12 @@ void print(const std::string &text) {
 
 std::string frequency_text(double modulation_hz) { return fmt::format("{:.10g} MHz", modulation_hz / 1e6); }
 
+void warn(const Warning &warning) {
+  fmt::print(stderr, "pmdsim: warning: {}: {} [{}]\n", warning.place, warning.text, warning.code);
+}
+
+std::string place_of(const Sensor &sensor) { return "sensor " + sensor.name; }
+
 std::string table_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value); }
 
 std::string micrometres_text(double length_m) { return fmt::format("{:.4g} µm", 1e6 * length_m); }
@@ -72,12 +78,15 @@ std::string errors_text(const AccuracyReport &report) {
   return fmt::format("{}", fmt::join(errors, ", "));
 }
 
-std::string unpromised_text(const AccuracyReport &report, double max_error_m) {
+std::optional<Warning> unpromised_warning(const AccuracyReport &report, double max_error_m,
+                                          const Sensor &sensor) {
   if (report.unpromised == 0)
-    return "";
-  return fmt::format("{} return{} of pixels may be off by more than {:.6g} mm, each by what the channel "
-                     "error_bound_m says; --strict refuses such frames",
-                     report.unpromised, report.unpromised == 1 ? "" : "s", 1e3 * max_error_m);
+    return std::nullopt;
+  return Warning{
+      warning_code("error-above-asked"), place_of(sensor),
+      fmt::format("{} return{} of pixels may be off by more than {:.6g} mm, each by what the channel "
+                  "error_bound_m says; --strict refuses such frames",
+                  report.unpromised, report.unpromised == 1 ? "" : "s", 1e3 * max_error_m)};
 }
 
 std::string bounces_text(const BouncesReport &report) {

@@ -3,7 +3,10 @@
 
 #include "engine/model/accuracy.h"
 #include "engine/model/measurement.h"
+#include "engine/model/sensor.h"
+#include "engine/model/warning.h"
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,6 +14,12 @@ namespace pmdsim {
 
 // Prints the text as it is, at once. Throws Error (output) where stdout cannot take it.
 void print(const std::string &text);
+
+// One line on stderr: "pmdsim: warning: PLACE: TEXT [CODE]".
+void warn(const Warning &warning);
+
+// A sensor as a warning's place, "sensor NAME".
+std::string place_of(const Sensor &sensor);
 
 // "20 MHz".
 std::string frequency_text(double modulation_hz);
@@ -26,8 +35,9 @@ std::string sum_text(Mode mode, const AccuracyReport &report);
 // "at most 4 µm claimed, at most 1 µm found in 1024 pixels, checked in 2.000 ms"; empty where nothing is
 // known.
 std::string errors_text(const AccuracyReport &report);
-// How many pixels may be off by more than was asked for; empty where there are none.
-std::string unpromised_text(const AccuracyReport &report, double max_error_m);
+// Where pixels of the sensor's frame may be off by more than was asked for; nothing where there are none.
+std::optional<Warning> unpromised_warning(const AccuracyReport &report, double max_error_m,
+                                          const Sensor &sensor);
 // "multipath error at most 0.8 mm in 95 % of the pixels, estimated, from 2504 elements and 100000 lines".
 std::string bounces_text(const BouncesReport &report);
 // A line of each of these texts, as far as they say something beyond mode exact in fp32.

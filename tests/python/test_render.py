@@ -236,6 +236,10 @@ class Render(unittest.TestCase):
                     warnings.simplefilter("always")
                     action()
                 self.assertEqual([(w.category, w.filename) for w in caught], [(pmdsim.PmdsimWarning, __file__)])
+                told = caught[0].message
+                self.assertEqual(told.code, "unseen-harmonics")
+                self.assertTrue(told.place.endswith("/sensors/0/waveform"))
+                self.assertTrue(str(told).startswith(told.place + ": sensor "))
 
     def test_a_frame_that_may_be_off_by_more_warns(self) -> None:
         """Light that cancels in some pixels; 0.25 micrometres are close to what rounding leaves."""
@@ -249,7 +253,8 @@ class Render(unittest.TestCase):
             frame = render("0.25um")
         self.assertIn("error_bound_m", frame)
         self.assertEqual([(w.category, w.filename) for w in caught], [(pmdsim.PmdsimWarning, __file__)])
-        self.assertEqual([str(w.message) for w in caught], frame.report["warnings"])
+        self.assertEqual([w.message.code for w in caught], [w["code"] for w in frame.report["warnings"]])
+        self.assertEqual(caught[0].message.code, "error-above-asked")
         with self.assertRaises(pmdsim.AccuracyError):
             render("0.25um", strict=True)
         with self.assertRaises(pmdsim.AccuracyError):

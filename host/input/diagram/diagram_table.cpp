@@ -84,7 +84,7 @@ void close_turn(DiagramTable &table) {
   drop_last_phi(table);
 }
 
-Diagram diagram_of(DiagramTable table, std::vector<std::string> &warnings) {
+Diagram diagram_of(DiagramTable table, std::vector<Warning> &warnings) {
   const double maximum = maximum_of(table);
   if (maximum == 0.0)
     throw input_error(TextPlace{table.file, table.values.back().line},
@@ -92,8 +92,10 @@ Diagram diagram_of(DiagramTable table, std::vector<std::string> &warnings) {
   const double on_axis = table.theta_deg.front() == 0.0 ? merge_axis(table, maximum) : 0.0;
   const bool is_dark = on_axis < dark_axis * maximum;
   if (is_dark)
-    warnings.push_back(
-        fmt::format("{}: the diagram is dark on its axis, normalised to its maximum", table.file.string()));
+    warnings.push_back(input_warning(
+        warning_code("dark-diagram-axis"), Place{table.file},
+        "the diagram is dark on its axis, normalised to its maximum: intensity_w_sr is then that of the "
+        "brightest direction; if the axis is to be bright, begin the table at 0 degrees"));
   Diagram diagram{radians(table.theta_deg), radians(table.phi_deg), {}};
   diagram.relative.reserve(table.values.size());
   for (const DiagramTable::Value &value : table.values)

@@ -44,7 +44,7 @@ void close_turn(DiagramTable &table);
 // is dark (below 1e-6 of its maximum, or not in the table) is 1 at its maximum instead, and `warnings` says
 // so. `table` has its turn closed. Throws Error (input) where values on the axis differ by more than 1 % of
 // the maximum, or all are 0.
-Diagram diagram_of(DiagramTable table, std::vector<std::string> &warnings);
+Diagram diagram_of(DiagramTable table, std::vector<Warning> &warnings);
 
 // Radiation diagrams as CSV: a header line and the columns angle_deg, relative (the same all around the axis)
 // or theta_deg, phi_deg, relative, in any order. `relative` is in any scale.

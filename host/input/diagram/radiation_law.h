@@ -25,13 +25,13 @@ public:
   // read or is one too many.
   std::shared_ptr<const Diagram> read(const std::filesystem::path &file, const AnyPlace &named_at);
 
-  // One line each, in the order of reading.
-  const std::vector<std::string> &warnings() const { return warnings_; }
+  // In the order of reading.
+  const std::vector<Warning> &warnings() const { return warnings_; }
 
 private:
   std::map<std::filesystem::path, std::shared_ptr<const Diagram>> diagrams_;
   std::size_t values_ = 0; // of all diagrams
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 // The law of a setup's `pattern`, which has passed the schema. Diagrams' files are named relative to the

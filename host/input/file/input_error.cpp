@@ -13,6 +13,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// "FILE: POINTER", "FILE" for the empty pointer.
+std::string text_of(const Place &place) {
+  return place.pointer.empty() ? place.file.string()
+                               : fmt::format("{}: {}", place.file.string(), place.pointer.to_string());
+}
+
 } // namespace
 
 Place operator/(const Place &place, const std::string &key) {
@@ -24,10 +30,9 @@ Place operator/(const Place &place, std::size_t index) {
 }
 
 Error input_error(const Place &place, std::string_view message) {
-  std::string line = place.pointer.empty()
-                         ? fmt::format("{}: {}", place.file.string(), message)
-                         : fmt::format("{}: {}: {}", place.file.string(), place.pointer.to_string(), message);
-  return {ExitCode::input, one_line(std::move(line)), {place.file.string(), place.pointer.to_string()}};
+  return {ExitCode::input,
+          one_line(fmt::format("{}: {}", text_of(place), message)),
+          {place.file.string(), place.pointer.to_string()}};
 }
 
 Error input_error(const TextPlace &place, std::string_view message) {
@@ -40,6 +45,10 @@ Error input_error(const TextPlace &place, std::string_view message) {
 
 Error input_error(const AnyPlace &place, std::string_view message) {
   return std::visit([&](const auto &known) { return input_error(known, message); }, place);
+}
+
+Warning input_warning(const char *code, const Place &place, std::string text) {
+  return {code, one_line(text_of(place)), one_line(std::move(text))};
 }
 
 std::string in_quotes(std::string_view text) {

@@ -2,6 +2,7 @@
 // How an error in an input file reads: one line with the file, the place in it and what was expected there.
 
 #include "engine/model/error.h"
+#include "engine/model/warning.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -38,6 +39,9 @@ Error input_error(const TextPlace &place, std::string_view message);
 // A place that names a file: JSON and text files do.
 using AnyPlace = std::variant<Place, TextPlace>;
 Error input_error(const AnyPlace &place, std::string_view message);
+
+// A warning about a place in an input file: "FILE: POINTER", "FILE" for the empty pointer.
+Warning input_warning(const char *code, const Place &place, std::string text);
 
 // Text from an input file as it may stand in a message: in double quotes, escaped, of bounded length.
 std::string in_quotes(std::string_view text);

@@ -22,15 +22,13 @@ double bounce_error_m(const std::string &text, const Place &place) {
   return *error_m;
 }
 
-std::string materials_warning(const std::string &file, const std::vector<std::string> &materials) {
+std::string materials_text(const std::vector<std::string> &materials) {
   const auto named = std::min(materials.size(), most_materials_named);
   const std::string others =
       named < materials.size() ? fmt::format(" and {} more", materials.size() - named) : "";
   return fmt::format(
-      "{}: only diffuse light bounces, so these materials are taken for Lambert surfaces: "
-      "{}{}",
-      file, fmt::join(materials.begin(), materials.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-      others);
+      "only diffuse light bounces, so these materials are taken for Lambert surfaces: {}{}",
+      fmt::join(materials.begin(), materials.begin() + static_cast<std::ptrdiff_t>(named), ", "), others);
 }
 
 } // namespace
@@ -48,15 +46,16 @@ Bounces bounces_of(const ordered_json &setup, const Place &root) {
   return bounces;
 }
 
-std::vector<std::string> bounce_warnings(const Scene &scene, const GltfFile &gltf) {
-  const std::string file = gltf.file().string();
-  std::vector<std::string> warnings;
+std::vector<Warning> bounce_warnings(const Scene &scene, const GltfFile &gltf) {
+  const Place place{gltf.file()};
+  std::vector<Warning> warnings;
   if (!scene.discs.empty())
-    warnings.push_back(file + (scene.triangles.empty()
-                                   ? ": the scene has points only, and nothing bounces off points"
-                                   : ": points neither reflect nor block light that bounces"));
+    warnings.push_back(input_warning(warning_code("points-without-bounces"), place,
+                                     scene.triangles.empty()
+                                         ? "the scene has points only, and nothing bounces off points"
+                                         : "points neither reflect nor block light that bounces"));
   if (const std::vector<std::string> materials = gltf.materials_beyond_lambert(); !materials.empty())
-    warnings.push_back(materials_warning(file, materials));
+    warnings.push_back(input_warning(warning_code("lambert-for-bounces"), place, materials_text(materials)));
   return warnings;
 }
 

@@ -102,7 +102,7 @@ std::vector<Diode> diodes_of(const ordered_json &illuminator, const Place &place
 
 std::vector<Illuminator> illuminators_of(const ordered_json &illuminators, const Place &place,
                                          const Surroundings &at, const std::vector<Sensor> &sensors,
-                                         std::vector<std::string> &warnings) {
+                                         std::vector<Warning> &warnings) {
   DiagramFiles diagrams;
   std::vector<Illuminator> result;
   std::size_t diodes = 0;

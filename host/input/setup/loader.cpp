@@ -92,17 +92,19 @@ void refuse_doubled_names(const std::vector<Named> &all, const char *kind, const
                                                         kind, in_quotes(all[i].name)));
 }
 
-void warn_of_unseen_harmonics(Setup &setup) {
-  for (const Sensor &sensor : setup.start.sensors) {
+void warn_of_unseen_harmonics(const Place &sensors, Setup &setup) {
+  for (std::size_t s = 0; s < setup.start.sensors.size(); ++s) {
+    const Sensor &sensor = setup.start.sensors[s];
     const std::vector<double> &harmonics = sensor.waveform.harmonics;
     bool any = sensor.waveform.kind != Waveform::Kind::harmonics;
     for (std::size_t i = 0; i < harmonics.size(); ++i)
       any = any || (harmonics[i] != 0.0 && taps_show(i + 1, sensor.taps));
     if (!any)
-      setup.warnings.push_back(
+      setup.warnings.push_back(input_warning(
+          warning_code("unseen-harmonics"), sensors / s / "waveform",
           fmt::format("sensor {}: none of its harmonics shows in {} taps (only number 1, {}, "
                       "{}, {} ... do): amplitudes will be 0",
-                      sensor.name, sensor.taps, sensor.taps - 1, sensor.taps + 1, 2 * sensor.taps - 1));
+                      sensor.name, sensor.taps, sensor.taps - 1, sensor.taps + 1, 2 * sensor.taps - 1)));
   }
 }
 
@@ -118,12 +120,14 @@ void set_illuminators(const ordered_json &illuminators, std::vector<Illuminator>
     throw input_error(place, "expected at least one without modulation_hz, all are of other cameras");
 }
 
-void warn_of_unused_others(Setup &setup) {
-  for (const Sensor &sensor : setup.start.sensors)
-    if (!setup.start.others.empty() && !sensor.electronics)
-      setup.warnings.push_back(fmt::format("sensor {}: illuminators with modulation_hz are left out, as only "
-                                           "electronics see light of other cameras",
-                                           sensor.name));
+void warn_of_unused_others(const Place &sensors, Setup &setup) {
+  for (std::size_t s = 0; s < setup.start.sensors.size(); ++s)
+    if (const Sensor &sensor = setup.start.sensors[s]; !setup.start.others.empty() && !sensor.electronics)
+      setup.warnings.push_back(
+          input_warning(warning_code("other-light-unused"), sensors / s,
+                        fmt::format("sensor {}: illuminators with modulation_hz are left out, as only "
+                                    "electronics see light of other cameras",
+                                    sensor.name)));
 }
 
 // A scene's file, or what stands for it, and what moves in it.
@@ -152,12 +156,13 @@ void set_sensors_and_illuminators(const Place &root, const Surroundings &at, Set
   set_illuminators(illuminators, std::move(all), root / "illuminators", setup.start);
 }
 
-void warn(const SceneSource &source, Setup &setup) {
-  warn_of_unused_others(setup);
-  warn_of_unseen_harmonics(setup);
+void warn(const SceneSource &source, const Place &root, Setup &setup) {
+  warn_of_unused_others(root / "sensors", setup);
+  warn_of_unseen_harmonics(root / "sensors", setup);
   if (setup.start.scene.shape_count() == 0)
-    setup.warnings.push_back(fmt::format(
-        "{}: the scene has neither triangles nor points, nothing will be seen", source.file.string()));
+    setup.warnings.push_back(
+        input_warning(warning_code("empty-scene"), Place{source.file},
+                      "the scene has neither triangles nor points, nothing will be seen"));
   if (setup.bounces.any() && source.gltf)
     std::ranges::copy(bounce_warnings(setup.start.scene, *source.gltf), std::back_inserter(setup.warnings));
 }
@@ -172,7 +177,7 @@ void fill(const SceneSource &source, GltfScene scene, const Place &root, Traject
   setup.bounces = bounces_of(setup.as_used, root);
   set_sensors_and_illuminators(root, {scene, trajectories, setup.frames.start_s}, setup);
   setup.start.scene = std::move(scene.scene);
-  warn(source, setup);
+  warn(source, root, setup);
   if ((source.gltf && source.gltf->moves()) || has_trajectory(setup.as_used))
     setup.motion = std::make_shared<const Motion>(source.at, std::move(trajectories), setup.as_used, root);
 }

@@ -66,19 +66,18 @@ inline bool is_of_another(const nlohmann::ordered_json &illuminator) {
   return illuminator.contains("modulation_hz");
 }
 
-// The setup's /illuminators. At most 100,000 diodes in all. Appends to `warnings`, one line each, what is odd
-// about their diagrams. Throws Error (input).
+// The setup's /illuminators. At most 100,000 diodes in all. Appends to `warnings` what is odd about their
+// diagrams. Throws Error (input).
 std::vector<Illuminator> illuminators_of(const nlohmann::ordered_json &illuminators, const Place &place,
                                          const Surroundings &at, const std::vector<Sensor> &sensors,
-                                         std::vector<std::string> &warnings);
+                                         std::vector<Warning> &warnings);
 
 // The setup's /bounces and /bounce_error. Throws Error (input): also where light that bounces meets another
 // /backscatter than lambert.
 Bounces bounces_of(const nlohmann::ordered_json &setup, const Place &root);
 
-// What the scene has that light that bounces does not heed, one line each: points, and surfaces that do not
-// scatter evenly.
-std::vector<std::string> bounce_warnings(const Scene &scene, const GltfFile &gltf);
+// What the scene has that light that bounces does not heed: points, and surfaces that do not scatter evenly.
+std::vector<Warning> bounce_warnings(const Scene &scene, const GltfFile &gltf);
 
 // The setup's scene at a time, its nodes in their places. Throws Error (input).
 using SceneAtTime = std::function<GltfScene(double time_s)>;

@@ -5,6 +5,7 @@
 #include "engine/model/illuminator.h"
 #include "engine/model/scene.h"
 #include "engine/model/sensor.h"
+#include "engine/model/warning.h"
 #include "host/input/file/files_read.h"
 #include "host/input/setup/document.h"
 
@@ -78,7 +79,7 @@ struct Setup {
   Instant start;                        // at the first frame's time
   nlohmann::ordered_json as_used;       // the setup with every default filled in, as the manifest shows it
   std::vector<FileRead> inputs;         // the files that it names, and those that these name
-  std::vector<std::string> warnings;    // one line each, for stderr; e.g. that the scene is empty
+  std::vector<Warning> warnings;        // e.g. that the scene is empty
   std::shared_ptr<const Motion> motion; // nothing where all stands still
 
   // Everything in its place at a time; `start` where nothing moves. Throws Error (input).

@@ -90,6 +90,10 @@ ordered_json bounces_json(const BouncesReport &report) {
           {"claimed_m", report.claimed_m}};
 }
 
+ordered_json warning_json(const Warning &warning) {
+  return {{"code", warning.code}, {"place", warning.place}, {"text", warning.text}};
+}
+
 ordered_json device_json(const DeviceInfo &device) {
   return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
           {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};

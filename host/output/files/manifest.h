@@ -13,6 +13,7 @@
 
 #include "engine/model/measurement.h"
 #include "engine/model/sensor.h"
+#include "engine/model/warning.h"
 
 #include <cstdint>
 #include <functional>
@@ -101,6 +102,9 @@ nlohmann::ordered_json accuracy_json(const FrameRecord &record);
 
 // elements, lines, products, claimed_m (null where nothing is claimed).
 nlohmann::ordered_json bounces_json(const BouncesReport &report);
+
+// code, place, text.
+nlohmann::ordered_json warning_json(const Warning &warning);
 
 // index, name, kind, driver, usable, lacks.
 nlohmann::ordered_json device_json(const DeviceInfo &device);

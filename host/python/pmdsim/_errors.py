@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Tuple, Type
+from typing import Any, Dict, Mapping, Tuple, Type
 
 _breaks = re.compile(r"[\x00-\x1f\x7f]+")
 
@@ -115,7 +115,28 @@ class LibraryError(Error, ImportError):
 
 
 class PmdsimWarning(UserWarning):
-    """What a setup or a frame warns of, one line."""
+    """What a setup or a frame warns of; its text is one line for people.
+
+    Attributes
+    ----------
+    code : str
+        Its kind, such as "nothing-in-view", which stays the same from version to version (docs/warnings.md).
+    place : str
+        What it is about: a file and a JSON pointer, a file, or "sensor NAME".
+    """
+
+    def __init__(self, message: str, code: str = "", place: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+        self.place = place
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (str(self), self.code, self.place)
+
+
+def warning_of(told: Mapping[str, str]) -> PmdsimWarning:
+    """Of one of a description's or report's "warnings"."""
+    return PmdsimWarning(f"{told['place']}: {told['text']}", told["code"], told["place"])
 
 
 error_of_status: Dict[int, Type[Error]] = {

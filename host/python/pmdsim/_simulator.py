@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Set, TypeVar, Union
 
 from ._calls import Caller
-from ._errors import ArgumentError, Error, HandleError, PmdsimWarning
+from ._errors import ArgumentError, Error, HandleError, warning_of
 from ._frame import Frame
 from ._frame_sources import FrameHandle, LibrarySource
 from ._library import check, library
@@ -295,10 +295,11 @@ class Simulator:
         self._set({f"{part}/{element}/pose": pose_value(pose)}, stacklevel=4)
 
     def _warn(self, stacklevel: int) -> None:
-        for line in self._description().get("warnings", ()):
-            if line not in self._warned:
-                self._warned.add(line)
-                warnings.warn(line, PmdsimWarning, stacklevel=stacklevel)
+        for told in self._description().get("warnings", ()):
+            warning = warning_of(told)
+            if str(warning) not in self._warned:
+                self._warned.add(str(warning))
+                warnings.warn(warning, stacklevel=stacklevel)
 
     def _description(self) -> Dict[str, Any]:
         if self._described is None:
@@ -389,9 +390,8 @@ class Simulator:
             return FrameHandle(result.value or 0)
 
         measured = Frame(LibrarySource(self._call(measure, self._setup_file)))
-        for line in measured.report.get("warnings", ()):
-            if line not in self._warned:
-                warnings.warn(line, PmdsimWarning, stacklevel=stacklevel)
+        for told in measured.report.get("warnings", ()):
+            warnings.warn(warning_of(told), stacklevel=stacklevel)
         return measured
 
     def frames(

@@ -151,10 +151,12 @@ TEST_CASE("check warns of each frequency whose ambiguity range ends before what 
   CHECK(findings.sensors[0].shares_beyond[0] == Approx(0.5));
   CHECK(findings.sensors[0].shares_beyond[1] == 0.0);
   CHECK(findings.sensors[0].visible.min_m == Approx(0.5).epsilon(1e-3));
-  const std::vector<std::string> warnings = warnings_of(setup, findings);
+  const std::vector<Warning> warnings = warnings_of(setup, findings);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Catch::StartsWith("sensor pmd at 100 MHz: what is visible lies 0.5"));
-  CHECK_THAT(warnings[0],
+  CHECK_THAT(warnings[0].text, Catch::StartsWith("what is visible lies 0.5"));
+  CHECK(warnings[0].code == "beyond-ambiguity");
+  CHECK(warnings[0].place == "sensor pmd at 100 MHz");
+  CHECK_THAT(warnings[0].text,
              Catch::EndsWith(" m away, 50 % of it beyond the ambiguity range of 1.49896 m: distances wrap"));
 }
 
@@ -166,9 +168,9 @@ TEST_CASE("check warns of taps that take longer than the frames leave them") {
   setup.frames = {0.0, 50.0, 2};
   CHECK(warnings_of(setup, findings_of(setup)).empty());
   setup.frames.rate_hz = 51.0;
-  const std::vector<std::string> warnings = warnings_of(setup, findings_of(setup));
+  const std::vector<Warning> warnings = warnings_of(setup, findings_of(setup));
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Catch::StartsWith("sensor pmd: its taps take 0.02 s, longer than the 0.0196078 s"));
+  CHECK_THAT(warnings[0].text, Catch::StartsWith("its taps take 0.02 s, longer than the 0.0196078 s"));
   setup.frames.count = 1;
   CHECK(warnings_of(setup, findings_of(setup)).empty());
 }

@@ -56,7 +56,7 @@ TEST_CASE(
   INFO(told.errors);
   REQUIRE(told.exit_code == 0);
   CHECK(std::ranges::count(told.errors, '\n') == 1);
-  CHECK(told.errors.starts_with("pmdsim: warning: pmd, frame 0: "));
+  CHECK(told.errors.starts_with("pmdsim: warning: sensor pmd, frame 0: "));
   CHECK(json::parse(told.output)["frames"][0]["unpromised"] > 0);
   CHECK(std::ifstream(work / "out/pmd_0000.f0.error_bound_m.npy").good());
   arguments.emplace_back("--resume");

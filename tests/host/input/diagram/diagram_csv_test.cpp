@@ -12,7 +12,7 @@ using Catch::EndsWith;
 
 namespace {
 
-Diagram read_csv(const std::string &text, std::vector<std::string> *warnings = nullptr) {
+Diagram read_csv(const std::string &text, std::vector<Warning> *warnings = nullptr) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("led.csv", text);
   DiagramFiles files;
@@ -77,10 +77,11 @@ TEST_CASE("All phi of a diagram's axis have their mean") {
 }
 
 TEST_CASE("A diagram that is dark on its axis is 1 at its maximum, and a warning") {
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   CHECK(read_csv(one + "0,0\n30,4\n60,2\n", &warnings).relative == std::vector{0.0, 1.0, 0.5});
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], EndsWith("led.csv: the diagram is dark on its axis, normalised to its maximum"));
+  CHECK(warnings[0].code == "dark-diagram-axis");
+  CHECK_THAT(warnings[0].place, EndsWith("led.csv"));
   CHECK(read_csv(one + "90,1\n180,4\n", &warnings).relative == std::vector{0.25, 1.0});
   CHECK(warnings.size() == 1);
   CHECK(read_csv(one + "0,1e-7\n30,1\n", &warnings).relative[1] == 1.0);

@@ -42,7 +42,7 @@ void give_materials(SetupFixture &fixture, const json &materials) {
   }
 }
 
-std::vector<std::string> warnings_of_points(const json &bounces, bool triangles_too) {
+std::vector<Warning> warnings_of_points(const json &bounces, bool triangles_too) {
   SetupFixture fixture;
   fixture.setup["bounces"] = bounces;
   fixture.scene["materials"] = {{{"extras", {{"pmdsim_point_area_m2", 1e-4}}}}};
@@ -112,8 +112,8 @@ TEST_CASE("Materials that are no Lambert surfaces are named once where light bou
   primitives.push_back(brass);
   const Setup setup = fixture.load();
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0],
-             EndsWith("scene.gltf: only diffuse light bounces, so these materials are taken for Lambert "
+  CHECK_THAT(setup.warnings[0].text,
+             EndsWith("only diffuse light bounces, so these materials are taken for Lambert "
                       "surfaces: \"brass\" (metallic), number 2 (metallic, glossy)"));
   fixture.setup["bounces"] = 0;
   CHECK(fixture.load().warnings.empty());
@@ -133,15 +133,14 @@ TEST_CASE("A long list of materials ends with a number") {
   give_materials(fixture, std::vector<json>(23, brass));
   const Setup setup = fixture.load();
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0], EndsWith("\"brass\" (metallic) and 3 more"));
+  CHECK_THAT(setup.warnings[0].text, EndsWith("\"brass\" (metallic) and 3 more"));
 }
 
 TEST_CASE("Points are warned of where light bounces") {
   CHECK(warnings_of_points(0, true).empty());
-  const std::vector<std::string> beside = warnings_of_points(1, true),
-                                 alone = warnings_of_points("all", false);
+  const std::vector<Warning> beside = warnings_of_points(1, true), alone = warnings_of_points("all", false);
   REQUIRE(beside.size() == 1);
-  CHECK_THAT(beside[0], EndsWith("scene.gltf: points neither reflect nor block light that bounces"));
+  CHECK_THAT(beside[0].text, EndsWith("points neither reflect nor block light that bounces"));
   REQUIRE(alone.size() == 1);
-  CHECK_THAT(alone[0], EndsWith("scene.gltf: the scene has points only, and nothing bounces off points"));
+  CHECK_THAT(alone[0].text, EndsWith("the scene has points only, and nothing bounces off points"));
 }

@@ -134,8 +134,8 @@ TEST_CASE("A diagram that is dark on its axis is a warning, once for all who nam
   fixture.setup["illuminators"].push_back(named(fixture.illuminator(), "second"));
   const Setup setup = fixture.load();
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0],
-             EndsWith("ring.csv: the diagram is dark on its axis, normalised to its maximum"));
+  CHECK(setup.warnings[0].code == "dark-diagram-axis");
+  CHECK_THAT(setup.warnings[0].place, EndsWith("ring.csv"));
   CHECK(setup.start.illuminators[0].diodes[0].pattern.diagram ==
         setup.start.illuminators[1].diodes[0].pattern.diagram);
 }
@@ -213,7 +213,7 @@ TEST_CASE("Illuminators with a frequency of their own are another camera's") {
   CHECK(setup.start.others[0].modulation_hz == 31e6);
   CHECK(setup.start.others[0].illuminator.name == "lamp");
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0], Contains("sensor pmd: illuminators with modulation_hz are left out"));
+  CHECK_THAT(setup.warnings[0].text, Contains("sensor pmd: illuminators with modulation_hz are left out"));
   fixture.illuminator()["name"] = "ring";
   CHECK_THAT(fixture.error(), Contains("/illuminators/1/name: "));
   fixture.setup["illuminators"] = json::array({lamp});

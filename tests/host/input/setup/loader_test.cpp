@@ -276,5 +276,5 @@ TEST_CASE("A scene without triangles and points is a warning") {
   const Setup setup = fixture.load();
   CHECK(setup.start.scene.triangles.empty());
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0], Catch::Contains("scene.gltf: the scene has neither triangles nor points"));
+  CHECK_THAT(setup.warnings[0].text, Catch::Contains("the scene has neither triangles nor points"));
 }

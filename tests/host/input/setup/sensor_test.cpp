@@ -180,9 +180,12 @@ TEST_CASE("Harmonics of which the taps show none are a warning") {
   const auto warnings = [](const json &harmonics, int taps) {
     return setup_with({{"waveform", {{"harmonics", harmonics}}}, {"taps", taps}}).warnings;
   };
-  CHECK(warnings({0, 1}, 5) ==
-        std::vector<std::string>{"sensor pmd: none of its harmonics shows in 5 taps (only number 1, 4, 6, 9 "
-                                 "... do): amplitudes will be 0"});
+  const std::vector<Warning> two = warnings({0, 1}, 5);
+  REQUIRE(two.size() == 1);
+  CHECK(two[0].code == "unseen-harmonics");
+  CHECK_THAT(two[0].place, EndsWith("setup.json: /sensors/0/waveform"));
+  CHECK(two[0].text == "sensor pmd: none of its harmonics shows in 5 taps (only number 1, 4, 6, 9 ... do): "
+                       "amplitudes will be 0");
   CHECK(warnings({0, 1, -2, 0, 3, 0, 4}, 5).size() == 1);
   CHECK(warnings({0, 0, 1}, 3).size() == 1);
   for (const json &seen :
@@ -201,7 +204,8 @@ TEST_CASE("A warning of harmonics names its sensor") {
   fixture.setup["sensors"].push_back(left);
   const Setup setup = fixture.load();
   REQUIRE(setup.warnings.size() == 1);
-  CHECK_THAT(setup.warnings[0], Catch::StartsWith("sensor left: none of its harmonics shows in 4 taps "));
+  CHECK_THAT(setup.warnings[0].text,
+             Catch::StartsWith("sensor left: none of its harmonics shows in 4 taps "));
 }
 
 TEST_CASE("Several frequencies, each within the waveform's reach") {
