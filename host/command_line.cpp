@@ -62,6 +62,7 @@ void add_writing(CLI::App &command, Written &written) {
   command.add_flag(
       "--resume", written.options.capture.resume,
       "keep the frames that the same run has left in the directory, measure those that are missing");
+  add_report_flag(command, written.reporting);
 }
 
 void add_merging(CLI::App &command, Written &written) {
@@ -180,13 +181,18 @@ void add_commands(CLI::App &app, Written &written) {
       "merge", "bring the frames of several directories, as --shard leaves them, together in one");
   add_merging(*merge, written);
 
+  CLI::App *report = app.add_subcommand(
+      "report", "a finished run as one page for a browser: pictures, values under the mouse, points to turn");
+  add_report(*report, written.reporting);
+  add_frames(*report, written);
+
   CLI::App *import_calibration = app.add_subcommand(
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");
   add_importing(*import_calibration, written);
 
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
   for (CLI::App *command :
-       {render, deform, check, bench, tradeoff, noise, merge, import_calibration, devices})
+       {render, deform, check, bench, tradeoff, noise, merge, report, import_calibration, devices})
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
 }

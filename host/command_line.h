@@ -3,6 +3,7 @@
 
 #include "host/accuracy_options.h"
 #include "host/options.h"
+#include "host/report_options.h"
 #include "host/setup_options.h"
 
 #include <map>
@@ -21,6 +22,7 @@ struct Written {
   Options options;
   WrittenAccuracy accuracy;
   WrittenSetups setups;
+  WrittenReporting reporting;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats, channels;

@@ -140,6 +140,19 @@ void take_setups(const WrittenSetups &written, Options &options) {
     options.capture.poses = poses_of(*written.poses);
 }
 
+void take_reporting(const WrittenReporting &written, Options &options) {
+  if (options.command == "report")
+    options.report = report_request_of(written, options.capture.frames);
+  if (written.when_done)
+    options.report = report_request_of({}, options.capture.frames);
+}
+
+// The page is made of what the files have.
+void require_formats_of_report(const std::set<Format> &formats) {
+  if (!formats.contains(Format::exr) && !formats.contains(Format::h5))
+    throw Error(ExitCode::usage, "--report: it is made of the frames' files, expected exr or h5 in --format");
+}
+
 Options checked(Written written, const std::string &command) {
   Options &options = written.options;
   CaptureRequest &capture = options.capture;
@@ -159,10 +172,11 @@ Options checked(Written written, const std::string &command) {
     capture.frames = frame_range_of(*written.frames);
   if (written.shard)
     capture.shard = shard_of(*written.shard);
+  take_reporting(written.reporting, options);
   if (command == "merge" && capture.output_directory.empty() && options.merged.size() > 1)
     throw Error(ExitCode::usage,
                 fmt::format("merge: expected -o beside {} directories", options.merged.size()));
-  if (capture.output_directory.empty() && command != "merge")
+  if (capture.output_directory.empty() && command != "merge" && command != "report")
     capture.output_directory = options.setups.size() > 1
                                    ? std::filesystem::path("out") / command
                                    : std::filesystem::path("out") / capture.setup.stem() / command;
@@ -172,6 +186,8 @@ Options checked(Written written, const std::string &command) {
     capture.channels = wanted_channels(written.channels, command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_named(format));
+  if (written.reporting.when_done)
+    require_formats_of_report(capture.formats);
   return options;
 }
 

@@ -2,6 +2,7 @@
 // The command line, parsed and checked.
 
 #include "host/capture/capture.h"
+#include "host/output/page/report_page.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct Options {
   bool mode_written = false;                 // bench: one mode instead of all
   std::optional<SuiteOptions> suite;         // bench --suite
   std::vector<std::filesystem::path> merged; // merge; into capture's output directory, if there is one
+  std::optional<ReportRequest> report;       // report; render and deform: --report, then without directory
   std::filesystem::path calibration;         // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;       // along the columns, instead of the default
   std::string sensor_name;                   // instead of the file's; empty where it is not given

@@ -68,6 +68,7 @@ public:
   // The record of each frame that was asked for, in order, whoever made it. Throws Error (output) where one
   // is missing, (input) where one has been edited so that `use` misses something.
   void for_each_record(const std::function<void(const nlohmann::ordered_json &)> &use) const;
+  const std::filesystem::path &path() const { return request_.directory; }
   // A name with the directory in front.
   std::string path_of(const std::string &name) const { return (request_.directory / name).string(); }
   // "written:" and the paths below it, those of the first frame that this process made for all.

@@ -1,6 +1,7 @@
 #include "host/capture/capture.h"
 #include "host/capture/progress.h"
 #include "host/commands/commands.h"
+#include "host/commands/report_of_run.h"
 #include "host/output/files/manifest.h"
 #include "host/output/pictures/plots.h"
 #include "host/output/tables/deformation.h"
@@ -176,10 +177,12 @@ ordered_json first_statistics_json(const Capture &capture) {
   return first;
 }
 
-void print_deform_json(const Capture &capture) {
+void print_deform_json(const Capture &capture, const std::string &report) {
   const FrameSequence &sequence = capture.sequence();
-  JsonPieces pieces([](std::string_view text) { print(std::string(text)); },
-                    {{"deformation_mm", first_statistics_json(capture)}});
+  ordered_json head{{"deformation_mm", first_statistics_json(capture)}};
+  if (!report.empty())
+    head["report"] = report;
+  JsonPieces pieces([](std::string_view text) { print(std::string(text)); }, head);
   pieces.list("frames", [&](const JsonPieces::Add &add) {
     capture.for_each_sensor_frame([&](const ordered_json &of_sensor) { add(of_sensor.at("told")); });
   });
@@ -237,10 +240,11 @@ void run_deform(const Options &options) {
   const WantedChannels measured = options.capture.channels.with(row_of(&Return::distance_m));
   Capture capture(options.capture, std::move(setup), "deform", false, measured);
   const std::deque<DeformedFrame> first = deform(capture);
+  const std::string report = report_of_run(options, capture);
   if (options.json)
-    print_deform_json(capture);
+    print_deform_json(capture, report);
   else
-    print(report_text(first, capture));
+    print(report_text(first, capture) + report_line(report));
 }
 
 } // namespace pmdsim

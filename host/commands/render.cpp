@@ -2,6 +2,7 @@
 #include "host/capture/capture.h"
 #include "host/capture/variant_table.h"
 #include "host/commands/commands.h"
+#include "host/commands/report_of_run.h"
 #include "host/output/files/manifest.h"
 #include "host/report/report.h"
 
@@ -66,10 +67,12 @@ ordered_json frame_told(const ordered_json &of_sensor, const FrameSequence &sequ
   return json;
 }
 
-void print_render_json(const Capture &capture) {
+void print_render_json(const Capture &capture, const std::string &report) {
   const RunHead &run = capture.sequence().run();
-  JsonPieces pieces([](std::string_view text) { print(std::string(text)); },
-                    {{"device", run.device}, {"mode", mode_name(run.accuracy.mode)}});
+  ordered_json head{{"device", run.device}, {"mode", mode_name(run.accuracy.mode)}};
+  if (!report.empty())
+    head["report"] = report;
+  JsonPieces pieces([](std::string_view text) { print(std::string(text)); }, head);
   pieces.list("frames", [&](const JsonPieces::Add &add) {
     capture.for_each_sensor_frame(
         [&](const ordered_json &of_sensor) { add(frame_told(of_sensor, capture.sequence())); });
@@ -154,6 +157,7 @@ void run_variants(const Options &options) {
     Capture capture(request, requested_setup(request, variant.document, loader), "render", true,
                     request.channels, camera);
     render_variant(capture, variant.name);
+    report_of_run(options, capture);
     capture.for_each_sensor_frame([&](const ordered_json &of_sensor) { table.add(variant, of_sensor); });
     if (options.json)
       json["variants"].push_back(variant_json(variant, capture));
@@ -173,10 +177,11 @@ void run_render(const Options &options) {
     return run_variants(options);
   Capture capture(options.capture, "render", true);
   const std::string text = render(capture);
+  const std::string report = report_of_run(options, capture);
   if (options.json)
-    print_render_json(capture);
+    print_render_json(capture, report);
   else
-    print(capture.device_text() + text + capture.sequence().written_text());
+    print(capture.device_text() + text + capture.sequence().written_text() + report_line(report));
 }
 
 } // namespace pmdsim

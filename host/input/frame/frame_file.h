@@ -1,10 +1,12 @@
 #pragma once
 // Frames that the program wrote, read again: the channels of an EXR or an HDF5 file. Files are untrusted.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -22,6 +24,10 @@ struct ReadFrame {
   // Of EXR sorted by name, of HDF5 in the order of for_each_channel() in engine/model/channels.h.
   std::vector<ReadChannel> channels{};
 };
+
+// The endings of the files that read_frame() reads, as the program names them; of several files of a frame
+// the first is the one to read.
+inline constexpr std::array<std::string_view, 2> frame_file_endings{".exr", ".h5"};
 
 // A file of at most 4 GiB, which its first bytes tell to be an EXR or an HDF5 file. EXR: one part of scan
 // lines, FLOAT and UINT, without compression or with RLE, ZIPS or ZIP. HDF5: the two-dimensional datasets of

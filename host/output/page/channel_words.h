@@ -1,0 +1,32 @@
+#pragma once
+// Channels in a reader's words: titles, groups, and how their values become colours.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pmdsim {
+
+// How a page colours a channel: as previews do (ColourScale in engine/model/channels.h), or a colour for each
+// number.
+enum class PageScale { sequential, zero_centred, turn, share, ids, bits };
+
+struct ChannelWords {
+  std::string quantity;                 // the name in files without the prefix of a frequency: "tap3"
+  std::optional<std::size_t> frequency; // of several
+  std::string title;                    // "distance", "tap 3"
+  std::string group;                    // "Measured", "Ground truth", ...
+  std::string about;                    // what it is, in a line; "" where nobody knows
+  std::string none;                     // what a value that is no number means: "no return"
+  PageScale scale;
+  bool is_raw;    // of the camera's single images, which few look at: the first to be left out
+  std::size_t at; // place in lists: the lower the earlier
+};
+
+// Any name will do: what nobody knows is called by its name and coloured as `is_integer` says.
+ChannelWords words_of(std::string_view channel_name, bool is_integer);
+
+// As the page's scripts have them: "sequential".
+std::string_view scale_name(PageScale scale);
+
+} // namespace pmdsim

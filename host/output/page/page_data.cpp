@@ -1,0 +1,171 @@
+#include "host/output/page/page_data.h"
+
+#include "host/input/frame/frame_file.h"
+#include "host/output/page/channel_words.h"
+#include "host/output/page/packed_values.h"
+#include "host/output/pictures/preview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+namespace pmdsim {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int most_tries = 8;
+
+// A channel that a page has, with the words for it.
+struct ShownChannel {
+  ChannelWords words;
+  ReadChannel channel;
+};
+
+struct ShownFrame {
+  glm::uvec2 resolution;
+  std::vector<ShownChannel> channels; // in the order of lists
+};
+
+template <class Value>
+std::vector<Value> every(std::uint32_t step, const std::vector<Value> &values, const glm::uvec2 &resolution) {
+  std::vector<Value> kept;
+  for (std::size_t row = 0; row < resolution.y; row += step)
+    for (std::size_t column = 0; column < resolution.x; column += step)
+      kept.push_back(values[row * resolution.x + column]);
+  return kept;
+}
+
+ShownFrame shown_frame(const PageFrame &frame, const PagePlan &plan) {
+  ReadFrame read = read_frame(frame.file);
+  ShownFrame shown{(read.resolution + plan.pixel_step - 1u) / plan.pixel_step, {}};
+  for (ReadChannel &channel : read.channels) {
+    const bool is_integer = std::holds_alternative<std::vector<std::uint32_t>>(channel.values);
+    ChannelWords words = words_of(channel.name, is_integer);
+    if (words.is_raw && !plan.has_raw)
+      continue;
+    if (plan.pixel_step > 1)
+      std::visit([&](auto &values) { values = every(plan.pixel_step, values, read.resolution); },
+                 channel.values);
+    shown.channels.push_back({std::move(words), std::move(channel)});
+  }
+  std::ranges::stable_sort(shown.channels, {}, [](const ShownChannel &each) {
+    return std::pair(each.words.at, each.words.frequency.value_or(0));
+  });
+  return shown;
+}
+
+std::string packed_channel(const ReadChannel &channel) {
+  return std::visit(
+      [](const auto &values) { return packed(std::as_bytes(std::span(values)), sizeof(values[0])); },
+      channel.values);
+}
+
+// Quantities that turn out to have values on both sides of zero are coloured so.
+PageScale settled(PageScale scale, const Range &range) {
+  return scale == PageScale::sequential && range.min < 0.0 && range.max > 0.0 ? PageScale::zero_centred
+                                                                              : scale;
+}
+
+void add_range(ordered_json &json, const std::vector<float> &values, PageScale scale) {
+  const Range found = preview_range(values, static_cast<ColourScale>(scale));
+  const PageScale shown = settled(scale, found);
+  const Range range = shown == scale ? found : preview_range(values, static_cast<ColourScale>(shown));
+  json["scale"] = scale_name(shown);
+  json["range"] = {range.min, range.max};
+  std::vector<float> finite;
+  std::ranges::copy_if(values, std::back_inserter(finite), [](float value) { return std::isfinite(value); });
+  if (finite.empty())
+    json["extent"] = nullptr;
+  else
+    json["extent"] = {std::ranges::min(finite), std::ranges::max(finite)};
+}
+
+ordered_json channel_json(const ShownChannel &shown, std::size_t block) {
+  const ChannelWords &words = shown.words;
+  ordered_json json{{"name", shown.channel.name}, {"quantity", words.quantity},
+                    {"title", words.title},       {"group", words.group},
+                    {"about", words.about},       {"none", words.none},
+                    {"unit", shown.channel.unit}, {"scale", scale_name(words.scale)}};
+  json["frequency"] = words.frequency ? ordered_json(*words.frequency) : ordered_json(nullptr);
+  json["kind"] = std::holds_alternative<std::vector<float>>(shown.channel.values) ? "f4" : "u4";
+  json["block"] = block;
+  if (const auto *values = std::get_if<std::vector<float>>(&shown.channel.values))
+    add_range(json, *values, words.scale);
+  return json;
+}
+
+SensorSize size_of(const PageSensor &sensor, std::vector<std::string> &raw_channels) {
+  const ShownFrame first = shown_frame(sensor.frames.front(), {});
+  SensorSize size{sensor.frames.size(), first.resolution.x, first.resolution.y};
+  for (const ShownChannel &each : first.channels) {
+    (each.words.is_raw ? size.raw_bytes : size.other_bytes) +=
+        static_cast<double>(packed_channel(each.channel).size());
+    if (each.words.is_raw && std::ranges::find(raw_channels, each.channel.name) == raw_channels.end())
+      raw_channels.push_back(each.channel.name);
+  }
+  return size;
+}
+
+void add_frame(PageData &data, ordered_json &frames, const RunContent &run, const PageSensor &sensor,
+               const PageFrame &frame) {
+  const ShownFrame shown = shown_frame(frame, data.plan);
+  ordered_json json{{"frame", frame.number},
+                    {"entry", frame.entry},
+                    {"columns", shown.resolution.x},
+                    {"rows", shown.resolution.y},
+                    {"channels", ordered_json::array()}};
+  for (const ShownChannel &each : shown.channels) {
+    json["channels"].push_back(channel_json(each, data.blocks.size()));
+    data.blocks.push_back(packed_channel(each.channel));
+    data.block_bytes += data.blocks.back().size();
+  }
+  json.update(times_of(run, sensor.name, frame.number));
+  frames.push_back(std::move(json));
+}
+
+// With what `data` has as its plan; whether it has stayed within `max_bytes`, beyond which it is not
+// finished.
+bool fill(PageData &data, const RunContent &run, std::size_t max_bytes, const std::function<void()> &check) {
+  data.sensors = ordered_json::array();
+  data.blocks.clear();
+  data.block_bytes = 0;
+  for (const PageSensor &sensor : run.sensors) {
+    ordered_json frames = ordered_json::array();
+    for (std::size_t i = 0; i < sensor.frames.size(); i += data.plan.frame_step) {
+      check();
+      add_frame(data, frames, run, sensor, sensor.frames[i]);
+      if (data.block_bytes > max_bytes)
+        return false;
+    }
+    data.sensors.push_back({{"name", sensor.name}, {"frames", std::move(frames)}});
+  }
+  return true;
+}
+
+} // namespace
+
+PageData page_data(const RunContent &run, std::size_t max_bytes, const std::function<void()> &check) {
+  PageData data;
+  std::vector<SensorSize> sizes;
+  for (const PageSensor &sensor : run.sensors) {
+    check();
+    sizes.push_back(size_of(sensor, data.raw_channels));
+    data.frames = std::max(data.frames, sensor.frames.size());
+  }
+  // Frames differ in size from the first, and few pixels are packed less tightly than many: where too much
+  // came out, a smaller plan is tried.
+  auto room = static_cast<double>(max_bytes);
+  for (int i = 0; i < most_tries; ++i, room *= 0.8) {
+    data.plan = plan_for(sizes, room);
+    if (fill(data, run, max_bytes, check))
+      return data;
+  }
+  fill(data, run, std::numeric_limits<std::size_t>::max(), check); // it is as small as it gets
+  return data;
+}
+
+} // namespace pmdsim

@@ -1,0 +1,31 @@
+#pragma once
+// A run's frames as a page carries them: a description in JSON, and blocks of packed values.
+
+#include "host/output/page/page_plan.h"
+#include "host/output/page/run_content.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pmdsim {
+
+struct PageData {
+  // Of each sensor {"name", "frames": for each {"frame", "entry": the manifest's, "columns", "rows": of the
+  // values that are here, "channels", and what times_of() gives}}. A channel has "name", "unit", "kind"
+  // ("f4", "u4": little-endian), "block": the number of its values, the words of words_of(), and of floats
+  // "range" (the ends of its colours), "extent" (least and greatest value; null where there is none).
+  nlohmann::ordered_json sensors;
+  std::vector<std::string> blocks; // as packed() makes them
+  std::size_t block_bytes = 0;
+  PagePlan plan;
+  std::size_t frames = 0;                // of the run, whichever sensor has most
+  std::vector<std::string> raw_channels; // of the run's first frames
+};
+
+// Of at most `max_bytes`, as far as plan_for() can. `check` is called now and then; what it throws comes out.
+// Throws Error (input) that names the file that cannot be read.
+PageData page_data(const RunContent &run, std::size_t max_bytes, const std::function<void()> &check);
+
+} // namespace pmdsim
