@@ -17,10 +17,12 @@ packages=(
   catch2 python3-numpy
 )
 
-# What long tests of packages, manual pages and clusters need; they are skipped where there are no such packages.
+# What long tests of packages, manual pages, clusters and pages need; all but the last are skipped where there are no such
+# packages.
 packages_of_long_tests=(
   mmdebstrap groff-base man-db zsh fish
   slurm-wlm munge procps python3-distributed python3-dask
+  chromium chromium-driver python3-selenium
 )
 
 say() { printf '%s\n' "do: $*" >&2; }

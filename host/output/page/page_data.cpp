@@ -39,12 +39,17 @@ std::vector<Value> every(std::uint32_t step, const std::vector<Value> &values, c
   return kept;
 }
 
+bool is_integer(const ReadChannel &channel) {
+  return std::visit(
+      [](const auto &values) { return std::is_integral_v<std::remove_cvref_t<decltype(values[0])>>; },
+      channel.values);
+}
+
 ShownFrame shown_frame(const PageFrame &frame, const PagePlan &plan) {
   ReadFrame read = read_frame(frame.file);
   ShownFrame shown{(read.resolution + plan.pixel_step - 1u) / plan.pixel_step, {}};
   for (ReadChannel &channel : read.channels) {
-    const bool is_integer = std::holds_alternative<std::vector<std::uint32_t>>(channel.values);
-    ChannelWords words = words_of(channel.name, is_integer);
+    ChannelWords words = words_of(channel.name, is_integer(channel));
     if (words.is_raw && !plan.has_raw)
       continue;
     if (plan.pixel_step > 1)
@@ -64,24 +69,23 @@ std::string packed_channel(const ReadChannel &channel) {
       channel.values);
 }
 
-// Quantities that turn out to have values on both sides of zero are coloured so.
-PageScale settled(PageScale scale, const Range &range) {
-  return scale == PageScale::sequential && range.min < 0.0 && range.max > 0.0 ? PageScale::zero_centred
-                                                                              : scale;
+// As numpy has it: 4 bytes a value, floats or unsigned numbers, or 8.
+template <class Value>
+std::string kind_of() {
+  return fmt::format("{}{}", std::is_integral_v<Value> ? "u" : "f", sizeof(Value));
 }
 
-void add_range(ordered_json &json, const std::vector<float> &values, PageScale scale) {
-  const Range found = preview_range(values, static_cast<ColourScale>(scale));
-  const PageScale shown = settled(scale, found);
-  const Range range = shown == scale ? found : preview_range(values, static_cast<ColourScale>(shown));
-  json["scale"] = scale_name(shown);
+// Of quantities with a sign, too, the values' own range: the page makes it even about zero where that tells
+// more.
+void add_range(ordered_json &json, std::span<const float> values, PageScale scale) {
+  const Range range = preview_range(values, scale == PageScale::turn    ? ColourScale::turn
+                                            : scale == PageScale::share ? ColourScale::share
+                                                                        : ColourScale::sequential);
   json["range"] = {range.min, range.max};
   std::vector<float> finite;
   std::ranges::copy_if(values, std::back_inserter(finite), [](float value) { return std::isfinite(value); });
-  if (finite.empty())
-    json["extent"] = nullptr;
-  else
-    json["extent"] = {std::ranges::min(finite), std::ranges::max(finite)};
+  json["extent"] = finite.empty() ? ordered_json(nullptr)
+                                  : ordered_json{std::ranges::min(finite), std::ranges::max(finite)};
 }
 
 ordered_json channel_json(const ShownChannel &shown, std::size_t block) {
@@ -91,10 +95,15 @@ ordered_json channel_json(const ShownChannel &shown, std::size_t block) {
                     {"about", words.about},       {"none", words.none},
                     {"unit", shown.channel.unit}, {"scale", scale_name(words.scale)}};
   json["frequency"] = words.frequency ? ordered_json(*words.frequency) : ordered_json(nullptr);
-  json["kind"] = std::holds_alternative<std::vector<float>>(shown.channel.values) ? "f4" : "u4";
   json["block"] = block;
-  if (const auto *values = std::get_if<std::vector<float>>(&shown.channel.values))
-    add_range(json, *values, words.scale);
+  std::visit(
+      [&](const auto &values) {
+        using Value = std::remove_cvref_t<decltype(values[0])>;
+        json["kind"] = kind_of<Value>();
+        if constexpr (std::is_floating_point_v<Value>)
+          add_range(json, std::vector<float>(values.begin(), values.end()), words.scale);
+      },
+      shown.channel.values);
   return json;
 }
 

@@ -14,8 +14,9 @@ namespace pmdsim {
 struct PageData {
   // Of each sensor {"name", "frames": for each {"frame", "entry": the manifest's, "columns", "rows": of the
   // values that are here, "channels", and what times_of() gives}}. A channel has "name", "unit", "kind"
-  // ("f4", "u4": little-endian), "block": the number of its values, the words of words_of(), and of floats
-  // "range" (the ends of its colours), "extent" (least and greatest value; null where there is none).
+  // ("f4", "f8", "u4": little-endian), "block": the number of its values, the words of words_of(), and of
+  // floats "range" (of all but the outermost 0.5 % on either side), "extent" (least and greatest value; null
+  // where there is none).
   nlohmann::ordered_json sensors;
   std::vector<std::string> blocks; // as packed() makes them
   std::size_t block_bytes = 0;

@@ -16,7 +16,7 @@ inline constexpr const char *report_name = "report.html";
 inline constexpr double default_report_mib = 10.0;
 
 struct ReportRequest {
-  std::filesystem::path directory;     // of the run
+  std::filesystem::path directory{};   // of the run
   std::filesystem::path file{};        // the page; empty: report.html in the directory
   std::optional<FrameRange> frames{};  // instead of all
   double max_mib = default_report_mib; // that the page may have, about

@@ -32,8 +32,8 @@ function unshuffled(planes, bytesOfValue) {
 
 async function unpack(channel) {
   const element = document.getElementById(`block-${channel.block}`);
-  const buffer = unshuffled(await unzipped(bytesOfBase64(element.textContent)), 4);
-  const values = channel.kind === 'f4' ? new Float32Array(buffer) : new Uint32Array(buffer);
+  const Values = {f4: Float32Array, f8: Float64Array, u4: Uint32Array}[channel.kind];
+  const values = new Values(unshuffled(await unzipped(bytesOfBase64(element.textContent)), Values.BYTES_PER_ELEMENT));
   unpackedBytes += values.byteLength;
   return values;
 }
@@ -58,6 +58,7 @@ function valuesOf(channel) {
 
 // What an id says where nothing is hit.
 const noId = 0xffffffff;
+const isNumbered = channel => channel.scale === 'ids' || channel.scale === 'bits'; // a colour for each number
 const isId = channel => channel.scale === 'ids';
 const isInteger = channel => channel.kind === 'u4';
 

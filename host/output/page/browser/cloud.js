@@ -64,8 +64,9 @@ function drawPoints(image, ids, depths, points, colours, view, spacing, origin) 
     const sx = width / 2 + scale * (r[0] * x + r[1] * y + r[2] * z);
     const sy = height / 2 - scale * (u[0] * x + u[1] * y + u[2] * z);
     if (!(sx > -8 && sy > -8 && sx < width + 8 && sy < height + 8)) continue;
+    // From the sensor, by the sum of the coordinates, which is somewhat more: surfaces are seen from other sides.
     const far = Math.abs(points[at] - ox) + Math.abs(points[at + 1] - oy) + Math.abs(points[at + 2] - oz);
-    const side = Math.min(9, Math.max(1, Math.ceil(0.8 * spacing * far * scale)));
+    const side = Math.min(9, Math.max(1, Math.ceil(spacing * far * scale)));
     const left = Math.max(0, Math.round(sx - side / 2)), right = Math.min(width, Math.round(sx - side / 2) + side);
     const top = Math.max(0, Math.round(sy - side / 2)), bottom = Math.min(height, Math.round(sy - side / 2) + side);
     const colour = colours[i];

@@ -2,7 +2,7 @@
 
 const cloudCanvas = document.getElementById('cloud'), cloudChooser = document.getElementById('cloud-distance');
 const cloudImage = document.createElement('canvas');
-const cloudHeight = 470;
+const cloudHeight = 520;
 const cloud = {
   view: null, points: null, key: '', ids: null, depths: null, image: null,
   extent: {middle: [0, 0, 0], size: 1}, sharp: 1, drag: null,
@@ -12,7 +12,7 @@ const originOf = frame => [0, 1, 2].map(k => frame.entry.camera.world_from_camer
 const forwardOf = frame => [0, 1, 2].map(k => frame.entry.camera.world_from_camera[k][2]);
 
 // Distances along the pixels' rays: those that were measured, and the true one.
-const isDistance = channel => channel.kind === 'f4' && /(^|_)distance_m($|_)|^range_m$/.test(channel.quantity);
+const isDistance = channel => !isInteger(channel) && /(^|_)distance_m($|_)|^range_m$/.test(channel.quantity);
 const distancesOf = frame => frame.channels.filter(channel =>
   isDistance(channel) && (channel.frequency === null || channel.frequency === shown.frequency));
 
@@ -30,7 +30,7 @@ const anglesOf = back => ({yaw: Math.atan2(back[0], back[2]), pitch: Math.asin(M
 
 function setView(name) {
   const {middle, size} = cloud.extent, origin = originOf(shown.frame);
-  const eye = size * 1.15;
+  const eye = size * 1.7;
   if (name === 'sensor') {
     const towards = sum(origin, scaled(middle, -1)), forward = forwardOf(shown.frame);
     const away = Math.max(1e-3 * size, -dot(towards, forward));
@@ -80,8 +80,8 @@ function drawSensor(context, project, colours) {
   text(context, shown.sensor.name, eye[0] + 6, eye[1] - 8, colours.accent);
 }
 
-function drawAxes(context, height, colours) {
-  const {right, up} = viewAxes(cloud.view), x0 = 40, y0 = height - 40;
+function drawAxes(context, width, height, colours) {
+  const {right, up} = viewAxes(cloud.view), x0 = width - 44, y0 = height - 40;
   [['x', '#d6453d'], ['y', '#3a9a46'], ['z', '#3b74d8']].forEach(([name, colour], k) => {
     const x = x0 + 26 * right[k], y = y0 - 26 * up[k];
     line(context, x0, y0, x, y, colour, 2);
@@ -102,7 +102,10 @@ function drawMark(context, project, colours) {
     context.stroke();
   }
   const say = value => numberText(value, 5);
-  text(context, `x ${say(point[0])}, y ${say(point[1])}, z ${say(point[2])} m`, 12, 16, colours.quiet);
+  const words = `x ${say(point[0])}, y ${say(point[1])}, z ${say(point[2])} m`;
+  context.fillStyle = colours.card;
+  context.fillRect(8, 6, context.measureText(words).width + 12, 22);
+  text(context, words, 14, 17, colours.ink);
 }
 
 function drawCloud(changed) {
@@ -125,7 +128,7 @@ function drawCloud(changed) {
   context.drawImage(cloudImage, 0, 0, width, cloudHeight);
   const project = projection(cloud.view, width, cloudHeight);
   drawSensor(context, project, colours);
-  drawAxes(context, cloudHeight, colours);
+  drawAxes(context, width, cloudHeight, colours);
   drawMark(context, project, colours);
 }
 views.push(drawCloud);

@@ -35,14 +35,14 @@ function colourOfInteger(channel, value) {
   return value === 0 ? noneColour : idColour(value);
 }
 
-// The pixels of a picture of `values` between the ends of `range`.
-function pixelsOf(channel, values, range) {
+// The pixels of a picture of `values`, in the colours of `scale` between the ends of `range`.
+function pixelsOf(channel, values, scale, range) {
   const pixels = new Uint32Array(values.length);
-  if (channel.scale === 'ids' || channel.scale === 'bits') {
+  if (isNumbered(channel)) {
     for (let i = 0; i < values.length; ++i) pixels[i] = colourOfInteger(channel, values[i]);
     return pixels;
   }
-  const map = coloursOf(channel.scale);
+  const map = coloursOf(scale);
   const factor = (steps - 1) / (range[1] - range[0]);
   for (let i = 0; i < values.length; ++i) {
     const place = (values[i] - range[0]) * factor;

@@ -120,13 +120,14 @@ function writeObjects() {
   if (!values) return;
   const body = document.createElement('tbody'), head = document.createElement('thead');
   const title = head.insertRow();
-  for (const words of ['object', 'name', 'pixels', 'share']) cell(title, 'th', words).scope = 'col';
+  for (const [words, kind] of [['object', ''], ['name', ''], ['pixels', 'number'], ['share', 'number']])
+    if (words !== 'name' || objectNames.size > 0) cell(title, 'th', words, kind).scope = 'col';
   for (const [id, count] of frequentNumbers(values).slice(0, 200)) {
     const row = body.insertRow(), swatch = document.createElement('span');
     swatch.className = 'swatch';
     swatch.style.background = cssColour(colourOfInteger(channel, id));
-    cell(row, 'th', id === noId ? '' : String(id)).prepend(swatch);
-    cell(row, 'td', id === noId ? channel.none : objectNames.get(id) ?? 'has no name here');
+    cell(row, 'th', id === noId ? channel.none : String(id)).prepend(swatch);
+    if (objectNames.size > 0) cell(row, 'td', objectNames.get(id) ?? '');
     cell(row, 'td', String(count), 'number');
     cell(row, 'td', `${numberText(100 * count / values.length, 3)} %`, 'number');
   }

@@ -17,16 +17,24 @@ function countsOf(values, ends, bars) {
   return {counts, below, above, none};
 }
 
+// Of the colours' ends as much as this frame has values for.
+function endsOfBars() {
+  const {channel, ends} = shown, has = channel.extent ?? ends;
+  const common = [Math.max(ends[0], has[0]), Math.min(ends[1], has[1])];
+  return common[1] - common[0] > 0.02 * (ends[1] - ends[0]) ? common : ends;
+}
+
 function drawBars(context, width, colours) {
-  const {channel, values, ends} = shown, bars = 96;
+  const {channel, values, scale} = shown, bars = 96, ends = endsOfBars();
   const {counts, below, above, none} = countsOf(values, ends, bars);
   const box = {x: 52, y: 8, width: width - 66, height: histogramHeight - 52};
-  const most = Math.max(1, ...counts), map = coloursOf(channel.scale);
+  const most = Math.max(1, ...counts), map = coloursOf(scale), [low, high] = shown.ends;
   sideAxis(context, box, [0, most], colours, {grid: true});
-  bottomAxis(context, box, ends, colours);
+  bottomAxis(context, box, ends, colours, {count: box.width / 60});
   counts.forEach((count, i) => {
     const height = count / most * box.height;
-    context.fillStyle = cssColour(map[Math.round((i + 0.5) / bars * (steps - 1))]);
+    const value = ends[0] + (i + 0.5) / bars * (ends[1] - ends[0]);
+    context.fillStyle = cssColour(map[Math.round((value - low) / (high - low) * (steps - 1))]);
     context.fillRect(box.x + i / bars * box.width, box.y + box.height - height, box.width / bars + 0.5, height);
   });
   line(context, box.x, box.y + box.height + 0.5, box.x + box.width, box.y + box.height + 0.5, colours.line);
@@ -50,7 +58,7 @@ function drawMostFrequent(context, width, colours) {
 function drawHistogram(changed) {
   if (!changed.has('values')) return;
   const context = cleared(histogramCanvas, histogramHeight), colours = palette();
-  const draw = shown.channel.scale === 'ids' || shown.channel.scale === 'bits' ? drawMostFrequent : drawBars;
+  const draw = isNumbered(shown.channel) ? drawMostFrequent : drawBars;
   draw(context, histogramCanvas.clientWidth, colours);
 }
 views.push(drawHistogram);

@@ -50,16 +50,17 @@ function ordinalText(number) {
   return number + (tens === 1 ? 'th' : ['th', 'st', 'nd', 'rd'][ones] ?? 'th');
 }
 
-// Round numbers from `least` to `greatest`, about `count` of them.
+// Round numbers from `least` to `greatest`, about `count` of them, at least two where there are any.
 function ticks(least, greatest, count) {
   const span = greatest - least;
   if (!(span > 0)) return [least];
-  const raw = span / Math.max(1, count);
+  const raw = span / Math.max(2, count);
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].find(factor => factor * power >= raw * 0.999) * power;
-  const list = [];
-  for (let i = Math.ceil(least / step - 1e-9); i * step <= greatest + 1e-9 * span; ++i) list.push(i * step);
-  return list;
+  const sizes = [0.2, 0.5, 1, 2, 5, 10].map(factor => factor * power);
+  for (let i = sizes.findIndex(size => size >= raw * 0.999); ; --i) {
+    const first = Math.ceil(least / sizes[i] - 1e-9), last = Math.floor(greatest / sizes[i] + 1e-9);
+    if (last > first || i === 0) return Array.from({length: last - first + 1}, (_, k) => (first + k) * sizes[i]);
+  }
 }
 
 // Labels of ticks, all with as many decimals as their step needs.

@@ -29,29 +29,27 @@ function placeOfPixel(box, column, row) {
 function drawCross(context, box, colours) {
   const [x, y] = placeOfPixel(box, shown.column, shown.row);
   const gap = Math.max(4, box.width / shown.frame.columns);
-  context.globalAlpha = 0.8;
-  for (const [colour, width] of [['#fff', 3], [colours.mark, 1.2]]) {
-    line(context, box.x, y, x - gap, y, colour, width);
-    line(context, x + gap, y, box.x + box.width, y, colour, width);
-    line(context, x, box.y, x, y - gap, colour, width);
-    line(context, x, y + gap, x, box.y + box.height, colour, width);
+  line(context, box.x, y, x - gap, y, colours.mark);
+  line(context, x + gap, y, box.x + box.width, y, colours.mark);
+  line(context, x, box.y, x, y - gap, colours.mark);
+  line(context, x, y + gap, x, box.y + box.height, colours.mark);
+  for (const [colour, width] of [['#fff', 3.5], [colours.mark, 1.5]]) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.strokeRect(x - gap / 2 - 1, y - gap / 2 - 1, gap + 2, gap + 2);
   }
-  context.globalAlpha = 1;
-  context.strokeStyle = colours.mark;
-  context.lineWidth = 1.5;
-  context.strokeRect(x - gap / 2 - 1, y - gap / 2 - 1, gap + 2, gap + 2);
 }
 
 function drawColourBar(context, box, colours) {
-  const {channel, ends} = shown;
-  const map = coloursOf(channel.scale);
+  const {channel, scale, ends} = shown;
+  const map = coloursOf(scale);
   for (let y = 0; y < box.height; ++y) {
     context.fillStyle = cssColour(map[Math.round((1 - (y + 0.5) / box.height) * (steps - 1))]);
     context.fillRect(box.x, box.y + y, box.width, 1.5);
   }
   outline(context, box, colours.line);
   const value = shown.values[shown.row * shown.frame.columns + shown.column];
-  if (channel.scale === 'turn') {
+  if (scale === 'turn') {
     ['0', 'π/2', 'π', '3π/2', '2π'].forEach((words, i) => {
       const y = box.y + (1 - i / 4) * box.height;
       line(context, box.x + box.width + 1, y, box.x + box.width + 5, y, colours.line);

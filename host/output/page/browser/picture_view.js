@@ -6,7 +6,7 @@ let pictureBox = {x: 0, y: 0, width: 1, height: 1};
 // Boxes of picture, row profile, column profile and colour bar on a canvas of that width.
 function boxesOf(width) {
   const {columns, rows} = shown.frame;
-  const left = 52, profile = Math.min(120, width * 0.17), bar = 16, gap = 14, legend = 76, below = 104;
+  const left = 52, profile = Math.min(110, width * 0.16), bar = 16, gap = 14, legend = 62, below = 104;
   const most = Math.max(120, width - left - gap - profile - gap - 10 - bar - legend);
   const scale = Math.min(most / columns, 470 / rows);
   const image = {x: left, y: 24, width: Math.round(columns * scale), height: Math.round(rows * scale)};
@@ -31,8 +31,8 @@ function drawPictureView(changed) {
   drawPicture(context, boxes.image, colours);
   drawRowProfile(context, boxes.rowProfile, colours);
   drawColumnProfile(context, boxes.columnProfile, colours);
-  if (shown.channel.scale === 'ids' || shown.channel.scale === 'bits')
-    drawColourNames(context, {...boxes.bar, x: boxes.bar.x - 8, width: 106}, colours);
+  if (isNumbered(shown.channel))
+    drawColourNames(context, {...boxes.bar, x: boxes.bar.x - 8, width: 90}, colours);
   else
     drawColourBar(context, boxes.bar, colours);
   drawNoneName(context, boxes.none, colours);
@@ -56,11 +56,12 @@ function writePictureWords(changed) {
 
 function statisticsText() {
   const {channel, values} = shown;
-  if (channel.scale === 'ids' || channel.scale === 'bits') return `${frequentNumbers(values).length} different numbers`;
+  if (isNumbered(channel)) return `${frequentNumbers(values).length} different numbers`;
   const of = statisticsOf(values), say = value => withUnit(numberText(value, 5), channel.unit);
   const none = of.none > 0 ? `; ${of.none} of ${values.length} pixels: ${channel.none}` : '';
   if (of.count === 0) return `No pixel has a value: ${channel.none}`;
-  return `least ${say(of.least)}, median ${say(of.median)}, mean ${say(of.mean)}, greatest ${say(of.greatest)}, rms ${say(of.rms)}${none}`;
+  const rms = shown.scale === 'zero_centred' ? `, rms ${say(of.rms)}` : '';
+  return `least ${say(of.least)}, median ${say(of.median)}, mean ${say(of.mean)}, greatest ${say(of.greatest)}${rms}${none}`;
 }
 views.push(writePictureWords);
 

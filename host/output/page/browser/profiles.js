@@ -4,7 +4,7 @@ const valuesOfRow = row => shown.values.subarray(row * shown.frame.columns, (row
 const valuesOfColumn = column =>
   Float64Array.from({length: shown.frame.rows}, (_, row) => shown.values[row * shown.frame.columns + column]);
 
-// The ends of a curve's axis: of its own values, but no narrower than rounding makes them.
+// The ends of a curve's axis: of its own values, but no narrower than rounding or whole numbers make them.
 function endsOfCurve(values) {
   if (shown.channel.scale === 'turn') return [0, 2 * Math.PI];
   let least = Infinity, greatest = -Infinity;
@@ -15,7 +15,8 @@ function endsOfCurve(values) {
     }
   if (least > greatest) return shown.ends;
   const middle = (least + greatest) / 2;
-  const half = Math.max((greatest - least) / 2, 1e-6 * Math.abs(middle), 1e-30) * 1.06;
+  const leastHalf = isInteger(shown.channel) ? 0.5 : Math.max(1e-6 * Math.abs(middle), 1e-30);
+  const half = Math.max((greatest - least) / 2, leastHalf) * 1.06;
   return [middle - half, middle + half];
 }
 
@@ -47,12 +48,13 @@ function drawRowProfile(context, box, colours) {
   const [x] = placeOfPixel(box, shown.column, shown.row);
   line(context, x, box.y, x, box.y + box.height, colours.mark);
   drawCurve(context, values, ends, colours.accent, (share, level) => [box.x + share * box.width, box.y + (1 - level) * box.height]);
-  text(context, `along row ${shown.row * step}${shown.channel.unit ? `, ${shown.channel.unit}` : ''}`, box.x + 6, box.y + 10, colours.quiet);
+  text(context, `along row ${shown.row * step}`, box.x + box.width + 14, box.y + 36, colours.quiet);
+  text(context, shown.channel.unit, box.x + box.width + 14, box.y + 54, colours.quiet);
 }
 
 function drawColumnProfile(context, box, colours) {
   const values = valuesOfColumn(shown.column), ends = endsOfCurve(values);
-  bottomAxis(context, box, ends, colours, {grid: true, count: 2});
+  bottomAxis(context, box, ends, colours, {grid: true, count: 3});
   outline(context, box, colours.line);
   const [, y] = placeOfPixel(box, shown.column, shown.row);
   line(context, box.x, y, box.x + box.width, y, colours.mark);

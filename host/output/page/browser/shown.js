@@ -10,7 +10,7 @@ const shown = {
   same: true, // the colours of all frames alike
   column: 0, row: 0, // of the pixel that is looked at, among those that are here
   held: false,       // it stays where it is when the mouse moves
-  channel: null, values: null, ends: [0, 1], pixels: null, // of the picture
+  channel: null, values: null, scale: '', ends: [0, 1], pixels: null, // of the picture
   all: new Map(), // values by the channel's name, of this frame, as far as they are unpacked
 };
 
@@ -34,27 +34,30 @@ function channelOf(frame, quantity, frequency) {
   return alike.find(channel => channel.frequency === frequency) ?? alike[0];
 }
 
-// The ends of the colours: of this frame, or of all of the sensor's together.
-function endsOf(channel) {
-  if (isInteger(channel) && channel.scale !== 'share') return [0, 1];
-  if (channel.scale === 'turn' || channel.scale === 'share') return channel.range ?? [0, 1];
-  if (shown.range === 'own') return shown.own;
+// The least and the greatest value that colours are for: of this frame, or of all of the sensor's together.
+function valuesRange(channel) {
   const key = shown.range === 'all' ? 'extent' : 'range';
   const frames = shown.same ? shown.sensor.frames : [shown.frame];
   const ranges = frames.map(frame => channelOf(frame, channel.quantity, channel.frequency ?? 0)?.[key]).filter(Boolean);
   if (ranges.length === 0) return channel.range;
-  let ends = [Math.min(...ranges.map(range => range[0])), Math.max(...ranges.map(range => range[1]))];
-  if (channel.scale === 'zero_centred') {
-    const size = Math.max(Math.abs(ends[0]), Math.abs(ends[1]));
-    ends = [-size, size];
-  }
-  return ends[1] > ends[0] ? ends : channel.range;
+  const range = [Math.min(...ranges.map(each => each[0])), Math.max(...ranges.map(each => each[1]))];
+  return range[1] > range[0] ? range : channel.range;
 }
 
-// A scale that differs from frame to frame, as where one has negative values and one has not, is that of the frame.
+// Which map of colours between which ends. Zero is in the middle where values lie on both sides of it, and where a
+// quantity that has a sign does not stay far from zero: a deformation from 2.5 to 2.7 mm would be of one colour.
+function scaleAndEnds(channel) {
+  if (!['sequential', 'zero_centred'].includes(channel.scale)) return [channel.scale, channel.range ?? [0, 1]];
+  if (shown.range === 'own') return [shown.own[0] < 0 && shown.own[1] > 0 ? 'zero_centred' : 'sequential', shown.own];
+  const [least, greatest] = valuesRange(channel), size = Math.max(Math.abs(least), Math.abs(greatest));
+  const isNarrow = greatest - least < 0.5 * size;
+  if ((least < 0 && greatest > 0) || (channel.scale === 'zero_centred' && !isNarrow)) return ['zero_centred', [-size, size]];
+  return ['sequential', [least, greatest]];
+}
+
 function paint() {
-  shown.ends = endsOf(shown.channel);
-  shown.pixels = pixelsOf(shown.channel, shown.values, shown.ends);
+  [shown.scale, shown.ends] = scaleAndEnds(shown.channel);
+  shown.pixels = pixelsOf(shown.channel, shown.values, shown.scale, shown.ends);
   redraw('values');
 }
 
@@ -108,13 +111,13 @@ function bitsText(bits) {
   return names.join(', ');
 }
 
-function valueText(channel, value, digits = 7) {
+function valueText(channel, value) {
   if (channel.scale === 'bits') return bitsText(value);
   if (isId(channel)) {
     if (value === noId) return channel.none;
     return channel.quantity === 'object_id' && objectNames.has(value) ? `${value} (${objectNames.get(value)})` : String(value);
   }
   if (isInteger(channel)) return String(value);
-  return Number.isNaN(value) ? channel.none : numberText(value, digits);
+  return Number.isNaN(value) ? channel.none : numberText(value, channel.kind === 'f8' ? 13 : 7);
 }
 const isNone = (channel, value) => Number.isNaN(value) || (isId(channel) && value === noId);
