@@ -18,7 +18,7 @@ void add_report(CLI::App &command, WrittenReporting &written) {
   command.add_option("DIR", written.directory, "directory that render or deform has written")->required();
   command.add_option("-o,--output", written.file, fmt::format("the page [DIR/{}]", report_name));
   command.add_option("--max-size", written.max_size,
-                     fmt::format("MiB that the page may have, about, {} to {}; beyond it single images, "
+                     fmt::format("MiB that the page may have, about, {} to {}; beyond it channels, "
                                  "frames and pixels are left out, and the page says so [{}]",
                                  least_mib, most_mib, default_report_mib));
 }

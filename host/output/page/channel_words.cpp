@@ -69,6 +69,15 @@ PageScale scale_of(std::string_view name, const ChannelRow *row, bool is_integer
   return name == "coverage" ? PageScale::share : PageScale::sequential;
 }
 
+ChannelRank rank_of(std::string_view name, std::string_view group) {
+  if (group == raw)
+    return ChannelRank::raw;
+  const bool is_secondary = name.ends_with("_noiseless") || name.starts_with("direct_") ||
+                            name.starts_with("normal_") || name.starts_with("ray_") ||
+                            name == "mean_radiance" || name == "triangle_id" || name == "phase_rad";
+  return is_secondary ? ChannelRank::secondary : ChannelRank::main;
+}
+
 std::string_view none_of(std::string_view group) {
   if (group == truth)
     return "nothing hit";
@@ -107,7 +116,7 @@ ChannelWords words_of(std::string_view channel_name, bool is_integer) {
           about,
           std::string(none_of(group)),
           scale_of(name, known.row, is_integer),
-          group == raw,
+          rank_of(name, group),
           static_cast<std::size_t>(row - rows.begin()) * places_of_row + known.tap.value_or(0)};
 }
 

@@ -11,6 +11,10 @@ namespace pmdsim {
 // number.
 enum class PageScale { sequential, zero_centred, turn, share, ids, bits };
 
+// What is left out last, next to last and first where a page would be too large: the raw channels are those
+// of the camera's single images, the secondary ones say in other words, or without noise, what others say.
+enum class ChannelRank { main, secondary, raw };
+
 struct ChannelWords {
   std::string quantity;                 // the name in files without the prefix of a frequency: "tap3"
   std::optional<std::size_t> frequency; // of several
@@ -19,7 +23,7 @@ struct ChannelWords {
   std::string about;                    // what it is, in a line; "" where nobody knows
   std::string none;                     // what a value that is no number means: "no return"
   PageScale scale;
-  bool is_raw;    // of the camera's single images, which few look at: the first to be left out
+  ChannelRank rank;
   std::size_t at; // place in lists: the lower the earlier
 };
 

@@ -50,7 +50,7 @@ ShownFrame shown_frame(const PageFrame &frame, const PagePlan &plan) {
   ShownFrame shown{(read.resolution + plan.pixel_step - 1u) / plan.pixel_step, {}};
   for (ReadChannel &channel : read.channels) {
     ChannelWords words = words_of(channel.name, is_integer(channel));
-    if (words.is_raw && !plan.has_raw)
+    if (!plan.has(words.rank))
       continue;
     if (plan.pixel_step > 1)
       std::visit([&](auto &values) { values = every(plan.pixel_step, values, read.resolution); },
@@ -107,14 +107,15 @@ ordered_json channel_json(const ShownChannel &shown, std::size_t block) {
   return json;
 }
 
-SensorSize size_of(const PageSensor &sensor, std::vector<std::string> &raw_channels) {
+SensorSize size_of(const PageSensor &sensor, ChannelsByRank &channels) {
   const ShownFrame first = shown_frame(sensor.frames.front(), {});
   SensorSize size{sensor.frames.size(), first.resolution.x, first.resolution.y};
   for (const ShownChannel &each : first.channels) {
-    (each.words.is_raw ? size.raw_bytes : size.other_bytes) +=
-        static_cast<double>(packed_channel(each.channel).size());
-    if (each.words.is_raw && std::ranges::find(raw_channels, each.channel.name) == raw_channels.end())
-      raw_channels.push_back(each.channel.name);
+    const auto rank = static_cast<std::size_t>(each.words.rank);
+    size.bytes.at(rank) += static_cast<double>(packed_channel(each.channel).size());
+    if (std::vector<std::string> &names = channels.at(rank);
+        std::ranges::find(names, each.channel.name) == names.end())
+      names.push_back(each.channel.name);
   }
   return size;
 }
@@ -162,7 +163,7 @@ PageData page_data(const RunContent &run, std::size_t max_bytes, const std::func
   std::vector<SensorSize> sizes;
   for (const PageSensor &sensor : run.sensors) {
     check();
-    sizes.push_back(size_of(sensor, data.raw_channels));
+    sizes.push_back(size_of(sensor, data.channels));
     data.frames = std::max(data.frames, sensor.frames.size());
   }
   // Frames differ in size from the first, and few pixels are packed less tightly than many: where too much

@@ -21,8 +21,8 @@ struct PageData {
   std::vector<std::string> blocks; // as packed() makes them
   std::size_t block_bytes = 0;
   PagePlan plan;
-  std::size_t frames = 0;                // of the run, whichever sensor has most
-  std::vector<std::string> raw_channels; // of the run's first frames
+  std::size_t frames = 0;  // of the run, whichever sensor has most
+  ChannelsByRank channels; // of the run's first frames
 };
 
 // Of at most `max_bytes`, as far as plan_for() can. `check` is called now and then; what it throws comes out.

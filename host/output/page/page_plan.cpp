@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace pmdsim {
 namespace {
@@ -13,7 +14,9 @@ double bytes_of(const std::vector<SensorSize> &sensors, const PagePlan &plan) {
   double bytes = 0.0;
   for (const SensorSize &sensor : sensors) {
     const double frames = static_cast<double>((sensor.frames - 1) / plan.frame_step + 1);
-    const double of_frame = sensor.other_bytes + (plan.has_raw ? sensor.raw_bytes : 0.0);
+    double of_frame = 0.0;
+    for (std::size_t rank = 0; rank < sensor.bytes.size(); ++rank)
+      of_frame += plan.has(static_cast<ChannelRank>(rank)) ? sensor.bytes[rank] : 0.0;
     bytes += frames * of_frame / (plan.pixel_step * plan.pixel_step);
   }
   return bytes;
@@ -21,6 +24,16 @@ double bytes_of(const std::vector<SensorSize> &sensors, const PagePlan &plan) {
 
 std::size_t most(const std::vector<SensorSize> &sensors, std::size_t SensorSize::*what) {
   return std::ranges::max(sensors, {}, what).*what;
+}
+
+std::string missing_text(const std::vector<std::string> &names) {
+  constexpr std::size_t few = 6;
+  if (names.size() == 1)
+    return fmt::format("The channel {} is not here.", names.front());
+  if (names.size() <= few)
+    return fmt::format("The channels {} are not here.", fmt::join(names, ", "));
+  return fmt::format("The {} channels from {} to {} are not here.", names.size(), names.front(),
+                     names.back());
 }
 
 std::string ordinal(std::uint32_t number) {
@@ -37,11 +50,14 @@ std::string ordinal(std::uint32_t number) {
 
 PagePlan plan_for(const std::vector<SensorSize> &sensors, double max_bytes) {
   const auto fits = [&](const PagePlan &plan) { return bytes_of(sensors, plan) <= max_bytes; };
-  if (fits({}))
-    return {};
+  PagePlan plan;
+  for (const ChannelRank rank : {ChannelRank::raw, ChannelRank::secondary, ChannelRank::main}) {
+    plan.rank = rank;
+    if (fits(plan))
+      return plan;
+  }
   const std::size_t frames = most(sensors, &SensorSize::frames);
   const std::size_t side = std::max(most(sensors, &SensorSize::columns), most(sensors, &SensorSize::rows));
-  PagePlan plan{1, 1, false};
   for (;; plan.pixel_step *= 2) {
     const std::size_t fewest = std::min(frames, enough_frames);
     for (plan.frame_step = 1; (frames - 1) / plan.frame_step + 1 >= fewest; ++plan.frame_step)
@@ -57,7 +73,7 @@ PagePlan plan_for(const std::vector<SensorSize> &sensors, double max_bytes) {
 }
 
 std::vector<std::string> left_out_text(const PagePlan &plan, std::size_t frames,
-                                       const std::vector<std::string> &raw_channels) {
+                                       const ChannelsByRank &channels) {
   std::vector<std::string> text;
   if (plan.frame_step > 1)
     text.push_back(fmt::format("Of {} frames only every {} is here.", frames, ordinal(plan.frame_step)));
@@ -65,11 +81,9 @@ std::vector<std::string> left_out_text(const PagePlan &plan, std::size_t frames,
     text.push_back(
         fmt::format("Only every {0} pixel of every {0} row is here, with the values that the files have.",
                     ordinal(plan.pixel_step)));
-  if (!plan.has_raw && !raw_channels.empty())
-    text.push_back(raw_channels.size() == 1
-                       ? fmt::format("The channel {} is not here.", raw_channels.front())
-                       : fmt::format("The {} channels from {} to {} are not here.", raw_channels.size(),
-                                     raw_channels.front(), raw_channels.back()));
+  for (const ChannelRank rank : {ChannelRank::secondary, ChannelRank::raw})
+    if (const auto &names = channels.at(static_cast<std::size_t>(rank)); !plan.has(rank) && !names.empty())
+      text.push_back(missing_text(names));
   return text;
 }
 

@@ -43,8 +43,7 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   PageData data = page_data(run, most > around ? most - around : 0, check);
 
   const fs::path path = request.file.empty() ? request.directory / report_name : request.file;
-  WrittenReport written{path.string(), 0, data.frames,
-                        left_out_text(data.plan, data.frames, data.raw_channels)};
+  WrittenReport written{path.string(), 0, data.frames, left_out_text(data.plan, data.frames, data.channels)};
   const ordered_json json{{"title", short_name(request.directory)}, {"head", std::move(run.head)},
                           {"sensors", std::move(data.sensors)},     {"colours", colours_json()},
                           {"pixel_step", data.plan.pixel_step},     {"left_out", written.left_out}};

@@ -18,7 +18,7 @@ TEST_CASE("every channel has a title of its own, a group and a line about it") {
     CHECK(words.title.find('_') == std::string::npos);
     CHECK(titles.insert(words.title).second);
     CHECK(words.about == row.about);
-    CHECK(words.is_raw == is_of_taps(row));
+    CHECK((words.rank == ChannelRank::raw) == is_of_taps(row));
   }
 }
 
@@ -27,7 +27,7 @@ TEST_CASE("a name is taken apart") {
   CHECK(tap.quantity == "tap_a_dn12");
   CHECK(tap.frequency == std::optional<std::size_t>(1));
   CHECK(tap.title == "numbers of tap A, image 12");
-  CHECK(tap.is_raw);
+  CHECK(tap.rank == ChannelRank::raw);
   const ChannelWords deformed = words_of("f2.deformation_mm", false);
   CHECK(deformed.title == "deformation");
   CHECK(deformed.frequency == std::optional<std::size_t>(2));
