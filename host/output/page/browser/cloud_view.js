@@ -22,7 +22,9 @@ function fillCloudChooser() {
   if (cloudChooser.dataset.key === key) return;
   cloudChooser.dataset.key = key;
   cloudChooser.replaceChildren(...list.map(channel => new Option(channel.title, channel.name)));
+  const unwrapped = list.find(channel => channel.quantity === 'unwrapped_distance_m');
   if (list.some(channel => channel.name === before)) cloudChooser.value = before;
+  else if (unwrapped) cloudChooser.value = unwrapped.name;
 }
 
 // The angles from which a direction looks: `back` points from what is seen to the viewer.
@@ -30,7 +32,7 @@ const anglesOf = back => ({yaw: Math.atan2(back[0], back[2]), pitch: Math.asin(M
 
 function setView(name) {
   const {middle, size} = cloud.extent, origin = originOf(shown.frame);
-  const eye = size * 1.7;
+  const eye = size * 1.45;
   if (name === 'sensor') {
     const towards = sum(origin, scaled(middle, -1)), forward = forwardOf(shown.frame);
     const away = Math.max(1e-3 * size, -dot(towards, forward));

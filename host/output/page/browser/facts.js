@@ -27,7 +27,7 @@ function warnings() {
   for (const sensor of run.sensors)
     for (const {frame, entry} of sensor.frames) {
       for (const warning of entry.warnings ?? []) list.push(`${sensor.name}, frame ${frame}: ${warningText(warning)}`);
-      if (entry.unpromised > 0)
+      if (entry.unpromised > 0 && !entry.warnings && !run.head.warnings)
         list.push(`${sensor.name}, frame ${frame}: ${entry.unpromised} returns may be off by more than was asked for.`);
     }
   return list;
@@ -158,7 +158,8 @@ function writeRun() {
   part('title').textContent = run.title;
   part('summary').textContent = `pmdsim ${head.version ?? ''} ${head.command ?? ''}, ${head.device ?? 'unknown device'}`;
   listInto(part('warnings'), 'Warnings of the run:', warnings());
-  listInto(part('left-out'), 'This page does not have everything that the files have (pmdsim report --max-size):', run.left_out);
+  part('left-out').hidden = run.left_out.length === 0;
+  part('left-out').textContent = `The files have more than this page. ${run.left_out.join(' ')} A larger page has more: pmdsim report --max-size.`;
   unfolds('setup', () => JSON.stringify(head.setup, null, 2));
   unfolds('camera', () => JSON.stringify(shown.frame.entry.camera, null, 2));
   part('footer').textContent = `Made by pmdsim ${head.version ?? ''}. This page works without a network.`;

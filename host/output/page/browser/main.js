@@ -2,7 +2,7 @@
 
 function firstQuantity() {
   const quantities = shown.frame.channels.map(channel => channel.quantity);
-  return ['deformation_mm', 'multipath_m', 'distance_m', 'unwrapped_distance_m', 'amplitude'].find(name => quantities.includes(name)) ??
+  return ['deformation_mm', 'multipath_m', 'unwrapped_distance_m', 'distance_m', 'amplitude'].find(name => quantities.includes(name)) ??
     quantities[0];
 }
 
