@@ -22,10 +22,7 @@ std::string report_text(const WrittenReport &report) {
 void run_report(const Options &options) {
   const WrittenReport report = write_report(*options.report, throw_if_interrupted);
   if (options.json)
-    print(json_text({{"report", report.file},
-                     {"bytes", report.bytes},
-                     {"frames", report.frames},
-                     {"left_out", report.left_out}}));
+    print(json_text(report_json(report)));
   else
     print(report_text(report));
 }

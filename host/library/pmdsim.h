@@ -191,6 +191,14 @@ PMDSIM_API pmdsim_status pmdsim_frame_report(const pmdsim_frame *frame, const ch
 PMDSIM_API pmdsim_status pmdsim_frame_directions(const pmdsim_frame *frame, double *directions,
                                                  size_t length);
 
+/* The page of a run that the program has written to a directory (docs/report.md), with frames as .exr or .h5.
+ * `file` is the page; NULL or "" for report.html in the directory; one that is there is replaced. `max_mib`:
+ * MiB that it may have, about, 1 to 1000; 0 for 10. What was made, as JSON that lives until this thread's
+ * next call: {"report", "bytes", "frames", "left_out": [sentence, ...]}. PMDSIM_BAD_ARGUMENT;
+ * PMDSIM_BAD_INPUT; PMDSIM_BAD_OUTPUT. */
+PMDSIM_API pmdsim_status pmdsim_report(const char *directory, const char *file, double max_mib,
+                                       const char **json);
+
 #ifdef __cplusplus
 }
 #endif

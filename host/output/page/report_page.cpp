@@ -56,4 +56,11 @@ WrittenReport write_report(const ReportRequest &request, const std::function<voi
   return written;
 }
 
+ordered_json report_json(const WrittenReport &report) {
+  return {{"report", report.file},
+          {"bytes", report.bytes},
+          {"frames", report.frames},
+          {"left_out", report.left_out}};
+}
+
 } // namespace pmdsim

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@
 namespace pmdsim {
 
 inline constexpr const char *report_name = "report.html";
-inline constexpr double default_report_mib = 10.0;
+// MiB that a page may have, about.
+inline constexpr double default_report_mib = 10.0, least_report_mib = 1.0, most_report_mib = 1000.0;
 
 struct ReportRequest {
   std::filesystem::path directory{};   // of the run
@@ -32,5 +34,8 @@ struct WrittenReport {
 // `check` is called now and then; what it throws comes out. Throws Error: (input) as read_run() and
 // read_frame(); (output).
 WrittenReport write_report(const ReportRequest &request, const std::function<void()> &check);
+
+// report (the page), bytes, frames, left_out.
+nlohmann::ordered_json report_json(const WrittenReport &report);
 
 } // namespace pmdsim

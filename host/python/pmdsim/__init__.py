@@ -37,6 +37,7 @@ from ._frame import Frame
 from ._library import channels, devices, schema, version
 from ._recording import Recording, load
 from ._render import render
+from ._report import report
 from ._scene import Scene
 from ._setup import Setup
 from ._simulator import Simulator
@@ -68,6 +69,7 @@ __all__ = [
     "devices",
     "load",
     "render",
+    "report",
     "schema",
     "sweep",
     "version",

@@ -36,7 +36,8 @@ function outline(context, box, colour) {
   context.strokeRect(box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
 }
 
-// Ticks of a horizontal axis from `ends[0]` at the left to `ends[1]` at the right of the box; with `grid` lines across it.
+// Ticks of a horizontal axis from `ends[0]` at the left to `ends[1]` at the right of the box; with `grid` lines
+// across it.
 function bottomAxis(context, box, ends, colours, {grid = false, labels = true, count = box.width / 80} = {}) {
   const list = ticks(ends[0], ends[1], count), words = tickTexts(list);
   list.forEach((value, i) => {

@@ -26,7 +26,7 @@ function fillChannels() {
 }
 
 function fillFrequencies() {
-  const hertz = shown.frame.entry.modulation_hz ?? [];
+  const hertz = listOf(shown.frame.entry.modulation_hz);
   const several = shown.frame.channels.some(channel => channel.frequency !== null);
   fill(chooser('frequency'), hertz.map((value, i) => new Option(frequencyText(value), i)));
   chooser('frequency-chooser').hidden = !several;
@@ -81,7 +81,8 @@ function chooseFrame(index) {
 function chooseRange() {
   shown.range = chooser('range').value;
   if (shown.range === 'own') {
-    [chooser('range-from').value, chooser('range-to').value] = shown.own = shown.ends.map(end => Number(end.toPrecision(6)));
+    shown.own = shown.ends.map(end => Number(end.toPrecision(6)));
+    [chooser('range-from').value, chooser('range-to').value] = shown.own;
   }
   paint();
 }

@@ -20,7 +20,8 @@ function extentOf(points) {
   const at = (list, share) => list[Math.min(list.length - 1, Math.floor(share * list.length))];
   sorted.forEach(list => list.sort((a, b) => a - b));
   const sides = sorted.map(list => at(list, 0.99) - at(list, 0.01));
-  return {middle: sorted.map(list => (at(list, 0.01) + at(list, 0.99)) / 2), size: Math.max(Math.hypot(...sides), 1e-6)};
+  const middle = sorted.map(list => (at(list, 0.01) + at(list, 0.99)) / 2);
+  return {middle, size: Math.max(Math.hypot(...sides), 1e-6)};
 }
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -48,8 +49,8 @@ function projection(view, width, height) {
 }
 
 // An image of the points with a square of some pixels each, the nearest in front. `ids` gets the number of the point
-// that is seen at a pixel, -1 for none. `spacing` is the angle from one pixel of the camera to the next.
-function drawPoints(image, ids, depths, points, colours, view, spacing, origin) {
+// that is seen at a pixel, -1 for none. `spacing` is the angle from one pixel of the camera at `origin` to the next.
+function drawPoints({image, ids, depths, points, view}, colours, spacing, origin) {
   const {width, height} = image, out = new Uint32Array(image.data.buffer);
   const {right: r, up: u, back: b} = viewAxes(view), [px, py, pz] = view.pivot, [ox, oy, oz] = origin;
   const focal = 1.6 * Math.min(width, height), near = 1e-3 * view.eye;

@@ -14,7 +14,7 @@ const forwardOf = frame => [0, 1, 2].map(k => frame.entry.camera.world_from_came
 // Distances along the pixels' rays: those that were measured, and the true one.
 const isDistance = channel => !isInteger(channel) && /(^|_)distance_m($|_)|^range_m$/.test(channel.quantity);
 const distancesOf = frame => frame.channels.filter(channel =>
-  isDistance(channel) && (channel.frequency === null || channel.frequency === shown.frequency));
+  frame.entry.camera && isDistance(channel) && (channel.frequency === null || channel.frequency === shown.frequency));
 
 function fillCloudChooser() {
   const list = distancesOf(shown.frame), before = cloudChooser.value;
@@ -39,8 +39,8 @@ function setView(name) {
     cloud.view = {pivot: sum(origin, scaled(forward, away)), eye: away, ...anglesOf(scaled(forward, -1))};
   } else {
     const back = anglesOf(unit(scaled(forwardOf(shown.frame), -1)));
-    const limited = pitch => Math.max(-1.5, Math.min(1.5, pitch));
-    cloud.view = {pivot: [...middle], eye, yaw: back.yaw + (name === 'above' ? 0 : 0.6), pitch: name === 'above' ? 1.5 : limited(back.pitch + 0.35)};
+    const beside = {yaw: back.yaw + 0.6, pitch: Math.max(-1.5, Math.min(1.5, back.pitch + 0.35))};
+    cloud.view = {pivot: [...middle], eye, ...(name === 'above' ? {yaw: back.yaw, pitch: 1.5} : beside)};
   }
   redraw('cloud');
 }
@@ -124,7 +124,7 @@ function drawCloud(changed) {
   const matrix = shown.frame.entry.camera.camera_matrix;
   const spacing = step / Math.max(1e-9, Math.hypot(matrix[0][0], matrix[1][0]));
   if (changed.size > 1 || !changed.has('pixel') || cloud.drawn !== cloud.key)
-    drawPoints(cloud.image, cloud.ids, cloud.depths, cloud.points, shown.pixels, cloud.view, spacing, originOf(shown.frame));
+    drawPoints(cloud, shown.pixels, spacing, originOf(shown.frame));
   cloud.drawn = cloud.key;
   cloudImage.getContext('2d').putImageData(cloud.image, 0, 0);
   context.drawImage(cloudImage, 0, 0, width, cloudHeight);
@@ -155,7 +155,8 @@ function zoom(factor) {
 
 // The pixel of the point below the mouse, or of one close to it.
 function lookBelow(event) {
-  const {width, height} = cloud.image, x = Math.round(event.offsetX * cloud.sharp), y = Math.round(event.offsetY * cloud.sharp);
+  const {width, height} = cloud.image;
+  const [x, y] = [event.offsetX, event.offsetY].map(place => Math.round(place * cloud.sharp));
   for (let reach = 0; reach <= 4; ++reach)
     for (let dy = -reach; dy <= reach; ++dy)
       for (let dx = -reach; dx <= reach; ++dx) {

@@ -46,7 +46,8 @@ function pixelsOf(channel, values, scale, range) {
   const factor = (steps - 1) / (range[1] - range[0]);
   for (let i = 0; i < values.length; ++i) {
     const place = (values[i] - range[0]) * factor;
-    pixels[i] = Number.isNaN(place) ? noneColour : map[place <= 0 ? 0 : place >= steps - 1 ? steps - 1 : place + 0.5 | 0];
+    const within = place <= 0 ? 0 : place >= steps - 1 ? steps - 1 : place + 0.5 | 0;
+    pixels[i] = Number.isNaN(place) ? noneColour : map[within];
   }
   return pixels;
 }
@@ -55,5 +56,6 @@ function pixelsOf(channel, values, scale, range) {
 function palette() {
   const style = getComputedStyle(document.documentElement);
   const colour = name => style.getPropertyValue(`--${name}`).trim();
-  return Object.fromEntries(['card', 'ink', 'quiet', 'line', 'grid', 'accent', 'mark', 'space'].map(name => [name, colour(name)]));
+  const names = ['card', 'ink', 'quiet', 'line', 'grid', 'accent', 'mark'];
+  return Object.fromEntries(names.map(name => [name, colour(name)]));
 }

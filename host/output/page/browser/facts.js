@@ -15,18 +15,22 @@ function listInto(section, title, sentences) {
   section.hidden = false;
 }
 
+// What a manifest has as a list; anyone may have edited it.
+const listOf = list => (Array.isArray(list) ? list : []);
+
 function warningText(warning) {
   if (typeof warning === 'string') return warning;
-  const place = warning.place ? `${warning.place}: ` : '', code = warning.code ? ` (${warning.code})` : '';
-  return `${place}${warning.text ?? JSON.stringify(warning)}${code}`;
+  const place = warning?.place ? `${warning.place}: ` : '', code = warning?.code ? ` (${warning.code})` : '';
+  return `${place}${warning?.text ?? JSON.stringify(warning)}${code}`;
 }
 
 // Those of the run, and those of frames with their numbers.
 function warnings() {
-  const list = (run.head.warnings ?? []).map(warningText);
+  const list = listOf(run.head.warnings).map(warningText);
   for (const sensor of run.sensors)
     for (const {frame, entry} of sensor.frames) {
-      for (const warning of entry.warnings ?? []) list.push(`${sensor.name}, frame ${frame}: ${warningText(warning)}`);
+      for (const warning of listOf(entry.warnings))
+        list.push(`${sensor.name}, frame ${frame}: ${warningText(warning)}`);
       if (entry.unpromised > 0 && !entry.warnings && !run.head.warnings)
         list.push(`${sensor.name}, frame ${frame}: ${entry.unpromised} returns may be off by more than was asked for.`);
     }
@@ -42,7 +46,11 @@ function errorText(metres, share) {
 }
 
 function accuracyFacts(head, entry) {
-  const modes = {exact: 'exact: every diode at every sample', reduced: 'reduced: few sources in place of the diodes', auto: 'auto: the cheapest way within the error'};
+  const modes = {
+    exact: 'exact: every diode at every sample',
+    reduced: 'reduced: few sources in place of the diodes',
+    auto: 'auto: the cheapest way within the error',
+  };
   const asked = errorText(head.max_error_m, head.max_amplitude_error);
   const claimed = errorText(entry.error_claimed_m, entry.amplitude_error_claimed);
   const found = errorText(entry.error_found_m, entry.amplitude_error_found);
@@ -56,25 +64,30 @@ function accuracyFacts(head, entry) {
   ];
 }
 
+function bouncesText({elements, claimed_m}) {
+  const claimed = typeof claimed_m === 'number'
+    ? `; multipath is off by ${lengthText(claimed_m)} at most in 95 % of the pixels` : '';
+  return `${elements} elements of surfaces${claimed}`;
+}
+
 function signalFacts(entry) {
   const wave = typeof entry.waveform === 'string' ? entry.waveform : entry.waveform && 'harmonics';
-  const ambiguity = (entry.ambiguity_m ?? []).map(lengthText).join(', ');
+  const hertz = listOf(entry.modulation_hz), ambiguity = listOf(entry.ambiguity_m).map(lengthText).join(', ');
   return [
     ['pixels', entry.resolution && `${entry.resolution[0]} columns x ${entry.resolution[1]} rows`],
-    ['modulation', entry.modulation_hz && `${entry.modulation_hz.map(frequencyText).join(', ')}, ${wave}, ${entry.taps} taps`],
+    ['modulation', hertz.length > 0 && `${hertz.map(frequencyText).join(', ')}, ${wave}, ${entry.taps} taps`],
     ['ambiguity range', ambiguity],
     ['diodes', entry.diodes && String(entry.diodes)],
-    ['light that bounces', entry.bounces && `${entry.bounces.elements} elements of surfaces` +
-      (typeof entry.bounces.claimed_m === 'number' ? `; multipath is off by ${lengthText(entry.bounces.claimed_m)} at most in 95 % of the pixels` : '')],
+    ['light that bounces', entry.bounces && bouncesText(entry.bounces)],
   ];
 }
 
 function deformationFacts({told}) {
-  const list = Array.isArray(told?.deformation_mm) ? told.deformation_mm : [];
+  const list = listOf(told?.deformation_mm), names = ['mean', 'min', 'max', 'centre', 'rms'];
   return list.map((of, i) => {
-    const say = ['mean', 'min', 'max', 'centre', 'rms'].map(name => `${name} ${typeof of[name] === 'number' ? numberText(of[name], 5) : 'none'}`);
-    const at = list.length > 1 ? ` at ${frequencyText(told.modulation_hz[i])}` : '';
-    return [`deformation${at}`, `${say.join(', ')} mm`];
+    const figure = name => (typeof of[name] === 'number' ? numberText(of[name], 5) : 'none');
+    const at = list.length > 1 ? ` at ${frequencyText(listOf(told.modulation_hz)[i])}` : '';
+    return [`deformation${at}`, `${names.map(name => `${name} ${figure(name)}`).join(', ')} mm`];
   });
 }
 
@@ -135,7 +148,7 @@ function writeObjects() {
 }
 
 function writeInputs() {
-  const inputs = Array.isArray(run.head.inputs) ? run.head.inputs : [];
+  const inputs = listOf(run.head.inputs);
   part('inputs-part').hidden = inputs.length === 0;
   const body = part('inputs').createTBody();
   for (const input of inputs) {
@@ -156,10 +169,12 @@ function writeRun() {
   const {head} = run;
   document.title = `${run.title}: pmdsim ${head.command ?? ''}`;
   part('title').textContent = run.title;
-  part('summary').textContent = `pmdsim ${head.version ?? ''} ${head.command ?? ''}, ${head.device ?? 'unknown device'}`;
+  const device = head.device ?? 'unknown device';
+  part('summary').textContent = `pmdsim ${head.version ?? ''} ${head.command ?? ''}, ${device}`;
   listInto(part('warnings'), 'Warnings of the run:', warnings());
   part('left-out').hidden = run.left_out.length === 0;
-  part('left-out').textContent = `The files have more than this page. ${run.left_out.join(' ')} A larger page has more: pmdsim report --max-size.`;
+  part('left-out').textContent =
+    `The files have more than this page. ${run.left_out.join(' ')} A larger page has more: pmdsim report --max-size.`;
   unfolds('setup', () => JSON.stringify(head.setup, null, 2));
   unfolds('camera', () => JSON.stringify(shown.frame.entry.camera, null, 2));
   part('footer').textContent = `Made by pmdsim ${head.version ?? ''}. This page works without a network.`;

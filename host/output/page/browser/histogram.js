@@ -52,7 +52,8 @@ function drawMostFrequent(context, width, colours) {
     context.fillRect(left, y - 7, Math.max(1, count / most * (width - left - 80)), 14);
     text(context, `${numberText(100 * count / shown.values.length, 3)} %`, width - 4, y, colours.quiet, 'right');
   });
-  if (numbers.length > fit) text(context, `and ${numbers.length - fit} more numbers`, width * 0.42, histogramHeight - 8, colours.quiet);
+  const more = numbers.length - fit;
+  if (more > 0) text(context, `and ${more} more numbers`, width * 0.42, histogramHeight - 8, colours.quiet);
 }
 
 function drawHistogram(changed) {

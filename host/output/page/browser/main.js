@@ -2,8 +2,8 @@
 
 function firstQuantity() {
   const quantities = shown.frame.channels.map(channel => channel.quantity);
-  return ['deformation_mm', 'multipath_m', 'unwrapped_distance_m', 'distance_m', 'amplitude'].find(name => quantities.includes(name)) ??
-    quantities[0];
+  const first = ['deformation_mm', 'multipath_m', 'unwrapped_distance_m', 'distance_m', 'amplitude'];
+  return first.find(name => quantities.includes(name)) ?? quantities[0];
 }
 
 function begin() {

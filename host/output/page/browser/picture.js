@@ -23,7 +23,8 @@ function drawPicture(context, box, colours) {
 
 // The middle of a pixel in the box.
 function placeOfPixel(box, column, row) {
-  return [box.x + (column + 0.5) / shown.frame.columns * box.width, box.y + (row + 0.5) / shown.frame.rows * box.height];
+  const {columns, rows} = shown.frame;
+  return [box.x + (column + 0.5) / columns * box.width, box.y + (row + 0.5) / rows * box.height];
 }
 
 function drawCross(context, box, colours) {
@@ -86,7 +87,8 @@ function drawColourNames(context, box, colours) {
     context.fillRect(box.x, y - 6, 12, 12);
     text(context, fitting(context, valueText(shown.channel, value), box.width - 20), box.x + 18, y, colours.ink);
   });
-  if (numbers.length > fit) text(context, `and ${numbers.length - fit} more`, box.x, box.y + 8 + 20 * fit, colours.quiet);
+  const more = numbers.length - fit;
+  if (more > 0) text(context, `and ${more} more`, box.x, box.y + 8 + 20 * fit, colours.quiet);
 }
 
 function drawNoneName(context, box, colours) {

@@ -41,14 +41,15 @@ function drawPictureView(changed) {
 views.push(drawPictureView);
 
 function titleOf(channel) {
-  const frequency = channel.frequency === null ? '' : ` at ${frequencyText(shown.frame.entry.modulation_hz?.[channel.frequency])}`;
+  const frequency = channel.frequency === null ? '' : ` at ${frequencyOf(channel)}`;
   return `${channel.title[0].toUpperCase()}${channel.title.slice(1)}${frequency}`;
 }
 
 function writePictureWords(changed) {
   if (!changed.has('values')) return;
   const {channel, frame} = shown;
-  document.getElementById('picture-title').textContent = `${titleOf(channel)}, ${shown.sensor.name}, frame ${frame.frame}`;
+  const title = `${titleOf(channel)}, ${shown.sensor.name}, frame ${frame.frame}`;
+  document.getElementById('picture-title').textContent = title;
   document.getElementById('about').textContent = `${channel.name}: ${channel.about || 'a channel of the files'}`;
   pictureCanvas.setAttribute('aria-label', `Picture of ${titleOf(channel)}, ${frame.columns} x ${frame.rows} pixels`);
   document.getElementById('statistics').textContent = statisticsText();
@@ -61,7 +62,8 @@ function statisticsText() {
   const none = of.none > 0 ? `; ${of.none} of ${values.length} pixels: ${channel.none}` : '';
   if (of.count === 0) return `No pixel has a value: ${channel.none}`;
   const rms = shown.scale === 'zero_centred' ? `, rms ${say(of.rms)}` : '';
-  return `least ${say(of.least)}, median ${say(of.median)}, mean ${say(of.mean)}, greatest ${say(of.greatest)}${rms}${none}`;
+  const ends = `least ${say(of.least)}, median ${say(of.median)}, mean ${say(of.mean)}, greatest ${say(of.greatest)}`;
+  return `${ends}${rms}${none}`;
 }
 views.push(writePictureWords);
 

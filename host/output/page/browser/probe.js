@@ -26,7 +26,7 @@ function channelRow(body, channel) {
   const head = cell(row, 'th', '');
   const button = document.createElement('button');
   button.type = 'button';
-  button.textContent = channel.title + (channel.frequency === null ? '' : `, ${frequencyText(shown.frame.entry.modulation_hz?.[channel.frequency])}`);
+  button.textContent = channel.title + (channel.frequency === null ? '' : `, ${frequencyOf(channel)}`);
   button.title = `${channel.name}: ${channel.about}`;
   head.append(button);
   row.addEventListener('click', () => choose(channel));

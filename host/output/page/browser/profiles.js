@@ -20,8 +20,8 @@ function endsOfCurve(values) {
   return [middle - half, middle + half];
 }
 
-// A curve of values at even places; nothing is drawn where there is none. `place(share, level)` gives x and y of a place
-// along the axis of pixels and a value, both from 0 to 1.
+// A curve of values at even places; nothing is drawn where there is none. `place(share, level)` gives x and y of a
+// place along the axis of pixels and a value, both from 0 to 1.
 function drawCurve(context, values, ends, colour, place) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 1.4;
@@ -47,7 +47,8 @@ function drawRowProfile(context, box, colours) {
   outline(context, box, colours.line);
   const [x] = placeOfPixel(box, shown.column, shown.row);
   line(context, x, box.y, x, box.y + box.height, colours.mark);
-  drawCurve(context, values, ends, colours.accent, (share, level) => [box.x + share * box.width, box.y + (1 - level) * box.height]);
+  drawCurve(context, values, ends, colours.accent,
+            (share, level) => [box.x + share * box.width, box.y + (1 - level) * box.height]);
   text(context, `along row ${shown.row * step}`, box.x + box.width + 14, box.y + 36, colours.quiet);
   text(context, shown.channel.unit, box.x + box.width + 14, box.y + 54, colours.quiet);
 }
@@ -58,6 +59,7 @@ function drawColumnProfile(context, box, colours) {
   outline(context, box, colours.line);
   const [, y] = placeOfPixel(box, shown.column, shown.row);
   line(context, box.x, y, box.x + box.width, y, colours.mark);
-  drawCurve(context, values, ends, colours.accent, (share, level) => [box.x + level * box.width, box.y + share * box.height]);
+  drawCurve(context, values, ends, colours.accent,
+            (share, level) => [box.x + level * box.width, box.y + share * box.height]);
   text(context, `along column ${shown.column * step}`, box.x, box.y - 12, colours.quiet);
 }

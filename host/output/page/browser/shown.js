@@ -50,9 +50,9 @@ function scaleAndEnds(channel) {
   if (!['sequential', 'zero_centred'].includes(channel.scale)) return [channel.scale, channel.range ?? [0, 1]];
   if (shown.range === 'own') return [shown.own[0] < 0 && shown.own[1] > 0 ? 'zero_centred' : 'sequential', shown.own];
   const [least, greatest] = valuesRange(channel), size = Math.max(Math.abs(least), Math.abs(greatest));
-  const isNarrow = greatest - least < 0.5 * size;
-  if ((least < 0 && greatest > 0) || (channel.scale === 'zero_centred' && !isNarrow)) return ['zero_centred', [-size, size]];
-  return ['sequential', [least, greatest]];
+  const straddles = least < 0 && greatest > 0, isNarrow = greatest - least < 0.5 * size;
+  const isCentred = straddles || (channel.scale === 'zero_centred' && !isNarrow);
+  return isCentred ? ['zero_centred', [-size, size]] : ['sequential', [least, greatest]];
 }
 
 function paint() {
@@ -100,6 +100,9 @@ function look(column, row) {
   redraw('pixel');
 }
 
+// The frequency that the channel belongs to, of several.
+const frequencyOf = channel => frequencyText(shown.frame.entry.modulation_hz?.[channel.frequency] ?? NaN);
+
 // A value in words: its number, what it means that there is none, or the name of an object.
 const objectNames = namesOfObjects(run.head.objects ?? run.sensors[0].frames[0].entry.objects);
 
@@ -115,7 +118,8 @@ function valueText(channel, value) {
   if (channel.scale === 'bits') return bitsText(value);
   if (isId(channel)) {
     if (value === noId) return channel.none;
-    return channel.quantity === 'object_id' && objectNames.has(value) ? `${value} (${objectNames.get(value)})` : String(value);
+    const isNamed = channel.quantity === 'object_id' && objectNames.has(value);
+    return isNamed ? `${value} (${objectNames.get(value)})` : String(value);
   }
   if (isInteger(channel)) return String(value);
   return Number.isNaN(value) ? channel.none : numberText(value, channel.kind === 'f8' ? 13 : 7);
