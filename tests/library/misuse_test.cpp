@@ -94,11 +94,11 @@ TEST_CASE("Arguments that are NULL") {
   CHECK(pmdsim_devices(nullptr) == PMDSIM_BAD_ARGUMENT);
   CHECK(pmdsim_schema(nullptr) == PMDSIM_BAD_ARGUMENT);
   CHECK(pmdsim_channels(nullptr) == PMDSIM_BAD_ARGUMENT);
-  const char *json = nullptr;
-  CHECK(pmdsim_report(nullptr, nullptr, 0.0, &json) == PMDSIM_BAD_ARGUMENT);
+  const char *told = nullptr;
+  CHECK(pmdsim_report(nullptr, nullptr, 0.0, &told) == PMDSIM_BAD_ARGUMENT);
   CHECK(pmdsim_report("nowhere", nullptr, 0.0, nullptr) == PMDSIM_BAD_ARGUMENT);
-  CHECK(pmdsim_report("nowhere", nullptr, 0.5, &json) == PMDSIM_BAD_ARGUMENT);
-  CHECK(pmdsim_report("nowhere", nullptr, 0.0, &json) == PMDSIM_BAD_INPUT);
+  CHECK(pmdsim_report("nowhere", nullptr, 0.5, &told) == PMDSIM_BAD_ARGUMENT);
+  CHECK(pmdsim_report("nowhere", nullptr, 0.0, &told) == PMDSIM_BAD_INPUT);
   pmdsim_frame_destroy(frame);
 }
 

@@ -38,9 +38,10 @@ function viewAxes({yaw, pitch}) {
   return {right, up: cross(back, right), back};
 }
 
-// Places in the picture of a view: [x, y, depth]. `eye` is how far the viewer is from the pivot.
+// Places in the picture of a view: [x, y, depth]. `eye` is how far the viewer is from the pivot, `focal` the focal
+// length in parts of the picture's shorter side.
 function projection(view, width, height) {
-  const {right, up, back} = viewAxes(view), focal = 1.6 * Math.min(width, height);
+  const {right, up, back} = viewAxes(view), focal = view.focal * Math.min(width, height);
   return point => {
     const p = [point[0] - view.pivot[0], point[1] - view.pivot[1], point[2] - view.pivot[2]];
     const depth = view.eye - dot(back, p);
@@ -53,7 +54,7 @@ function projection(view, width, height) {
 function drawPoints({image, ids, depths, points, view}, colours, spacing, origin) {
   const {width, height} = image, out = new Uint32Array(image.data.buffer);
   const {right: r, up: u, back: b} = viewAxes(view), [px, py, pz] = view.pivot, [ox, oy, oz] = origin;
-  const focal = 1.6 * Math.min(width, height), near = 1e-3 * view.eye;
+  const focal = view.focal * Math.min(width, height), near = 1e-3 * view.eye;
   out.fill(0);
   ids.fill(-1);
   depths.fill(Infinity);
@@ -79,6 +80,15 @@ function drawPoints({image, ids, depths, points, view}, colours, spacing, origin
           ids[pixel] = i;
         }
   }
+}
+
+// The focal length, in parts of the shorter side, with which all that the sensor sees fits the picture.
+function focalOf(frame, width, height) {
+  const rays = raysFor(frame), steepest = [1e-6, 1e-6];
+  for (const at of [0, 3 * (frame.columns - 1), rays.length - 3 * frame.columns, rays.length - 3])
+    for (const k of [0, 1])
+      steepest[k] = Math.max(steepest[k], Math.min(4, Math.abs(rays[at + k]) / Math.max(1e-3, rays[at + 2])));
+  return 0.49 * Math.min(width / steepest[0], height / steepest[1]) / Math.min(width, height);
 }
 
 // The corners of what the sensor sees, at a distance of so many metres, in the world.

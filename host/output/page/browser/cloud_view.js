@@ -36,11 +36,13 @@ function setView(name) {
   if (name === 'sensor') {
     const towards = sum(origin, scaled(middle, -1)), forward = forwardOf(shown.frame);
     const away = Math.max(1e-3 * size, -dot(towards, forward));
-    cloud.view = {pivot: sum(origin, scaled(forward, away)), eye: away, ...anglesOf(scaled(forward, -1))};
+    const focal = focalOf(shown.frame, cloudCanvas.clientWidth, cloudHeight);
+    const pivot = sum(origin, scaled(forward, away));
+    cloud.view = {pivot, eye: away, focal, ...anglesOf(scaled(forward, -1))};
   } else {
     const back = anglesOf(unit(scaled(forwardOf(shown.frame), -1)));
     const beside = {yaw: back.yaw + 0.6, pitch: Math.max(-1.5, Math.min(1.5, back.pitch + 0.35))};
-    cloud.view = {pivot: [...middle], eye, ...(name === 'above' ? {yaw: back.yaw, pitch: 1.5} : beside)};
+    cloud.view = {pivot: [...middle], eye, focal: 1.6, ...(name === 'above' ? {yaw: back.yaw, pitch: 1.5} : beside)};
   }
   redraw('cloud');
 }
@@ -143,7 +145,8 @@ function turn(right, down) {
 
 // By pixels of the picture at the pivot.
 function move(right, down) {
-  const axes = viewAxes(cloud.view), metres = cloud.view.eye / (1.6 * Math.min(cloudCanvas.clientWidth, cloudHeight));
+  const axes = viewAxes(cloud.view), pixels = Math.min(cloudCanvas.clientWidth, cloudHeight);
+  const metres = cloud.view.eye / (cloud.view.focal * pixels);
   cloud.view.pivot = sum(cloud.view.pivot, sum(scaled(axes.right, -right * metres), scaled(axes.up, down * metres)));
   redraw('cloud');
 }

@@ -31,7 +31,7 @@ function channelRow(body, channel) {
   head.append(button);
   row.addEventListener('click', () => choose(channel));
   probeCells.set(channel.name, {row, value: cell(row, 'td', '', 'number'), channel});
-  cell(row, 'td', channel.unit, 'unit');
+  cell(row, 'td', channel.scale === 'bits' ? '' : channel.unit, 'unit');
 }
 
 function makeProbe() {
