@@ -83,7 +83,7 @@ class PageTest(unittest.TestCase):
         self.browser.mouse("mouseMoved", x, y)
 
     def check_probe(self, channels: Dict[str, NDArray[Any]], column: int, row: int) -> None:
-        self.assertEqual(self.browser.text_of("probe-place").split(" (")[0], f"column {column}, row {row}")
+        self.assertEqual(self.browser.text_of("probe-place").split(":")[0], f"column {column}, row {row}")
         table = self.browser.probe()
         self.assertEqual(set(table), set(channels))
         for name, values in channels.items():

@@ -13,11 +13,11 @@ constexpr std::size_t least_side = 16;    // pixels
 double bytes_of(const std::vector<SensorSize> &sensors, const PagePlan &plan) {
   double bytes = 0.0;
   for (const SensorSize &sensor : sensors) {
-    const double frames = static_cast<double>((sensor.frames - 1) / plan.frame_step + 1);
+    const std::size_t frames = (sensor.frames - 1) / plan.frame_step + 1;
     double of_frame = 0.0;
     for (std::size_t rank = 0; rank < sensor.bytes.size(); ++rank)
       of_frame += plan.has(static_cast<ChannelRank>(rank)) ? sensor.bytes[rank] : 0.0;
-    bytes += frames * of_frame / (plan.pixel_step * plan.pixel_step);
+    bytes += static_cast<double>(frames) * of_frame / (plan.pixel_step * plan.pixel_step);
   }
   return bytes;
 }
@@ -56,20 +56,19 @@ PagePlan plan_for(const std::vector<SensorSize> &sensors, double max_bytes) {
     if (fits(plan))
       return plan;
   }
-  const std::size_t frames = most(sensors, &SensorSize::frames);
+  const std::size_t frames = most(sensors, &SensorSize::frames), fewest = std::min(frames, enough_frames);
+  const auto most_step = static_cast<std::uint32_t>(fewest > 1 ? (frames - 1) / (fewest - 1) : 1);
   const std::size_t side = std::max(most(sensors, &SensorSize::columns), most(sensors, &SensorSize::rows));
-  for (;; plan.pixel_step *= 2) {
-    const std::size_t fewest = std::min(frames, enough_frames);
-    for (plan.frame_step = 1; (frames - 1) / plan.frame_step + 1 >= fewest; ++plan.frame_step)
-      if (fits(plan) || fewest == 1)
-        break;
-    if (fits(plan))
-      return plan;
-    if (side / (2 * std::size_t{plan.pixel_step}) < least_side) {
-      plan.frame_step = static_cast<std::uint32_t>(std::max<std::size_t>(1, (frames - 1) / fewest));
-      return plan;
-    }
+  while (true) {
+    for (plan.frame_step = 1; plan.frame_step <= most_step; ++plan.frame_step)
+      if (fits(plan))
+        return plan;
+    if (side / (2 * std::size_t{plan.pixel_step}) < least_side)
+      break;
+    plan.pixel_step *= 2;
   }
+  plan.frame_step = most_step;
+  return plan;
 }
 
 std::vector<std::string> left_out_text(const PagePlan &plan, std::size_t frames,

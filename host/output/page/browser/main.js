@@ -6,6 +6,12 @@ function firstQuantity() {
   return first.find(name => quantities.includes(name)) ?? quantities[0];
 }
 
+// Paper is light, and what is drawn on it must be there at once.
+function setPaper(isPaper) {
+  document.documentElement.toggleAttribute('data-paper', isPaper);
+  drawNow(new Set(['values', 'others']));
+}
+
 function begin() {
   writeRun();
   fillSensors();
@@ -13,11 +19,8 @@ function begin() {
   chooseSensor(0).then(() => { document.documentElement.dataset.ready = 'yes'; });
   new ResizeObserver(() => redraw('values')).observe(document.querySelector('main'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => redraw('values'));
-  // Paper is light, and has all that is folded.
-  addEventListener('beforeprint', () => {
-    for (const details of document.querySelectorAll('details')) details.open = true;
-    redraw('values');
-  });
+  addEventListener('beforeprint', () => setPaper(true));
+  addEventListener('afterprint', () => setPaper(false));
 }
 
 // For scripts and tests: what is shown, and the values behind it.

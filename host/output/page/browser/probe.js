@@ -56,7 +56,9 @@ function fillProbe() {
     value.className = values && isNone(channel, values[at]) ? 'none' : 'number';
     row.classList.toggle('shown', channel === shown.channel);
   }
-  const place = `column ${shown.column * step}, row ${shown.row * step}`;
-  document.getElementById('probe-place').textContent = `${place}${shown.held ? ' (held)' : ''}`;
+  const {channel} = shown, value = shown.values[at], words = valueText(channel, value);
+  const said = isNone(channel, value) || isNumbered(channel) ? words : withUnit(words, channel.unit);
+  const place = `column ${shown.column * step}, row ${shown.row * step}: ${said}${shown.held ? ' (held)' : ''}`;
+  document.getElementById('probe-place').textContent = place;
 }
 views.push(fillProbe);

@@ -18,12 +18,16 @@ const shown = {
 const views = [];
 let waiting = new Set();
 
+function drawNow(changed) {
+  if (shown.values) for (const view of views) view(changed);
+}
+
 function redraw(what) {
   if (waiting.size === 0)
     requestAnimationFrame(() => {
       const changed = waiting;
       waiting = new Set();
-      if (shown.values) for (const view of views) view(changed);
+      drawNow(changed);
     });
   waiting.add(what);
 }

@@ -27,6 +27,7 @@ TEST_CASE("single images go first, then secondary channels, then frames down to 
   CHECK(plan_for(one_sensor(2, 3.0, 1.0, 1.1), 10.0 * mib) == PagePlan{1, 1, secondary});
   CHECK(plan_for(one_sensor(2, 3.0, 2.1, 1.0), 10.0 * mib) == PagePlan{1, 1, main_ones});
   CHECK(plan_for(one_sensor(40, 0.4), 10.0 * mib) == PagePlan{2, 1, main_ones});  // 20 frames, 8 MiB
+  CHECK(plan_for(one_sensor(40, 0.65), 10.0 * mib) == PagePlan{1, 2, main_ones}); // 14 frames would fit
   CHECK(plan_for(one_sensor(40, 1.0), 10.0 * mib) == PagePlan{1, 2, main_ones});  // 40 quarters
   CHECK(plan_for(one_sensor(40, 1.2), 10.0 * mib) == PagePlan{2, 2, main_ones});  // 20 quarters, 6 MiB
   CHECK(plan_for(one_sensor(1, 30.0), 10.0 * mib) == PagePlan{1, 2, main_ones});  // 7.5 MiB
