@@ -295,6 +295,27 @@ class PageTest(unittest.TestCase):
         self.browser.choose("channel", "object_id")
         self.assertIn("left wall", self.browser.text_of("objects"))
 
+    def test_a_manifest_that_lacks_things(self) -> None:
+        """Anyone may have edited it: the pictures are there all the same."""
+        out = self.out("corner")
+        entry = {"sensor": "pmd", "frame": 0, "outputs": ["pmd_0000.exr"]}
+        odd = {"camera": {"camera_matrix": 3}, "modulation_hz": 5, "warnings": 3, "ambiguity_m": {}, "bounces": 2}
+        for name, manifest in (
+            ("bare", {"frames": [entry]}),
+            ("odd", {"frames": [{**entry, **odd}], "warnings": "x", "objects": {"1": 7}, "inputs": 5, "setup": 3}),
+        ):
+            with self.subTest(manifest=name):
+                folder = Path(self.folder.name) / name
+                folder.mkdir()
+                (folder / "manifest.json").write_text(json.dumps(manifest))
+                os.link(out / "pmd_0000.exr", folder / "pmd_0000.exr")
+                subprocess.run([PROGRAM, "report", str(folder)], check=True, capture_output=True)
+                self.opened(folder)
+                self.check_bits(channels_of(out, "pmd_0000"))
+                self.point_at(12, 34)
+                self.check_probe(channels_of(out, "pmd_0000"), 12, 34)
+                self.assertEqual(self.browser.console(), [])
+
     def test_several_sensors_and_frequencies(self) -> None:
         setup = json.loads(re.sub(r"^\s*//.*$", "", (SCENES / "corner.json").read_text(), flags=re.M))
         setup["scene"] = str(SCENES / "corner.gltf")

@@ -14,7 +14,7 @@ const forwardOf = frame => [0, 1, 2].map(k => frame.entry.camera.world_from_came
 // Distances along the pixels' rays: those that were measured, and the true one.
 const isDistance = channel => !isInteger(channel) && /(^|_)distance_m($|_)|^range_m$/.test(channel.quantity);
 const distancesOf = frame => frame.channels.filter(channel =>
-  frame.entry.camera && isDistance(channel) && (channel.frequency === null || channel.frequency === shown.frequency));
+  hasCamera(frame) && isDistance(channel) && (channel.frequency === null || channel.frequency === shown.frequency));
 
 function fillCloudChooser() {
   const list = distancesOf(shown.frame), before = cloudChooser.value;

@@ -1,5 +1,15 @@
 // Where pixels look: the camera of the manifest, which is OpenCV's, turned round. docs/outputs.md has the formulas.
 
+// Whether the frame has one: anyone may have edited its manifest.
+function hasCamera(frame) {
+  const {camera} = frame.entry;
+  const areNumbers = (list, count) => Array.isArray(list) && list.length >= count && list.every(Number.isFinite);
+  const isMatrix = (rows, columns) =>
+    Array.isArray(rows) && rows.length >= 3 && rows.every(row => areNumbers(row, columns));
+  return camera && isMatrix(camera.camera_matrix, 3) && isMatrix(camera.world_from_camera, 4) &&
+    areNumbers(camera.distortion, 4);
+}
+
 function inverse3(m) {
   const minor = (a, b, c, d) => m[a][b] * m[c][d] - m[a][d] * m[c][b];
   const columns = [[minor(1, 1, 2, 2), -minor(0, 1, 2, 2), minor(0, 1, 1, 2)],
