@@ -10,7 +10,7 @@ program=$build/bin/pmdsim
 packages=(
   g++ cmake ninja-build pkg-config
   libvulkan-dev libvulkan1 mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
-  libglm-dev libeigen3-dev libfftw3-dev libembree-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev libfccp-dev libyaml-cpp-dev libxxhash-dev
+  libglm-dev libeigen3-dev libfftw3-dev libembree-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev libfccp-dev libyaml-cpp-dev libpugixml-dev libxxhash-dev
   libcli11-dev libfmt-dev
   libmeshoptimizer-dev libpng-dev libturbojpeg0-dev
   libopenexr-dev libisal-dev libdeflate-dev libarchive-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libtbb-dev

@@ -80,13 +80,18 @@ void add_paths(CLI::App &command, Written &written) {
 
 void add_importing(CLI::App &command, Written &written) {
   command
-      .add_option("FILE", written.options.calibration,
-                  "calibration: OpenCV's FileStorage (YAML or JSON) or ROS's camera_info (YAML)")
+      .add_option(
+          "FILE", written.options.calibration,
+          "calibration: OpenCV's FileStorage (YAML, JSON, XML), ROS's camera_info, Kalibr's camchain, "
+          "or intrinsics as JSON")
       ->required();
   command.add_option("--pixel-pitch-m", written.options.pixel_pitch_m,
                      fmt::format("distance from pixel to pixel along the columns, metres, 1e-9 to 1000 [{}]",
                                  default_pixel_pitch_m));
   command.add_option("--name", written.options.sensor_name, "the sensor's name, instead of the file's");
+  command.add_option(
+      "--camera", written.options.calibrated_camera,
+      "which of several cameras: cam0, cam1 ... of Kalibr's, 1 or 2 of OpenCV's pairs [the first]");
 }
 
 void add_suite(CLI::App &bench, Written &written) {

@@ -38,6 +38,7 @@ struct Options {
   std::filesystem::path calibration;         // import-calibration, and the two below
   std::optional<double> pixel_pitch_m;       // along the columns, instead of the default
   std::string sensor_name;                   // instead of the file's; empty where it is not given
+  std::string calibrated_camera;             // which of the file's cameras; empty: the first
   bool json = false;
 };
 

@@ -195,6 +195,10 @@ double Lens::radial_inverse(double distorted_radius) const {
   return r;
 }
 
+double Lens::fold_distorted() const {
+  return largest_radius_ * stretch(radial_coefficients(distortion_), largest_radius_ * largest_radius_);
+}
+
 bool Lens::folds() const {
   const auto *brown = std::get_if<BrownConrady>(&distortion_);
   return largest_radius_ < model_limit(distortion_) || (brown && (brown->p1 != 0.0 || brown->p2 != 0.0));
@@ -212,15 +216,16 @@ std::optional<glm::dvec3> Lens::undistorted(const glm::dvec2 &slope) const {
   const double inverse = radial_inverse(radius);
   const glm::dvec2 outward = radius > 0.0 ? slope / radius : glm::dvec2(0.0);
   if (const auto *brown = std::get_if<BrownConrady>(&distortion_)) {
-    const auto found = brown_conrady_inverse(*brown, slope, inverse * outward);
+    auto found = brown_conrady_inverse(*brown, slope, inverse * outward);
+    if (!found && radius > 0.0) // by tangential terms the fold is no circle, and the start lay beyond it
+      found = brown_conrady_inverse(*brown, slope, 0.8 * inverse * outward);
     return found && glm::length(*found) <= largest_radius_
                ? std::optional(glm::normalize(glm::dvec3(*found, 1.0)))
                : std::nullopt;
   }
   // The image ends at the fold.
-  const bool inside =
-      radius < largest_radius_ * stretch(radial_coefficients(distortion_), largest_radius_ * largest_radius_);
-  return inside ? std::optional(glm::dvec3(std::sin(inverse) * outward, std::cos(inverse))) : std::nullopt;
+  return radius < fold_distorted() ? std::optional(glm::dvec3(std::sin(inverse) * outward, std::cos(inverse)))
+                                   : std::nullopt;
 }
 
 namespace {
@@ -266,9 +271,11 @@ bool has_too_wide_pixel(const Lens &lens, const glm::uvec2 &resolution) {
       std::array<glm::dvec3, 9> rays;
       glm::dvec3 mean(0.0);
       for (std::size_t k = 0; k < rays.size(); ++k)
-        mean += rays[k] = *lens.ray(lens.on_chip_m(pixel + 0.5 * glm::dvec2(k % 3, k / 3)));
+        mean += rays[k] =
+            lens.ray(lens.on_chip_m(pixel + 0.5 * glm::dvec2(k % 3, k / 3))).value_or(glm::dvec3(0.0));
       mean = glm::normalize(mean);
-      if (!std::ranges::all_of(rays, [&](const glm::dvec3 &ray) { return glm::dot(ray, mean) > 0.5; }))
+      if (std::ranges::count(rays, glm::dvec3(0.0)) == 0 &&
+          !std::ranges::all_of(rays, [&](const glm::dvec3 &ray) { return glm::dot(ray, mean) > 0.5; }))
         return true;
     }
   return false;
@@ -284,7 +291,7 @@ std::optional<LensFault> lens_fault(const Sensor &sensor) {
       return LensFault::chip_behind_lens;
   if (!sensor.has_distortion())
     return std::nullopt;
-  if (const auto fault = distortion_fault(lens, last))
+  if (const auto fault = sensor.dark_beyond_fold ? std::nullopt : distortion_fault(lens, last))
     return fault;
   return has_too_wide_pixel(lens, last) ? std::optional(LensFault::pixel_too_wide) : std::nullopt;
 }

@@ -39,6 +39,9 @@ public:
   // angles. The r whose distorted radius this is, on the branch that begins at 0; where that folds over
   // before, the fold.
   double radial_inverse(double distorted_radius) const;
+  // Where the distortion along a radius folds over or its model ends: the radius, and its distorted radius.
+  double fold_radius() const { return largest_radius_; }
+  double fold_distorted() const;
   struct Coefficients {
     std::array<double, 4> radial;     // k1, k2, k3, k4
     std::array<double, 2> tangential; // p1, p2
@@ -56,7 +59,8 @@ private:
                           // folds over
 };
 
-// The reason why a sensor's image is impossible; nothing where every place of it has a ray.
+// The reason why a sensor's image is impossible; nothing where every place of it has a ray, or may be without
+// one (Sensor::dark_beyond_fold).
 enum class LensFault {
   chip_behind_lens,
   distortion_folds,

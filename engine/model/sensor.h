@@ -73,6 +73,9 @@ struct Sensor {
   double focal_length_m = 0.144;          // of the thin lens
   double focus_distance_m = std::numeric_limits<double>::infinity(); // S1, lens to object, > focal_length_m
   Distortion distortion;
+  // Samples beyond where the distortion folds over, or where its model ends, see nothing, as behind a lens
+  // whose image circle ends there. Without it a sensor with such samples is refused (engine/lens/lens.h).
+  bool dark_beyond_fold = false;
   Chip chip;
   Vignetting vignetting = Vignetting::none;
   Pose world_from_camera = node_from_camera(); // camera frame: x right, y down, z forward, origin at the lens

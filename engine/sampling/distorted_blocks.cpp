@@ -34,19 +34,26 @@ struct ViewPlane {
   }
 };
 
-// The rays through the corners of pixels along a block's border, and through a net within it.
+// The rays through the corners of pixels along a block's border, and through a net within it; those that
+// there are, as the distortion may fold over in a block, and along the optical axis where there is none.
 class BlockRays {
 public:
   BlockRays(const Lens &lens, const glm::uvec2 &first, const glm::uvec2 &pixels)
       : lens_(lens), first_(first), pixels_(pixels) {
-    for (std::uint32_t column = 0; column <= pixels.x; ++column)
-      rays_.insert(rays_.end(), {ray({column, 0}), ray({column, pixels.y})});
-    for (std::uint32_t row = 0; row <= pixels.y; ++row)
-      rays_.insert(rays_.end(), {ray({0, row}), ray({pixels.x, row})});
+    for (std::uint32_t column = 0; column <= pixels.x; ++column) {
+      add({column, 0});
+      add({column, pixels.y});
+    }
+    for (std::uint32_t row = 0; row <= pixels.y; ++row) {
+      add({0, row});
+      add({pixels.x, row});
+    }
     // The border of a very wide view may lie within 60 degrees of the point behind.
     for (std::uint32_t i = 1; i < net; ++i)
       for (std::uint32_t j = 1; j < net; ++j)
-        rays_.push_back(ray(glm::dvec2(pixels * glm::uvec2(i, j)) / static_cast<double>(net)));
+        add(glm::dvec2(pixels * glm::uvec2(i, j)) / static_cast<double>(net));
+    if (rays_.empty())
+      rays_.emplace_back(0.0, 0.0, 1.0);
   }
 
   const std::vector<glm::dvec3> &all() const { return rays_; }
@@ -70,17 +77,24 @@ public:
   }
 
 private:
-  glm::dvec3 ray(const glm::dvec2 &pixel) const {
-    const auto found = lens_.ray(lens_.on_chip_m(glm::dvec2(first_) + pixel));
-    if (!found)
-      throw std::logic_error("a sensor whose distortion folds over inside the image");
-    return *found;
+  std::optional<glm::dvec3> ray(const glm::dvec2 &pixel) const {
+    return lens_.ray(lens_.on_chip_m(glm::dvec2(first_) + pixel));
   }
 
+  void add(const glm::dvec2 &pixel) {
+    if (const auto found = ray(pixel))
+      rays_.push_back(*found);
+  }
+
+  // Infinite where a corner has no ray.
   double pixel_width(const ViewPlane &plane, const glm::dvec2 &pixel) const {
-    const glm::dvec2 at = plane.slope(ray(pixel));
-    const glm::dvec2 a = plane.slope(ray(pixel + glm::dvec2(1, 0))) - at;
-    const glm::dvec2 b = plane.slope(ray(pixel + glm::dvec2(0, 1))) - at;
+    const auto corner = ray(pixel), right = ray(pixel + glm::dvec2(1, 0)),
+               below = ray(pixel + glm::dvec2(0, 1));
+    if (!corner || !right || !below)
+      return std::numeric_limits<double>::infinity();
+    const glm::dvec2 at = plane.slope(*corner);
+    const glm::dvec2 a = plane.slope(*right) - at;
+    const glm::dvec2 b = plane.slope(*below) - at;
     const double squares = glm::dot(a, a) + glm::dot(b, b), area = a.x * b.y - a.y * b.x;
     const double largest2 = 0.5 * (squares + std::sqrt(std::max(0.0, squares * squares - 4.0 * area * area)));
     return std::abs(area) / std::sqrt(largest2);

@@ -54,7 +54,8 @@ LensRecord lens_record(const Sensor &sensor) {
   const auto [k, p] = lens.coefficients();
   const DoublePair4 radial(glm::dvec4(k[0], k[1], k[2], k[3]));
   return {{chip_place(sensor), radial.hi, radial.lo, glm::vec4(float_pair(p[0]), float_pair(p[1])),
-           static_cast<float>(nodes_per_radius), 0, 0, 0},
+           static_cast<float>(nodes_per_radius), static_cast<float>(lens.fold_radius()),
+           static_cast<float>(lens.fold_distorted()), 0},
           guesses_of(lens, nodes_per_radius)};
 }
 
@@ -123,6 +124,7 @@ Pass lens_search_pass(const vulkan::Device &device, SamplePrecision precision, c
       {{shader::constant_surface_vectors, surface_vectors},
        {shader::constant_vignetting, sensor.vignetting == Vignetting::cos4},
        {shader::constant_distortion, fisheye ? shader::distortion_fisheye : shader::distortion_brown},
+       {shader::constant_dark_beyond_fold, sensor.dark_beyond_fold},
        {shader::constant_cutouts, scene_buffers.paint.cutouts},
        {shader::constant_painted, scene_buffers.paint.painted}}));
   return {.name = "points",

@@ -57,6 +57,7 @@ PMDSIM_CONSTANT constant_lists_hidden = 43; // 1: of triangles that the lens doe
 PMDSIM_CONSTANT constant_exact_only = 44; // 1: nothing is decided in float
 PMDSIM_CONSTANT constant_point_dimensions = 45; // by powers: 2 or 3: their sums are polynomials of the point in so many coordinates; 0: loops over the diodes
 PMDSIM_CONSTANT constant_keeps_bounds = 46; // 1: what each pixel may be off by is a channel, too
+PMDSIM_CONSTANT constant_dark_beyond_fold = 48; // 1: places without a ray see nothing; 0: there are none
 PMDSIM_CONSTANT constant_passes_on = 47; // 1: pixels that may be off by more than was asked for are listed for a later class
 PMDSIM_CONSTANT constant_reports_kept = 48; // 1: the largest bound of the pixels that keep theirs is wanted
 PMDSIM_CONSTANT constant_block_list = 49; // one of no_blocks and blocks_*: of depth records only those of a list

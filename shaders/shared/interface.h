@@ -120,7 +120,8 @@ struct LensModel {
   vec4 radial_lo;
   vec4 tangential; // p1, p2: hi, lo, hi, lo
   float guesses_per_radius;
-  float padding_1, padding_2, padding_3;
+  float fold_radius, fold_distorted; // where the model folds over or ends: undistorted radius or angle, and distorted
+  float padding;
 };
 PMDSIM_CONSTANT lens_guesses = 1024;
 

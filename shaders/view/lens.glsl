@@ -8,7 +8,10 @@
 #include "shaders/shared/constants.h"
 
 layout(constant_id = constant_distortion) const uint distortion = distortion_brown;
-const uint newton_steps = 6;
+layout(constant_id = constant_dark_beyond_fold) const uint dark_beyond_fold = 0;
+// Next to a fold the root is nearly double, and each step only halves the way to it.
+const uint newton_steps = dark_beyond_fold != 0 ? 28 : 6;
+const float root_residual = 1e-10; // of the slopes that Newton's steps have arrived at
 
 struct Coefficients {
   Real radial[4];
@@ -39,8 +42,10 @@ float stretch_slope(Coefficients c, float u) {
 
 Real doubled(Real a) { return add(a, a); }
 
-// Slopes (x, y) whose distorted slopes are (xd, yd).
-void invert_brown(Coefficients c, Real xd, Real yd, inout Real x, inout Real y) {
+// Slopes (x, y) whose distorted slopes are (xd, yd). `is_there` becomes whether they lie on the branch that begins at the
+// optical axis; where not, they are no slopes.
+void invert_brown(Coefficients c, Real xd, Real yd, float fold_radius, inout Real x, inout Real y, out bool is_there) {
+  float residual = 0.0, least = 0.0;
   [[unroll]] for (uint step = 0; step < newton_steps; ++step) {
     Real xx = multiply(x, x), yy = multiply(y, y), xy = doubled(multiply(x, y));
     Real r2 = add(xx, yy);
@@ -53,9 +58,13 @@ void invert_brown(Coefficients c, Real xd, Real yd, inout Real x, inout Real y) 
     float b = 2.0 * (u * v * g + p1 * u + p2 * v);
     float d = high(radial) + 2.0 * v * v * g + 6.0 * p1 * v + 2.0 * p2 * u;
     float determinant = a * d - b * b;
+    residual = abs(dx) + abs(dy);
+    least = determinant;
     x = add(x, real((d * dx - b * dy) / determinant));
     y = add(y, real((a * dy - b * dx) / determinant));
   }
+  float radius = sqrt(high(x) * high(x) + high(y) * high(y));
+  is_there = least > 0.0 && residual <= root_residual && radius <= fold_radius;
 }
 
 // The angle whose distorted radius is `radius`.
@@ -88,19 +97,23 @@ void sine_cosine(Real angle, out Real s, out Real c) {
   }
 }
 
-// The ray, unit length, of a place on the chip (camera frame).
-Real3 undistorted_ray(Lenses lens, Real3 place) {
+// The ray, unit length, of a place on the chip (camera frame). `is_there` becomes whether the place has one.
+Real3 undistorted_ray(Lenses lens, Real3 place, out bool is_there) {
   Coefficients c = coefficients_of(lens.at);
   Real xd = divide(place.x, place.z), yd = divide(place.y, place.z);
   Real radius = square_root(add(multiply(xd, xd), multiply(yd, yd)));
   uint node = min(uint(high(radius) * lens.at.guesses_per_radius), lens_guesses - 1);
   Real guess = real(lens.guess[node]);
   if (distortion == distortion_brown) {
+    // By tangential terms the fold is no circle: from the table's, steps could set out across it.
+    if (dark_beyond_fold != 0)
+      guess = multiply(guess, real(0.8));
     Real x = multiply(xd, guess), y = multiply(yd, guess);
-    invert_brown(c, xd, yd, x, y);
+    invert_brown(c, xd, yd, lens.at.fold_radius, x, y, is_there);
     Real factor = divide(real(1.0), square_root(add(real(1.0), add(multiply(x, x), multiply(y, y)))));
     return Real3(multiply(x, factor), multiply(y, factor), factor);
   }
+  is_there = high(radius) < lens.at.fold_distorted;
   Real theta = invert_fisheye(c, radius, multiply(radius, guess)), sine, cosine;
   sine_cosine(theta, sine, cosine);
   Real across = high(radius) > 0.0 ? divide(sine, radius) : real(1.0);

@@ -150,14 +150,17 @@ void main() {
   // Before anything branches, so that lavapipe reads lens and view once for all lanes.
   RasterView view = Views(constants.view).at;
   Lenses lens = Lenses(constants.lens);
-  Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, from_centre_of(at.subsample, strip)));
+  bool has_ray;
+  Real3 ray = undistorted_ray(lens, place_on_chip(lens.at.chip, strip, at.in_frame, from_centre_of(at.subsample, strip)), has_ray);
   if (at.pixel >= strip.columns * strip.rows) {
     store_miss(to, i);
     return;
   }
+  if (dark_beyond_fold != 0 && !has_ray)
+    ray = Real3(real(view.ray_corner.x), real(view.ray_corner.y), real(view.ray_corner.z)); // any that the search may follow
   Hit hit = nearest(ray, view);
   uint id_at = id_index(at.in_strip, at.subsample, uvec2(strip.columns, strip.rows), strip.samples, false);
-  if (hit.triangle == no_triangle) {
+  if (hit.triangle == no_triangle || (dark_beyond_fold != 0 && !has_ray)) {
     store_words(constants.ids, id_at, uvec2(0u));
     store_miss(to, i);
     return;

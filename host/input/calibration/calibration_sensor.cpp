@@ -41,11 +41,18 @@ void check_ranges(const Sensor &sensor, const CalibrationKey &key) {
     check("a principal point", sensor.chip.translation_m[axis], -max_chip_shift_m, max_chip_shift_m);
 }
 
-ordered_json distortion_block(const Distortion &distortion) {
+ordered_json coefficients_block(const Distortion &distortion) {
   if (const auto *d = std::get_if<Fisheye>(&distortion))
     return {{"model", "fisheye"}, {"k1", d->k1}, {"k2", d->k2}, {"k3", d->k3}, {"k4", d->k4}};
   const auto &d = std::get<BrownConrady>(distortion);
   return {{"model", "brown"}, {"k1", d.k1}, {"k2", d.k2}, {"p1", d.p1}, {"p2", d.p2}, {"k3", d.k3}};
+}
+
+ordered_json distortion_block(const Sensor &sensor) {
+  ordered_json block = coefficients_block(sensor.distortion);
+  if (sensor.dark_beyond_fold)
+    block["beyond"] = "dark";
+  return block;
 }
 
 } // namespace
@@ -67,8 +74,9 @@ Sensor sensor_of(const Calibration &calibration, double pixel_pitch_m) {
   Sensor sensor;
   sensor.name = sensor_name(calibration.name);
   sensor.resolution = calibration.resolution;
-  sensor.focal_length_m = calibration.fx * pixel_pitch_m;
-  sensor.pixel_pitch_m = {pixel_pitch_m, sensor.focal_length_m / calibration.fy};
+  sensor.pixel_pitch_m.x = pixel_pitch_m * calibration.binning.x;
+  sensor.focal_length_m = calibration.fx * sensor.pixel_pitch_m.x;
+  sensor.pixel_pitch_m.y = sensor.focal_length_m / calibration.fy;
   sensor.distortion = calibration.distortion;
   const glm::dvec2 shift_m =
       (0.5 * (glm::dvec2(sensor.resolution) - 1.0) - glm::dvec2(calibration.cx, calibration.cy)) *
@@ -80,10 +88,24 @@ Sensor sensor_of(const Calibration &calibration, double pixel_pitch_m) {
   sensor.chip.rotation_rad = {calibration.tau_x_rad, calibration.tau_y_rad, 0.0};
   sensor.chip.translation_m = shift_m.x * along_columns + shift_m.y * along_rows;
   check_ranges(sensor, calibration.camera_matrix_at);
+  if (const auto problem = lens_problem(sensor); problem && problem->key == "distortion")
+    sensor.dark_beyond_fold = true; // as calibrations of wide lenses do in their corners
   if (const auto problem = lens_problem(sensor))
     throw input_error(problem->key == "resolution" ? calibration.camera_matrix_at : calibration.distortion_at,
                       problem->expectation);
   return sensor;
+}
+
+ordered_json pose_block(const Pose &first_from_camera) {
+  const auto rows_of = [](const Pose &pose) {
+    ordered_json rows = ordered_json::array();
+    for (glm::length_t row = 0; row < 3; ++row)
+      rows.push_back(
+          {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation_m[row]});
+    rows.push_back({0, 0, 0, 1});
+    return rows;
+  };
+  return {{"chain", {{{"matrix", rows_of(node_from_camera())}}, {{"matrix", rows_of(first_from_camera)}}}}};
 }
 
 ordered_json sensor_block(const Sensor &sensor) {
@@ -92,7 +114,7 @@ ordered_json sensor_block(const Sensor &sensor) {
                      {"pixel_pitch_m", {sensor.pixel_pitch_m.x, sensor.pixel_pitch_m.y}},
                      {"focal_length_m", sensor.focal_length_m}};
   if (!std::holds_alternative<std::monostate>(sensor.distortion))
-    block["distortion"] = distortion_block(sensor.distortion);
+    block["distortion"] = distortion_block(sensor);
   if (!sensor.chip.is_nominal()) {
     const glm::dvec3 rotation_deg = glm::degrees(sensor.chip.rotation_rad);
     const glm::dvec3 &shift_m = sensor.chip.translation_m;

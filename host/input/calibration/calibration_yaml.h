@@ -33,6 +33,8 @@ public:
   // As above; throws where there is none.
   CalibrationEntry at(const std::vector<std::string> &names) const;
 
+  const std::filesystem::path &file() const { return file_; }
+
 private:
   YAML::Node map_;
   std::filesystem::path file_;

@@ -36,6 +36,8 @@ Error input_error(const Place &place, std::string_view message) {
 }
 
 Error input_error(const TextPlace &place, std::string_view message) {
+  if (place.line == 0)
+    return input_error(Place{place.file}, message);
   const std::string column = place.column == 0 ? "" : fmt::format(":{}", place.column);
   const std::string position = fmt::format("{}{}", place.line, column);
   return {ExitCode::input,

@@ -26,7 +26,8 @@ Place operator/(const Place &place, std::size_t index);
 
 // "FILE: POINTER: MESSAGE", "FILE: MESSAGE" for the empty pointer.
 Error input_error(const Place &place, std::string_view message);
-// A place in a text file; lines and columns (bytes) count from 1, column 0 stands for the whole line.
+// A place in a text file; lines and columns (bytes) count from 1, column 0 stands for the whole line, and
+// line 0 for the whole file.
 struct TextPlace {
   std::filesystem::path file;
   std::size_t line = 1;

@@ -2,6 +2,7 @@
 
 #include "host/input/gltf/loader.h"
 #include "host/input/schema/schema_check.h"
+#include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
 
 #include <algorithm>
@@ -138,7 +139,11 @@ struct SceneSource {
 };
 
 bool has_trajectory(const ordered_json &setup) {
-  const auto follows = [](const ordered_json &placed) { return placed.at("pose").contains("trajectory"); };
+  const auto follows = [](const ordered_json &placed) {
+    bool any = false;
+    for_each_trajectory(placed.at("pose"), {}, [&](const std::string &, const Place &) { any = true; });
+    return any;
+  };
   return std::ranges::any_of(setup.at("sensors"), follows) ||
          std::ranges::any_of(setup.at("illuminators"), follows) ||
          std::ranges::any_of(setup.at("nodes"), follows);

@@ -1,6 +1,8 @@
 #include "host/input/file/json_file.h"
 #include "host/input/schema/limits.h"
+#include "host/input/setup/free_pose.h"
 #include "host/input/setup/parts.h"
+#include "host/input/setup/rotations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +15,6 @@ namespace pmdsim {
 using nlohmann::ordered_json;
 
 namespace {
-
-constexpr double smallest_sine = 1e-9; // directions closer than this, in radians, count as parallel
-
-// Unit vector along `v`; nothing where `v` has no direction. Free of overflow and underflow.
-std::optional<glm::dvec3> direction_of(const glm::dvec3 &v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0.0) || !std::isfinite(largest))
-    return std::nullopt;
-  return glm::normalize(v / largest);
-}
 
 Pose looking_at(const ordered_json &pose, const Place &place) {
   const auto position_m = pose.at("position_m").get<glm::dvec3>();
@@ -37,21 +29,6 @@ Pose looking_at(const ordered_json &pose, const Place &place) {
     throw input_error(place / "up", "expected a direction across the view, found one along it");
   const glm::dvec3 x = glm::normalize(right);
   return {glm::dmat3(x, glm::cross(*forward, x), *forward), position_m};
-}
-
-// The rotation nearest in spirit: z, the view axis, is kept, y is turned only as far as shear requires.
-std::optional<glm::dmat3> rotation_of(const glm::dmat3 &linear) {
-  const auto z = direction_of(linear[2]);
-  const auto y_sheared = direction_of(linear[1]);
-  const auto x_sheared = direction_of(linear[0]);
-  if (!x_sheared || !y_sheared || !z)
-    return std::nullopt;
-  const glm::dvec3 y = *y_sheared - glm::dot(*y_sheared, *z) * *z;
-  if (glm::length(y) < smallest_sine ||
-      glm::determinant(glm::dmat3(*x_sheared, *y_sheared, *z)) < smallest_sine)
-    return std::nullopt;
-  const glm::dvec3 y_unit = glm::normalize(y);
-  return glm::dmat3(glm::cross(y_unit, *z), y_unit, *z);
 }
 
 Pose at_node(const std::string &name, const Place &place, const GltfScene &scene) {
@@ -78,60 +55,28 @@ Pose at_sensor(const std::string &name, const Place &place, const std::vector<Se
   return sensor->world_from_camera;
 }
 
-// Rows of a 4 x 4 matrix, whose rotation may be rounded to six digits.
-Pose by_matrix(const ordered_json &rows, const Place &place) {
-  constexpr double rounding = 1e-5;
-  glm::dmat4 matrix;
-  for (glm::length_t row = 0; row < 4; ++row)
-    for (glm::length_t column = 0; column < 4; ++column)
-      matrix[column][row] =
-          rows.at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column)).get<double>();
-  const auto affine = affine_transform(matrix);
-  if (!affine)
-    throw input_error(place / 3, "expected the last row to be 0, 0, 0, 1");
-  const auto rotation = rotation_of(affine->linear);
-  bool is_rigid = rotation.has_value();
-  for (glm::length_t axis = 0; is_rigid && axis < 3; ++axis)
-    is_rigid = glm::length((*rotation)[axis] - affine->linear[axis]) <= rounding;
-  if (!is_rigid)
-    throw input_error(place,
-                      "expected a rotation and a translation, found a matrix that scales, shears or mirrors");
-  return {*rotation, affine->translation_m};
-}
-
-// {"matrix"} or {"trajectory"}.
-Pose free_pose(const ordered_json &pose, const Place &place, const Trajectories &trajectories,
-               double time_s) {
-  if (pose.contains("matrix"))
-    return by_matrix(pose.at("matrix"), place / "matrix");
-  return trajectories.at(pose.at("trajectory").get<std::string>())->at(time_s);
-}
-
 // Calls `visit` with the name of each trajectory and its place in the setup.
-template <class Visit>
-void for_each_trajectory(const ordered_json &setup, const Place &root, const Visit &visit) {
-  const auto look_at = [&](const ordered_json &holder, const Place &place) {
-    if (holder.contains("trajectory"))
-      visit(holder.at("trajectory").get<std::string>(), place / "trajectory");
-  };
+void for_each_trajectory_of(const ordered_json &setup, const Place &root, const TrajectoryVisit &visit) {
   for (const char *list : {"sensors", "illuminators"})
     for (std::size_t i = 0; i < setup.at(list).size(); ++i)
-      look_at(setup.at(list).at(i).at("pose"), root / list / i / "pose");
+      for_each_trajectory(setup.at(list).at(i).at("pose"), root / list / i / "pose", visit);
   for (const auto &[name, node] : setup.at("nodes").items())
-    look_at(node.at("pose"), root / "nodes" / name / "pose");
-  look_at(setup.at("frames"), root / "frames");
+    for_each_trajectory(node.at("pose"), root / "nodes" / name / "pose", visit);
+  for_each_trajectory(setup.at("frames"), root / "frames", visit);
 }
 
 } // namespace
 
 Pose world_from_frame(const ordered_json &pose, const Place &place, const Surroundings &at,
                       const std::vector<Sensor> &sensors) {
-  if (pose.contains("node"))
-    return at_node(pose.at("node"), place / "node", at.scene);
   if (pose.contains("sensor"))
     return at_sensor(pose.at("sensor"), place / "sensor", sensors);
-  return pose.contains("position_m") ? looking_at(pose, place)
-                                     : free_pose(pose, place, at.trajectories, at.time_s);
+  if (pose.contains("look_at_m"))
+    return looking_at(pose, place);
+  return free_pose(pose, place, at.trajectories, at.time_s,
+                   [&](const ordered_json &other, const Place &there) {
+                     return at_node(other.at("node"), there / "node", at.scene);
+                   });
 }
 
 std::vector<PlacedNode> placed_nodes(const ordered_json &setup, const Place &root,
@@ -146,7 +91,7 @@ std::vector<PlacedNode> placed_nodes(const ordered_json &setup, const Place &roo
 
 Trajectories read_trajectories(const ordered_json &setup, const Place &root) {
   Trajectories trajectories;
-  for_each_trajectory(setup, root, [&](const std::string &name, const Place &place) {
+  for_each_trajectory_of(setup, root, [&](const std::string &name, const Place &place) {
     if (!trajectories.contains(name))
       trajectories[name] = std::make_shared<const Trajectory>(read_trajectory(root.folder / name, place));
   });

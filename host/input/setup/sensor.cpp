@@ -105,7 +105,8 @@ double pixels_to_fold(const Lens &lens, const glm::dvec2 &axis_pixel, const glm:
 }
 
 std::string fold_expectation(const Sensor &sensor, const Lens &lens) {
-  std::string text = "expected a distortion that does not fold over inside the image";
+  std::string text =
+      "expected a distortion that does not fold over inside the image, or \"beyond\": \"dark\"";
   const std::optional<glm::dvec2> axis_m = lens.chip_m({0.0, 0.0, 1.0});
   const std::vector<glm::dvec2> places = rim(sensor);
   const auto place =
@@ -143,6 +144,7 @@ Sensor sensor_of(const ordered_json &sensor, const Place &place, const Surroundi
   sensor.at("focal_length_m").get_to(result.focal_length_m);
   result.focus_distance_m = focus_distance_m(sensor, place);
   result.distortion = distortion_of(sensor.at("distortion"));
+  result.dark_beyond_fold = sensor.at("distortion").value("beyond", "refuse") == "dark";
   result.chip.rotation_rad = glm::radians(sensor.at("chip").at("rotation_deg").get<glm::dvec3>());
   sensor.at("chip").at("translation_m").get_to(result.chip.translation_m);
   result.vignetting = sensor.at("vignetting") == "cos4" ? Vignetting::cos4 : Vignetting::none;

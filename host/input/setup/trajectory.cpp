@@ -2,6 +2,7 @@
 
 #include "host/input/file/input_file.h"
 #include "host/input/schema/limits.h"
+#include "host/input/setup/rotations.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,10 @@ constexpr std::array<std::string_view, 8> names{"time_s", "x_m", "y_m", "z_m", "
 constexpr std::array<std::string_view, 8> ros_endings{"%time",         "position.x",    "position.y",
                                                       "position.z",    "orientation.x", "orientation.y",
                                                       "orientation.z", "orientation.w"};
-constexpr double ros_seconds = 1e-9;                         // its times are nanoseconds
+constexpr std::array<std::string_view, 8> euroc_beginnings{"#timestamp", "p_RS_R_x", "p_RS_R_y", "p_RS_R_z",
+                                                           "q_RS_x",     "q_RS_y",   "q_RS_z",   "q_RS_w"};
+constexpr double nanoseconds = 1e-9; // ROS's and EuRoC's times
+constexpr std::size_t kitti_values = 12;
 constexpr double least_length = 0.99, largest_length = 1.01; // of a quaternion as files round them
 
 std::string_view trimmed(std::string_view text) {
@@ -50,26 +54,69 @@ struct Columns {
   double seconds = 1.0;
 };
 
+// EuRoC's first line is a comment.
+bool is_euroc_header(std::string_view line) { return line.starts_with(euroc_beginnings[0]); }
+
 Columns columns_of(std::string_view header, const TextPlace &place) {
   const std::vector<std::string_view> fields = fields_of(header, true);
   const bool is_ros = std::ranges::any_of(fields, [](auto name) { return name == ros_endings[0]; });
-  Columns columns{.count = fields.size(), .commas = true, .seconds = is_ros ? ros_seconds : 1.0};
+  const bool is_euroc = is_euroc_header(header);
+  const auto &expected = is_ros ? ros_endings : is_euroc ? euroc_beginnings : names;
+  Columns columns{.count = fields.size(), .commas = true, .seconds = is_ros || is_euroc ? nanoseconds : 1.0};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto is_it = [&](std::string_view name) {
-      return is_ros ? name.ends_with(ros_endings[i]) : name == names[i];
+      return is_ros     ? name.ends_with(expected[i])
+             : is_euroc ? name.starts_with(expected[i])
+                        : name == expected[i];
     };
     const auto found = std::ranges::find_if(fields, is_it);
     if (found == fields.end())
-      throw input_error(place, fmt::format("missing column {}", is_ros ? ros_endings[i] : names[i]));
+      throw input_error(place, fmt::format("missing column {}", expected[i]));
     columns.of[i] = static_cast<std::size_t>(found - fields.begin());
   }
   return columns;
+}
+
+void append(double time_s, const glm::dvec3 &position_m, const glm::dquat &rotation, const TextPlace &place,
+            Trajectory &to) {
+  if (!to.times_s.empty() && time_s <= to.times_s.back())
+    throw input_error(place,
+                      fmt::format("expected a time after {} s, found {} s", to.times_s.back(), time_s));
+  if (to.times_s.size() == max_poses)
+    throw input_error(place, fmt::format("expected at most {} poses", max_poses));
+  to.times_s.push_back(time_s);
+  to.positions_m.push_back(position_m);
+  to.rotations.push_back(glm::normalize(rotation));
+}
+
+// Three rows of a 3 x 4 matrix, whose rotation may be rounded to six digits.
+void append_kitti(const std::vector<std::string_view> &fields, const TextPlace &place, Trajectory &to) {
+  constexpr double rounding = 1e-5;
+  constexpr NumberRange range{-max_coordinate_m, max_coordinate_m};
+  glm::dmat3 linear;
+  glm::dvec3 position_m;
+  for (glm::length_t row = 0; row < 3; ++row)
+    for (glm::length_t column = 0; column < 4; ++column) {
+      const auto field = static_cast<std::size_t>(4 * row + column);
+      (column < 3 ? linear[column][row] : position_m[row]) =
+          number_of(fields[field], "a pose's matrix", place, range);
+    }
+  const auto rotation = rotation_of(linear);
+  bool is_rotation = rotation.has_value();
+  for (glm::length_t axis = 0; is_rotation && axis < 3; ++axis)
+    is_rotation = glm::length((*rotation)[axis] - linear[axis]) <= rounding;
+  if (!is_rotation)
+    throw input_error(place, "expected three rows of a rotation and a translation, found a matrix that "
+                             "scales, shears or mirrors");
+  append(static_cast<double>(to.times_s.size()), position_m, glm::quat_cast(*rotation), place, to);
 }
 
 void append_pose(std::string_view line, const Columns &columns, const TextPlace &place, Trajectory &to) {
   const std::vector<std::string_view> fields = fields_of(line, columns.commas);
   if (fields.size() != columns.count)
     throw input_error(place, fmt::format("expected {} values, found {}", columns.count, fields.size()));
+  if (!columns.commas && columns.count == kitti_values)
+    return append_kitti(fields, place, to);
   std::array<double, 8> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool is_length = i >= 1 && i <= 3;
@@ -81,14 +128,7 @@ void append_pose(std::string_view line, const Columns &columns, const TextPlace 
   const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw)), time_s = time * columns.seconds;
   if (!(length >= least_length && length <= largest_length))
     throw input_error(place, fmt::format("expected a quaternion of length 1, found {}", length));
-  if (!to.times_s.empty() && time_s <= to.times_s.back())
-    throw input_error(place,
-                      fmt::format("expected a time after {} s, found {} s", to.times_s.back(), time_s));
-  if (to.times_s.size() == max_poses)
-    throw input_error(place, fmt::format("expected at most {} poses", max_poses));
-  to.times_s.push_back(time_s);
-  to.positions_m.emplace_back(x, y, z);
-  to.rotations.push_back(glm::normalize(rotation));
+  append(time_s, {x, y, z}, rotation, place, to);
 }
 
 bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#'); }
@@ -117,6 +157,10 @@ Trajectory read_trajectory(const std::filesystem::path &file, const Place &named
     const std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
     ++place.line;
+    if (!columns && is_euroc_header(line)) {
+      columns = columns_of(line, place);
+      continue;
+    }
     if (is_comment(line))
       continue;
     if (columns) {
@@ -124,7 +168,7 @@ Trajectory read_trajectory(const std::filesystem::path &file, const Place &named
     } else if (line.find(',') != std::string_view::npos) {
       columns = columns_of(line, place);
     } else {
-      columns = Columns{};
+      columns = Columns{.count = fields_of(line, false).size() == kitti_values ? kitti_values : 8};
       append_pose(line, *columns, place, trajectory);
     }
   }

@@ -26,8 +26,12 @@ struct Trajectory {
 
 inline constexpr std::size_t max_poses = 100'000;
 
-// A text file of either form, at most max_poses poses:
+// A text file of one of these forms, at most max_poses poses:
 //   TUM: lines of "time_s x_m y_m z_m qx qy qz qw", separated by blanks; # begins a comment
+//   KITTI: lines of the twelve numbers of a 3 x 4 matrix, row by row; the first is of 0 s, the next of 1 s
+//   and
+//        so on
+//   EuRoC: CSV whose header begins with #timestamp (nanoseconds) and names p_RS_R_x ... and q_RS_w ...
 //   CSV: a header line, and columns that are named time_s, x_m, y_m, z_m, qx, qy, qz, qw, or as `rostopic
 //   echo -p`
 //        names a pose's: %time (nanoseconds) and ... position.x to orientation.w; other columns are left out

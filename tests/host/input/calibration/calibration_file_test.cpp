@@ -126,13 +126,13 @@ roi:
 ---
 )";
 
-Calibration read(const std::string &text) {
+Calibration read(const std::string &text, const std::string &camera = {}) {
   const TemporaryFolder folder;
-  return read_calibration(folder.write("camera.yml", text));
+  return read_calibration(folder.write("camera.yml", text), camera);
 }
 
-std::string error_of(const std::string &text) {
-  return input_error_of([&] { read(text); });
+std::string error_of(const std::string &text, const std::string &camera = {}) {
+  return input_error_of([&] { read(text, camera); });
 }
 
 std::string with(std::string text, const std::string &from, const std::string &to) {
@@ -329,12 +329,15 @@ TEST_CASE("Sizes that are none") {
 }
 
 TEST_CASE("Missing and doubled keys") {
-  CHECK_THAT(error_of("a: 1"),
-             EndsWith("camera.yml: missing key image_size (or imageSize, image_width, image_Width, width)"));
+  CHECK_THAT(
+      error_of("a: 1"),
+      EndsWith("camera.yml: missing key image_size (or imageSize, resolution, image_width, image_Width, "
+               "img_width, width)"));
   CHECK_THAT(error_of(ros_with("image_height", "other")),
-             EndsWith("camera.yml: missing key image_height (or image_Height, height)"));
-  CHECK_THAT(error_of(ros_with("camera_matrix", "other")),
-             EndsWith("missing key camera_matrix (or cameraMatrix, Camera_Matrix, K, k, M)"));
+             EndsWith("camera.yml: missing key image_height (or image_Height, img_height, height)"));
+  CHECK_THAT(
+      error_of(ros_with("camera_matrix", "other")),
+      EndsWith("missing key camera_matrix (or cameraMatrix, Camera_Matrix, intrinsic_matrix, K, k, M)"));
   CHECK_THAT(error_of(ros_with("distortion_coefficients", "other")),
              Contains("missing key distortion_coefficients (or "));
   CHECK_THAT(error_of(brief("[0, 0, 0, 0]") + "camera_matrix: [1]"),
@@ -344,10 +347,13 @@ TEST_CASE("Missing and doubled keys") {
 }
 
 TEST_CASE("What is no calibration at all") {
-  CHECK_THAT(error_of(""), EndsWith("camera.yml: expected a calibration, keys with values, in YAML or JSON"));
-  CHECK_THAT(error_of("[1, 2]"), EndsWith("expected a calibration, keys with values, in YAML or JSON"));
+  CHECK_THAT(error_of(""),
+             EndsWith("camera.yml: expected a calibration, keys with values, in YAML, JSON or XML"));
+  CHECK_THAT(error_of("[1, 2]"), EndsWith("expected a calibration, keys with values, in YAML, JSON or XML"));
   CHECK_THAT(error_of("\xef\xbb\xbf\n<?xml version=\"1.0\"?>\n<opencv_storage>"),
-             EndsWith("camera.yml: XML is not read, expected YAML or JSON"));
+             Contains("camera.yml:3:") && Contains(": not valid XML: "));
+  CHECK_THAT(error_of("<html><body/></html>"),
+             EndsWith("camera.yml: expected OpenCV's <opencv_storage> in XML"));
   CHECK_THAT(error_of("image_width: 3\nK: [1, 2\n"),
              Contains("camera.yml:") && Contains("not valid YAML or JSON: "));
   CHECK_THAT(error_of("a: *nobody"), Contains("camera.yml:1:4: not valid YAML or JSON: "));
@@ -392,4 +398,152 @@ TEST_CASE("Nests, alias bombs and endless lists come to an end") {
   CHECK_THAT(error_of(bomb + "image_size: [1, 1]\nK: *p\n"), EndsWith("K: expected a number"));
   CHECK_THAT(error_of(bomb + "image_size: [1, 1]\nK: *b\n"), EndsWith("K: expected at most 9 numbers"));
   CHECK_THAT(error_of("image_size: &s [*s, *s]"), Contains("image_size: expected a number"));
+}
+
+TEST_CASE("What OpenCV writes as XML") {
+  const std::string xml = R"(<?xml version="1.0"?>
+<opencv_storage>
+<image_width>640</image_width>
+<image_height>480</image_height>
+<camera_matrix type_id="opencv-matrix">
+  <rows>3</rows>
+  <cols>3</cols>
+  <dt>d</dt>
+  <data>
+    650. 0. 319.5 0. 660. 239.5 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients type_id="opencv-matrix">
+  <rows>5</rows>
+  <cols>1</cols>
+  <dt>d</dt>
+  <data>
+    -4.1e-01 0.5 1e-3 -2e-3 -0.57</data></distortion_coefficients>
+</opencv_storage>
+)";
+  const Calibration c = read(xml), same = read(opencv_yaml);
+  CHECK(c.resolution == same.resolution);
+  CHECK(c.fx == same.fx);
+  CHECK(c.cy == same.cy);
+  CHECK(std::get<BrownConrady>(c.distortion).k3 == std::get<BrownConrady>(same.distortion).k3);
+  CHECK_THAT(error_of(with(xml, "650.", "wide")),
+             EndsWith("camera.yml: camera_matrix: expected a finite number, found \"wide\""));
+  std::string nest = "<opencv_storage>";
+  for (int i = 0; i < 10'000; ++i)
+    nest += "<a>";
+  error_of(nest);
+  for (int i = 0; i < 10'000; ++i)
+    nest += "</a>";
+  CHECK_THAT(error_of(nest + "</opencv_storage>"), Contains("expected elements nested at most 32 deep"));
+}
+
+TEST_CASE("ROS's binning and region of interest") {
+  const std::string roi = "  x_offset: 0\n  y_offset: 0\n  height: 0\n  width: 0\n";
+  const std::string part =
+      with(ros2_message, roi, "  x_offset: 40\n  y_offset: 20\n  height: 100\n  width: 201\n");
+  Calibration c = read(part);
+  CHECK(c.resolution == glm::uvec2(201, 100));
+  CHECK(c.fx == 300.0);
+  CHECK(c.cx == 160.5 - 40.0);
+  CHECK(c.cy == 120.5 - 20.0);
+  c = read(with(with(part, "binning_x: 0", "binning_x: 2"), "binning_y: 0", "binning_y: 4"));
+  CHECK(c.resolution == glm::uvec2(100, 25));
+  CHECK(c.binning == glm::uvec2(2, 4));
+  CHECK(c.fx == 150.0);
+  CHECK(c.fy == 301.0 / 4.0);
+  // The centre of the first binned pixel lies between the centres of full pixels 0 and 1, and of 0 to 3.
+  CHECK(c.cx == (160.5 - 40.0 - 0.5) / 2.0);
+  CHECK(c.cy == (120.5 - 20.0 - 1.5) / 4.0);
+  CHECK(std::get<BrownConrady>(c.distortion).k1 == -0.3);
+
+  CHECK_THAT(
+      error_of(with(part, "width: 201", "width: 300")),
+      EndsWith("roi: expected a region within the image of 320 x 240 pixels, found 300 x 100 from column "
+               "40, row 20 on"));
+  CHECK_THAT(error_of(with(part, "width: 201", "width: 0")),
+             Contains("roi: expected a region within the image"));
+  CHECK_THAT(error_of(with(part, "binning_x: 0", "binning_x: 1.5")),
+             EndsWith("binning_x: expected a whole number from 0 to 64, found 1.5"));
+  CHECK_THAT(error_of(with(with(part, "width: 201", "width: 3"), "binning_x: 0", "binning_x: 4")),
+             Contains("expected at least one binned pixel of 4 x 1, found a region of 3 x 100"));
+}
+
+namespace {
+
+constexpr const char *kalibr = R"(cam0:
+  camera_model: pinhole
+  intrinsics: [461.6, 460.3, 362.7, 246.1]
+  distortion_model: radtan
+  distortion_coeffs: [-0.27, 0.06, 0.0001, 0.0002]
+  resolution: [752, 480]
+  rostopic: /cam0/image_raw
+cam1:
+  camera_model: pinhole
+  intrinsics: [460.0, 459.0, 370.0, 250.0]
+  distortion_model: equidistant
+  distortion_coeffs: [0.01, 0.02, 0.03, 0.04]
+  resolution: [752, 480]
+  T_cn_cnm1:
+  - [0.0, -1.0, 0.0, -0.11]
+  - [1.0, 0.0, 0.0, 0.02]
+  - [0.0, 0.0, 1.0, 0.03]
+  - [0.0, 0.0, 0.0, 1.0]
+)";
+
+} // namespace
+
+TEST_CASE("Kalibr's cameras, one after the other") {
+  const Calibration first = read(kalibr), second = read(kalibr, "cam1");
+  CHECK(first.name == "cam0");
+  CHECK(first.cameras == std::vector<std::string>{"cam0", "cam1"});
+  CHECK(first.resolution == glm::uvec2(752, 480));
+  CHECK(first.fy == 460.3);
+  CHECK(first.cx == 362.7);
+  CHECK(std::get<BrownConrady>(first.distortion).p2 == 0.0002);
+  CHECK(first.first_from_camera == Pose());
+  CHECK(second.name == "cam1");
+  CHECK(std::get<Fisheye>(second.distortion).k4 == 0.04);
+  // The second camera's own origin: R c + t = 0.
+  const glm::dvec3 origin_m = second.first_from_camera.translation_m;
+  CHECK(origin_m == glm::dvec3(-0.02, -0.11, -0.03));
+  CHECK(second.first_from_camera.direction({1, 0, 0}) == glm::dvec3(0, -1, 0));
+  CHECK_THAT(error_of(kalibr, "cam2"), EndsWith("--camera: expected cam0 or cam1, found \"cam2\""));
+  CHECK_THAT(error_of(with(kalibr, "camera_model: pinhole", "camera_model: omni")),
+             Contains("camera.yml:2:3: camera_model: expected pinhole, the only camera model of Kalibr's") &&
+                 EndsWith("found \"omni\""));
+  CHECK_THAT(error_of(with(kalibr, "radtan", "fov")),
+             EndsWith("expected radtan, equidistant or none, found \"fov\""));
+  CHECK_THAT(
+      error_of(with(kalibr, "[0.0, 0.0, 1.0, 0.03]", "[0.0, 0.0, 2.0, 0.03]"), "cam1"),
+      EndsWith(
+          "T_cn_cnm1: expected a rotation and a translation, found a matrix that scales, shears or mirrors"));
+  CHECK_THAT(error_of(ros_yaml, "cam1"), EndsWith("--camera: the file has one camera, found \"cam1\""));
+}
+
+TEST_CASE("OpenCV's pairs of cameras") {
+  const std::string pair = "image_size: [320, 240]\n"
+                           "M1: [300,0,160,0,301,120,0,0,1]\nD1: [0.1,0,0,0,0]\n"
+                           "M2: [310,0,161,0,311,121,0,0,1]\nD2: [0.2,0,0,0,0]\n"
+                           "R: [1,0,0,0,1,0,0,0,1]\nT: [-0.12, 0.01, 0.02]\n";
+  CHECK(read(pair).fy == 301.0);
+  const Calibration second = read(pair, "2");
+  CHECK(second.fx == 310.0);
+  CHECK(std::get<BrownConrady>(second.distortion).k1 == 0.2);
+  CHECK(second.first_from_camera.translation_m == glm::dvec3(0.12, -0.01, -0.02));
+}
+
+TEST_CASE("Intrinsics as Open3D, RealSense and others write them") {
+  Calibration c =
+      read(R"({"width": 640, "height": 480, "intrinsic_matrix": [600, 0, 0, 0, 601, 0, 320, 240, 1]})");
+  CHECK(c.fy == 601.0);
+  CHECK(c.cx == 320.0);
+  CHECK(c.cy == 240.0);
+  c = read(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 320, "ppy": 240,
+               "model": "Brown Conrady", "coeffs": [0.1, 0.2, 0.3, 0.4, 0.5]})");
+  CHECK(c.cy == 240.0);
+  CHECK(std::get<BrownConrady>(c.distortion).k3 == 0.5);
+  c = read("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 320\ncy: 240\nk1: 0.1\np2: 0.4\n");
+  CHECK(std::get<BrownConrady>(c.distortion).p2 == 0.4);
+  CHECK(std::holds_alternative<std::monostate>(
+      read("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 320\ncy: 240\n").distortion));
+  CHECK_THAT(error_of("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 320\ncy: 240\nk5: 0.1\n"),
+             EndsWith("camera.yml:7:1: k5: k5: expected 0: pmdsim has no rational terms, found 0.1"));
 }

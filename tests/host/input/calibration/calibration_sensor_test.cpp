@@ -170,13 +170,33 @@ TEST_CASE("The sensor's name is the file's, as a setup takes it") {
   CHECK_FALSE(is_sensor_name(std::string(65, 'a')));
 }
 
-TEST_CASE("A calibration whose distortion folds inside the image is an error") {
+TEST_CASE("Where a calibration's distortion folds inside the image, pixels are dark") {
   Calibration c = calibration();
-  c.distortion_at = {"D", {"camera.yml", 7, 1}};
+  CHECK_FALSE(sensor_of(c, 10e-6).dark_beyond_fold);
   c.distortion = BrownConrady{-1.0, 0.0, 0.0, 0.0, 0.0};
-  CHECK_THAT(error_of(c),
-             Contains("camera.yml:7:1: D: expected a distortion that does not fold over inside the "
-                      "image; it does "));
+  const Sensor sensor = sensor_of(c, 10e-6);
+  CHECK(sensor.dark_beyond_fold);
+  CHECK(sensor_block(sensor)["distortion"]["beyond"] == "dark");
+  CHECK(loaded(sensor).dark_beyond_fold);
+}
+
+TEST_CASE("Binned pixels are as large as the pixels that make them") {
+  Calibration c = calibration();
+  c.binning = {2, 4};
+  const Sensor sensor = sensor_of(c, 10e-6);
+  CHECK(sensor.pixel_pitch_m.x == 20e-6);
+  CHECK(sensor.focal_length_m == 612.5 * 20e-6);
+  check_against_opencv(c, sensor);
+}
+
+TEST_CASE("A camera's pose is a chain of the first one's and its own in that") {
+  SetupFixture fixture;
+  const Pose own{glm::dmat3(0, -1, 0, 1, 0, 0, 0, 0, 1), {0.1, 0.2, 0.3}};
+  fixture.sensor()["pose"] = json::parse(pose_block(own).dump());
+  const Pose loaded_pose = fixture.load().start.sensors.at(0).world_from_camera;
+  const Pose expected = compose(node_from_camera(), own);
+  CHECK(glm::distance(loaded_pose.translation_m, expected.translation_m) < 1e-15);
+  CHECK(loaded_pose.direction({1, 0, 0}) == expected.direction({1, 0, 0}));
 }
 
 TEST_CASE("Figures beyond a setup's ranges are errors") {

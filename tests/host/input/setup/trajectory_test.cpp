@@ -55,6 +55,22 @@ TEST_CASE("CSV, its columns in any order, and ROS's") {
   CHECK(ros.at(0.0).translation_m == glm::dvec3(1, 2, 3));
 }
 
+TEST_CASE("KITTI's poses, a second from one to the next, and EuRoC's") {
+  const Trajectory kitti = read("1 0 0 1.5 0 1 0 2.5 0 0 1 3.5\n0 -1 0 1 1 0 0 2 0 0 1 3\n");
+  CHECK(kitti.times_s == std::vector<double>{0.0, 1.0});
+  CHECK(kitti.at(0.0).translation_m == glm::dvec3(1.5, 2.5, 3.5));
+  CHECK(glm::distance(kitti.at(1.0).direction({1, 0, 0}), glm::dvec3(0, 1, 0)) < 1e-12);
+  const Trajectory euroc = read("#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                                "q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]\n"
+                                "1500000000,1,2,3,0,1,0,0,9\n");
+  CHECK(euroc.times_s == std::vector<double>{1.5});
+  CHECK(euroc.at(0.0).translation_m == glm::dvec3(1, 2, 3));
+  CHECK(euroc.at(0.0).direction({0, 0, 1}) == glm::dvec3(0, 0, -1)); // half a turn about x
+  CHECK(why_not("1 0 0 0 0 2 0 0 0 0 1 0\n") == ":1: expected three rows of a rotation and a translation, "
+                                                "found a matrix that scales, shears or mirrors");
+  CHECK(why_not("#timestamp, p_RS_R_x [m]\n1,2\n") == ":1: missing column p_RS_R_y");
+}
+
 TEST_CASE("Files that are no trajectories") {
   CHECK(why_not("# nothing\n") == ": expected at least one pose");
   CHECK(why_not("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n") == ":2: expected a time after 1 s, found 1 s");
