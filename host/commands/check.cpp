@@ -7,6 +7,7 @@
 #include "host/report/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
@@ -128,6 +129,13 @@ std::string frequencies_text(const Sensor &sensor) {
   return text;
 }
 
+std::string field_of_view_text(const FieldOfView &view) {
+  if (std::isnan(view.diagonal_deg))
+    return "dark in the corners, as the distortion folds over before them";
+  return fmt::format("{:.3f}° x {:.3f}°, {:.3f}° along the diagonal", view.horizontal_deg, view.vertical_deg,
+                     view.diagonal_deg);
+}
+
 std::string sensor_text(const SensorFindings &findings) {
   const auto &[sensor, view, visible, shares_beyond, electrons] = findings;
   const glm::dvec2 footprint_mm = 1e3 * view.footprint_at_1m_m;
@@ -136,8 +144,7 @@ std::string sensor_text(const SensorFindings &findings) {
       line("resolution",
            fmt::format("{} x {}, {}{} x {} samples a pixel", sensor.resolution.x, sensor.resolution.y,
                        sensor.adaptive_samples ? "up to " : "", sensor.samples, sensor.samples)) +
-      line("field of view", fmt::format("{:.3f}° x {:.3f}°, {:.3f}° along the diagonal", view.horizontal_deg,
-                                        view.vertical_deg, view.diagonal_deg)) +
+      line("field of view", field_of_view_text(view)) +
       line("pixel footprint at 1 m", fmt::format("{:.4g} mm x {:.4g} mm", footprint_mm.x, footprint_mm.y)) +
       line("image distance", fmt::format("{:.6g} mm", 1e3 * sensor.image_distance_m()));
   if (sensor.vignetting == Vignetting::cos4)
