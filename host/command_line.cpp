@@ -55,6 +55,11 @@ void add_writing(CLI::App &command, Written &written) {
           "only these, by names separated by commas, e.g. distance_m,lit; without the numbers of taps, "
           "with or without the prefix of a frequency. What no other needs is not computed [all]")
       ->delimiter(',');
+  command
+      .add_option("--output-precision", written.output_precision,
+                  "of distances in files, float32 or float64 (npz, h5, npy; exr has what rounding takes in "
+                  "channels of their own) [float32]")
+      ->check(CLI::IsMember({"float32", "float64"}));
   add_frames(command, written);
   command.add_option("--shard", written.shard,
                      "I/N, I from 0 to N - 1: only frames whose number modulo N is I; or `slurm`, what "

@@ -26,6 +26,7 @@ struct Written {
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
   std::vector<std::string> formats, channels;
+  std::optional<std::string> output_precision;
 };
 
 // The formats of the commands that write frames, where none are asked for.

@@ -186,6 +186,8 @@ Options checked(Written written, const std::string &command) {
     capture.channels = wanted_channels(written.channels, command);
   for (const std::string &format : written.formats)
     capture.formats.insert(format_named(format));
+  if (written.output_precision == output_precision_name(OutputPrecision::float64))
+    capture.output_precision = OutputPrecision::float64;
   if (written.reporting.when_done)
     require_formats_of_report(capture.formats);
   return options;

@@ -56,6 +56,13 @@ void count_frame(const ElectronLoops &loops, const ElectronWork &work, std::uint
   }
 }
 
+// The camera computes its distances in float: of pixels from `first` to `last` - 1 there is no more to tell.
+void widen_distances(std::uint32_t first, std::uint32_t last, Return &of) {
+  if (!of.unrounded_distance_m.empty())
+    std::copy(of.distance_m.begin() + first, of.distance_m.begin() + last,
+              of.unrounded_distance_m.begin() + first);
+}
+
 // Row by row, unless the strip's rows are the frame's.
 void count_strip(const ElectronLoops &loops, ElectronWork work, const StripLight &light,
                  std::uint32_t frame_columns) {
@@ -78,7 +85,9 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, Meas
   for (std::size_t i = 0; i < frame.returns.size(); ++i) {
     FrequencyElectrons electrons(sensor, request.keep_taps, i, frame);
     electrons.set_light(request);
-    count_frame(loops, electrons.work(), static_cast<std::uint32_t>(sensor.pixel_count()), request.between);
+    const auto pixels = static_cast<std::uint32_t>(sensor.pixel_count());
+    count_frame(loops, electrons.work(), pixels, request.between);
+    widen_distances(0, pixels, frame.returns[i]);
     if (!request.keep_taps)
       frame.returns[i].taps.clear();
   }
@@ -99,6 +108,10 @@ void count_electrons(const Sensor &sensor, const ElectronsRequest &request, cons
     FrequencyElectrons electrons(sensor, request.keep_taps, i, frame);
     electrons.set_light(light);
     count_strip(loops, electrons.work(), light, sensor.resolution.x);
+    for (std::uint32_t row = light.row; row < light.row + light.rows; ++row) {
+      const std::uint32_t first = row * sensor.resolution.x + light.column;
+      widen_distances(first, first + light.columns, frame.returns[i]);
+    }
   }
   frame.has_electrons = true;
 }

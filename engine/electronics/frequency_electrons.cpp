@@ -165,9 +165,11 @@ void FrequencyElectrons::set_output() {
     to_.amplitude_noiseless = to_.amplitude;
     to_.phase_rad_noiseless = to_.phase_rad;
     to_.distance_m_noiseless = to_.distance_m;
+    to_.unrounded_distance_m_noiseless = to_.unrounded_distance_m;
   } else {
     for (auto *channel : {&to_.amplitude_noiseless, &to_.phase_rad_noiseless, &to_.distance_m_noiseless})
       channel->clear();
+    to_.unrounded_distance_m_noiseless.clear();
   }
   to_.saturated.resize(pixels);
   for (auto *channel : {&to_.distance_noise_m, &to_.confidence})

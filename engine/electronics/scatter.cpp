@@ -204,6 +204,8 @@ void scatter_return(Scattering &scattering, double ambiguity_m, Return &of) {
           return set_return(of, pixel, value, ambiguity_m);
         of.amplitude[pixel] = 0.0f;
         of.phase_rad[pixel] = of.distance_m[pixel] = std::numeric_limits<float>::quiet_NaN();
+        if (!of.unrounded_distance_m.empty())
+          of.unrounded_distance_m[pixel] = std::numeric_limits<double>::quiet_NaN();
       });
 }
 

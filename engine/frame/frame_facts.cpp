@@ -38,6 +38,7 @@ FrameFacts look(const vulkan::Device &device, const SimulatorOptions &options, c
   if (shaded)
     facts.occluders = find_occluders(facts.camera, request.scene, facts.lights);
   facts.modulation = modulation_of(request.sensor, options);
+  facts.modulation.keeps_rests = options.keep_unrounded;
   // A spot check compares frames of the light alone.
   facts.counts_electrons =
       options.count_electrons && counts_by_strips(request.sensor) && request.accuracy.mode == Mode::exact;

@@ -45,15 +45,15 @@ float channel_value(const StripBuffers &buffers, const shader::Strip &strip, std
 }
 
 // 0 where neither is known, infinite where only one is.
-double difference(float found, float exact) {
+double difference(double found, double exact) {
   if (std::isnan(found) || std::isnan(exact))
     return std::isnan(found) && std::isnan(exact) ? 0.0 : std::numeric_limits<double>::infinity();
-  return std::abs(static_cast<double>(found) - static_cast<double>(exact));
+  return std::abs(found - exact);
 }
 
-double relative_difference(float found, float exact) {
+double relative_difference(double found, double exact) {
   const double apart = difference(found, exact);
-  return apart == 0.0 ? 0.0 : apart / std::abs(static_cast<double>(exact));
+  return apart == 0.0 ? 0.0 : apart / std::abs(exact);
 }
 
 double wrapped(double difference_m, double ambiguity_m) {
@@ -85,16 +85,21 @@ void SpotCheck::compare(std::size_t strip, const shader::Strip &of, const StripB
     for (std::uint32_t f = 0; f < modulation_.modulations(); ++f) {
       const std::size_t at =
           std::size_t{of.row + pixel / of.columns} * of.resolution_x + of.column + pixel % of.columns;
-      const auto exact = [&](std::vector<float> Return::*channel) {
-        return channel_value(buffers, of, layout.number({row_of(channel), f}), pixel);
+      const auto exact = [&](std::vector<float> Return::*channel) -> double {
+        return static_cast<double>(channel_value(buffers, of, layout.number({row_of(channel), f}), pixel));
       };
       const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_.modulation_hz[f]);
       const Return &found = measured.returns[f];
       if (!found.error_bound_m.empty() && static_cast<double>(found.error_bound_m[at]) > limit_m)
         continue;
-      distance_m = std::max(
-          distance_m, wrapped(difference(found.distance_m[at], exact(&Return::distance_m)), ambiguity_m));
-      amplitude = std::max(amplitude, relative_difference(found.amplitude[at], exact(&Return::amplitude)));
+      double found_m = static_cast<double>(found.distance_m[at]), exact_m = exact(&Return::distance_m);
+      if (layout.rests) {
+        found_m = found.unrounded_distance_m[at];
+        exact_m += static_cast<double>(channel_value(buffers, of, layout.rest_channels(f), pixel));
+      }
+      distance_m = std::max(distance_m, wrapped(difference(found_m, exact_m), ambiguity_m));
+      amplitude = std::max(amplitude, relative_difference(static_cast<double>(found.amplitude[at]),
+                                                          exact(&Return::amplitude)));
     }
   report.found_m = distance_m;
   report.found_amplitude = amplitude;

@@ -23,6 +23,7 @@ struct Modulation {
   bool keeps_beams = false;          // and what rounding does within beams (ErrorBound::beams)
   bool reports_kept = false;         // and the largest bound of the pixels that keep theirs
   bool keeps_bounds = false;         // each pixel's bound is a channel, too
+  bool keeps_rests = false;          // what rounding takes from distance and range is a channel, too
   bool lit = false;                  // how much of the light reaches a pixel is a channel, too
   // Returns are there as real and imaginary part, in place of amplitude and phase and without a distance: for
   // a camera that makes its own of them.

@@ -19,7 +19,24 @@ const ChannelRow *row_named(std::string_view name) {
   return row == channel_rows.end() ? nullptr : &*row;
 }
 
+// Before the unit, metres or millimetres.
+constexpr std::string_view rest_mark = "_rest";
+
 } // namespace
+
+std::string rest_name(std::string_view name) {
+  std::string of_rest(name);
+  return of_rest.insert(std::min(name.rfind("_m"), name.size()), rest_mark);
+}
+
+std::optional<std::string> name_of_rest(std::string_view name) {
+  const std::size_t mark = name.rfind(rest_mark);
+  if (mark == name.npos)
+    return std::nullopt;
+  std::string rounded(name);
+  rounded.erase(mark, rest_mark.size());
+  return rest_name(rounded) == name ? std::optional(rounded) : std::nullopt;
+}
 
 ChannelName channel_named(std::string_view name) {
   ChannelName found{nullptr, std::nullopt, std::nullopt};

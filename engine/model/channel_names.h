@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -17,5 +18,11 @@ struct ChannelName {
 
 // A prefix only where the row is of a frequency, a number behind it only where it is of taps.
 ChannelName channel_named(std::string_view name);
+
+// The channel of floats that has what rounding took from a channel of distances, where a file knows no
+// double: "distance_rest_m" of "distance_m".
+std::string rest_name(std::string_view name);
+// The other way round; nothing where the name is none of a rest.
+std::optional<std::string> name_of_rest(std::string_view name);
 
 } // namespace pmdsim

@@ -23,6 +23,11 @@ using ChannelMember =
                  std::vector<float> Return::*, std::vector<std::uint32_t> Return::*,
                  std::vector<std::vector<float>> Return::*>;
 
+// Where the same values lie in double, if anywhere: before they were rounded to float. Empty unless they are
+// asked for.
+using UnroundedMember =
+    std::variant<std::monostate, std::vector<double> Measurement::*, std::vector<double> Return::*>;
+
 // Where a channel lies on the device, which keeps them in areas one behind the other: `index` counts from the
 // beginning of the area. Channels 2 n and 2 n + 1 are stored as a pair, so what a shader stores together
 // should have such numbers; each area ends with a whole pair.
@@ -61,6 +66,7 @@ struct ChannelRow {
   ChannelMember at; // empty where the channel is absent
   DeviceSlot slot;
   std::optional<Preview> preview = std::nullopt; // nothing: no picture is made of it
+  UnroundedMember unrounded = std::monostate{};
 };
 
 inline constexpr std::string_view radiance_unit = "W/(m² sr)";
@@ -86,7 +92,8 @@ inline constexpr std::array channel_rows = [] {
        "c phase / (4 pi f), wraps at c / (2 f)",
        &Return::distance_m,
        {Area::frequency, 2},
-       Preview{"distance", Scale::sequential}},
+       Preview{"distance", Scale::sequential},
+       &Return::unrounded_distance_m},
       {"tap", radiance_unit, "the correlation samples", &Return::taps, {Area::frequency, 4}},
       {"tap_a_e",
        "e",
@@ -127,7 +134,8 @@ inline constexpr std::array channel_rows = [] {
        "distance_m without noise, likewise",
        &Return::distance_m_noiseless,
        {Area::electrons, 9},
-       Preview{"distance without noise", Scale::sequential}},
+       Preview{"distance without noise", Scale::sequential},
+       &Return::unrounded_distance_m_noiseless},
       {"error_bound_m",
        "m",
        "how far distance_m without noise is off at most; only where an error was asked for that some pixels "
@@ -167,12 +175,16 @@ inline constexpr std::array channel_rows = [] {
        "m",
        "distance_m without bounces; only with bounces",
        &Return::direct_distance_m,
-       {Area::none, 5}},
+       {Area::none, 5},
+       std::nullopt,
+       &Return::unrounded_direct_distance_m},
       {"range_m",
        "m",
        "ground truth: mean distance to the lens",
        &Measurement::range_m,
-       {Area::frequency, 3}},
+       {Area::frequency, 3},
+       std::nullopt,
+       &Measurement::unrounded_range_m},
       {"z_m", "m", "ground truth: mean depth", &Measurement::z_m, {Area::truth, 1}},
       {"coverage",
        "",
@@ -196,7 +208,8 @@ inline constexpr std::array channel_rows = [] {
        "distance from all frequencies together; only with \"unwrap_range_m\"",
        &Measurement::unwrapped_distance_m,
        {Area::unwrapped, 0},
-       Preview{"unwrapped distance", Scale::sequential}},
+       Preview{"unwrapped distance", Scale::sequential},
+       &Measurement::unrounded_unwrapped_distance_m},
       {"unwrap_ok",
        "",
        "1 where the phases agree on that distance and on no other, else 0; likewise",
@@ -261,6 +274,27 @@ void for_each_channel(Frame &frame, Visit visit) {
           visit(ChannelIndex{row, f}, member);
       });
   for_each_row_of(frame, [&](const ChannelRow &row, auto &member) { visit(ChannelIndex{row}, member); });
+}
+
+// Calls visit(ChannelIndex, values, unrounded) for each channel that may be there in double, too, and that
+// `frame` has room for, in that order.
+template <class Frame, class Visit>
+void for_each_unrounded(Frame &frame, Visit visit) {
+  const auto visit_row = [&](auto &owner, const ChannelRow &row, std::size_t f, auto &values) {
+    std::visit(
+        [&](auto at) {
+          constexpr bool is_of_owner = std::is_invocable_v<decltype(at), decltype(owner)>;
+          if constexpr (is_of_owner &&
+                        std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<float>>)
+            visit(ChannelIndex{row, f}, values, owner.*at);
+        },
+        row.unrounded);
+  };
+  for (std::size_t f = 0; f < frame.returns.size(); ++f)
+    for_each_row_of(frame.returns[f], [&](const ChannelRow &row, auto &values) {
+      visit_row(frame.returns[f], row, f, values);
+    });
+  for_each_row_of(frame, [&](const ChannelRow &row, auto &values) { visit_row(frame, row, 0, values); });
 }
 
 } // namespace pmdsim

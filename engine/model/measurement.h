@@ -44,6 +44,9 @@ struct Return {
   std::vector<float> confidence{}; // amplitude over the predicted standard deviation of either part of z
   // With Electronics::noiseless_channels: the channels above without noise.
   std::vector<float> amplitude_noiseless{}, phase_rad_noiseless{}, distance_m_noiseless{};
+  // With SimulatorOptions::keep_unrounded, else empty: the distances above in double, as they were before
+  // they were rounded, and as exact as what they come from. So differences of distances keep their digits.
+  std::vector<double> unrounded_distance_m{}, unrounded_direct_distance_m{}, unrounded_distance_m_noiseless{};
 };
 
 // Which exposure of a setup: what differs from one to the next, as noise does, follows from these numbers and
@@ -83,6 +86,8 @@ struct Measurement {
   // other, else 0, as where a tap is full.
   std::vector<float> unwrapped_distance_m;
   std::vector<std::uint32_t> unwrap_ok;
+  // As Return::unrounded_distance_m.
+  std::vector<double> unrounded_range_m, unrounded_unwrapped_distance_m;
   // The ids at the sample nearest the pixel's centre (ties: up, left); no_id where it hits nothing.
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;

@@ -41,6 +41,7 @@ struct SimulatorOptions {
   bool keep_sample_ids = false;        // fill Measurement::sample_triangle_id and sample_pixel_id
   bool keep_visibility = false;        // fill Measurement::sample_visibility
   bool keep_taps = false;              // fill Return::taps
+  bool keep_unrounded = false;         // fill Return::unrounded_distance_m and the like
   // The frame's last pass counts the electrons of a sensor with electronics (Measurement::has_electrons), in
   // mode exact, without bounces, and where counts_by_strips() of engine/electronics/electrons.h says so.
   bool count_electrons = false;

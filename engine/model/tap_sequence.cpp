@@ -48,7 +48,10 @@ void set_return(Return &to, std::size_t pixel, const std::complex<double> &z, do
   const double phase_rad = angle_rad < 0.0 ? angle_rad + full_turn_rad : angle_rad;
   to.amplitude[pixel] = static_cast<float>(std::abs(z));
   to.phase_rad[pixel] = rounded_below(phase_rad, full_turn_rad);
-  to.distance_m[pixel] = rounded_below(ambiguity_m * (phase_rad / full_turn_rad), ambiguity_m);
+  const double distance_m = ambiguity_m * (phase_rad / full_turn_rad);
+  to.distance_m[pixel] = rounded_below(distance_m, ambiguity_m);
+  if (!to.unrounded_distance_m.empty())
+    to.unrounded_distance_m[pixel] = distance_m < ambiguity_m ? distance_m : 0.0;
 }
 
 std::vector<float> tap_of_sine(const std::vector<float> &amplitude, const std::vector<float> &phase_rad,
@@ -62,7 +65,7 @@ std::vector<float> tap_of_sine(const std::vector<float> &amplitude, const std::v
   return tap;
 }
 
-Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz) {
+Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_hz, bool keep_unrounded) {
   const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation_hz);
   const std::vector<std::complex<double>> weights = weights_of(taps.size());
   const std::size_t pixels = taps.front().size();
@@ -70,6 +73,8 @@ Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_
                 std::vector<float>(pixels, not_a_number),
                 std::vector<float>(pixels, not_a_number),
                 {}};
+  if (keep_unrounded)
+    result.unrounded_distance_m.assign(pixels, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     const std::complex<double> z = z_of_pixel(taps, weights, pixel);
     if (z != 0.0)
@@ -80,10 +85,11 @@ Return return_from_taps(std::vector<std::vector<float>> taps, double modulation_
 }
 
 void set_from_taps(Return &to, std::vector<std::vector<float>> taps, double modulation_hz) {
-  Return set = return_from_taps(std::move(taps), modulation_hz);
+  Return set = return_from_taps(std::move(taps), modulation_hz, !to.unrounded_distance_m.empty());
   to.amplitude = std::move(set.amplitude);
   to.phase_rad = std::move(set.phase_rad);
   to.distance_m = std::move(set.distance_m);
+  to.unrounded_distance_m = std::move(set.unrounded_distance_m);
   to.taps = std::move(set.taps);
 }
 

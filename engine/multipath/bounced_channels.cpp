@@ -27,6 +27,12 @@ Number shown(const BounceTone &tone, std::uint32_t taps, const Number &z) {
   return tone.harmonic % taps == taps - 1 ? tone.relative * std::conj(z) : 0.0;
 }
 
+// In [0, period), of less than a period away.
+double within(double value, double period) {
+  const double wrapped = value < 0.0 ? value + period : value >= period ? value - period : value;
+  return wrapped < period ? wrapped : 0.0;
+}
+
 // One frequency's pixels.
 class FrequencyChannels {
 public:
@@ -37,6 +43,7 @@ public:
     to_.direct_amplitude = to_.amplitude;
     to_.direct_phase_rad = to_.phase_rad;
     to_.direct_distance_m = to_.distance_m;
+    to_.unrounded_direct_distance_m = to_.unrounded_distance_m;
     for (auto *channel : {&to_.multipath_m, &to_.multipath_error_m, &to_.indirect_share})
       channel->assign(to_.amplitude.size(), not_a_number);
   }
@@ -80,17 +87,23 @@ private:
     if (!(size > 0.0)) {
       to_.amplitude[pixel] = 0.0f;
       to_.phase_rad[pixel] = to_.distance_m[pixel] = not_a_number;
+      if (!to_.unrounded_distance_m.empty())
+        to_.unrounded_distance_m[pixel] = std::numeric_limits<double>::quiet_NaN();
       return;
     }
     const double turns_per_rad = 1.0 / full_turn_rad;
-    if (indirect != 0.0) // else direct light's keep their bits
+    const double multipath_m = ambiguity_m_ * std::arg(z * std::conj(direct)) * turns_per_rad;
+    if (indirect != 0.0) { // else direct light's keep their bits
       set_return(to_, pixel, z, ambiguity_m_);
+      if (direct != 0.0 && !to_.unrounded_distance_m.empty()) // whose phase was rounded
+        to_.unrounded_distance_m[pixel] =
+            within(to_.unrounded_direct_distance_m[pixel] + multipath_m, ambiguity_m_);
+    }
     to_.indirect_share[pixel] = static_cast<float>(std::abs(indirect) / size);
     const double off_rad = error < size ? std::asin(error / size) : std::numbers::pi;
     to_.multipath_error_m[pixel] = static_cast<float>(ambiguity_m_ * off_rad * turns_per_rad);
     if (direct != 0.0)
-      to_.multipath_m[pixel] =
-          static_cast<float>(ambiguity_m_ * std::arg(z * std::conj(direct)) * turns_per_rad);
+      to_.multipath_m[pixel] = static_cast<float>(multipath_m);
   }
 
   const BouncedImage &image_;

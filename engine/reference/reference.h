@@ -68,7 +68,7 @@ Frame simulate(const Scene &scene, const Sensor &sensor, const std::vector<Illum
 // and for a diagram that of its interpolation, exactly.
 double solid_angle_sr(const Pattern &pattern);
 
-// Rounded to the float channels that the simulator gives.
+// Rounded to the float channels that the simulator gives, and unrounded beside them.
 Measurement to_measurement(const Frame &frame);
 
 // Puts the noisy channels of a frame of a sensor with electronics in place of the noiseless ones of

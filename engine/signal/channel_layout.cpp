@@ -13,6 +13,8 @@ namespace {
 
 using Area = DeviceSlot::Area;
 
+constexpr std::uint32_t pair_of_rests = 2;
+
 constexpr std::uint32_t whole_pairs(std::uint32_t channels) { return (channels + 1) / 2 * 2; }
 
 // An area's channels, without taps, whose number varies.
@@ -60,12 +62,17 @@ shader::Frequency mean_record(const ChannelLayout &layout, double largest_intens
 
 ChannelLayout::ChannelLayout(const Modulation &modulation)
     : frequencies(modulation.modulations()), taps(modulation.keep_taps ? modulation.taps : 0),
-      lit(modulation.lit), bounds(modulation.keeps_bounds), mean(modulation.keeps_mean) {}
+      lit(modulation.lit), bounds(modulation.keeps_bounds), rests(modulation.keeps_rests),
+      mean(modulation.keeps_mean) {}
 
 std::uint32_t ChannelLayout::first_channel(std::uint32_t frequency) const {
-  const std::uint32_t of_frequency =
-      whole_pairs(channels_in(Area::frequency) + taps) + (bounds ? channels_in(Area::bound) : 0);
+  const std::uint32_t of_frequency = whole_pairs(channels_in(Area::frequency) + taps) +
+                                     (bounds ? channels_in(Area::bound) : 0) + (rests ? pair_of_rests : 0);
   return channels_in(Area::truth) + frequency * of_frequency;
+}
+
+std::uint32_t ChannelLayout::rest_channels(std::uint32_t frequency) const {
+  return first_channel(frequency + 1) - pair_of_rests;
 }
 
 std::uint32_t ChannelLayout::lit_channel() const { return first_channel(frequencies); }

@@ -18,11 +18,13 @@ struct ChannelLayout {
   std::uint32_t taps;        // that are kept, of each frequency
   bool lit;                  // the area of shadows is there
   bool bounds;               // the areas of bounds are there
+  bool rests;                // a pair behind each frequency's bounds: of distance_m and of range_m
   bool mean;                 // the area of the mean is there
 
   // The number of all channels, and those at which areas begin; even numbers.
   std::uint32_t channels() const;
   std::uint32_t first_channel(std::uint32_t frequency) const;
+  std::uint32_t rest_channels(std::uint32_t frequency) const;
   std::uint32_t lit_channel() const;
   std::uint32_t mean_channel() const;
 

@@ -45,6 +45,7 @@ vulkan::Specialization demodulation_constants(const PassSetup &on, const SumScop
           {shader::constant_beams, on.modulation.keeps_beams},
           {shader::constant_passes_on, scope.later != nullptr},
           {shader::constant_keeps_bounds, on.modulation.keeps_bounds},
+          {shader::constant_keeps_rests, on.modulation.keeps_rests},
           {shader::constant_keeps_mean, on.modulation.keeps_mean},
           {shader::constant_reports_kept, on.modulation.keeps_terms && on.modulation.reports_kept},
           {shader::constant_precise_sum, scope.precision == Precision::fp64}};

@@ -28,14 +28,28 @@ Row row_of(const shader::Strip &strip, std::uint32_t row) {
           strip.columns};
 }
 
+// Where a value goes whose rounding and rest the device has: the former is there already. It wraps at
+// `period_m`.
+struct Unrounded {
+  const float *rounded;
+  double *to;
+  double period_m;
+};
+
 // Where the values of a channel on the device go; nowhere where it only fills a pair.
-using Destination = std::variant<std::monostate, float *, std::uint32_t *>;
+using Destination = std::variant<std::monostate, float *, std::uint32_t *, Unrounded>;
 
 template <typename T>
 void put(T *to, std::size_t at, std::uint32_t word) {
   to[at] = std::bit_cast<T>(word);
 }
 void put(std::monostate, std::size_t, std::uint32_t) {}
+void put(const Unrounded &of, std::size_t at, std::uint32_t word) {
+  double value = static_cast<double>(of.rounded[at]) + static_cast<double>(std::bit_cast<float>(word));
+  if (value < 0.0)
+    value += of.period_m;
+  of.to[at] = value >= of.period_m ? 0.0 : value;
+}
 
 void store_pair(std::span<const shader::uvec2> pair, const Row &row, const Destination &even,
                 const Destination &odd) {
@@ -58,13 +72,30 @@ bool is_read_back(const ChannelRow &row, const ChannelLayout &layout, LightBy li
   return !is_light || light == LightBy::read_back;
 }
 
+// The destinations of what rounding took.
+void add_unrounded(const Modulation &modulation, const ChannelLayout &layout, LightBy light, Measurement &to,
+                   std::vector<Destination> &destinations) {
+  if (!layout.rests)
+    return;
+  for (std::uint32_t f = 0; light == LightBy::read_back && f < layout.frequencies; ++f) {
+    Return &of = to.returns[f];
+    const double ambiguity_m = speed_of_light_m_s / (2.0 * modulation.modulation_hz[f]);
+    destinations[layout.rest_channels(f)] =
+        Unrounded{of.distance_m.data(), of.unrounded_distance_m.data(), ambiguity_m};
+  }
+  destinations[layout.rest_channels(0) + 1] =
+      Unrounded{to.range_m.data(), to.unrounded_range_m.data(), std::numeric_limits<double>::infinity()};
+}
+
 // The destination of each channel on the device.
-std::vector<Destination> destinations(const ChannelLayout &layout, LightBy light, Measurement &to) {
+std::vector<Destination> destinations(const Modulation &modulation, const ChannelLayout &layout,
+                                      LightBy light, Measurement &to) {
   std::vector<Destination> result(layout.channels());
   for_each_channel(to, [&](const ChannelIndex &of, auto &values) {
     if (is_read_back(of.row, layout, light))
       result[layout.number(of)] = values.data();
   });
+  add_unrounded(modulation, layout, light, to, result);
   return result;
 }
 
@@ -148,7 +179,7 @@ void store_strip(const shader::Strip &strip, const StripBuffers &buffers, const 
                  const Modulation &modulation, const std::optional<TruthOfRecords> &truth, LightBy light,
                  Measurement &measurement) {
   const ChannelLayout layout(modulation);
-  const std::vector<Destination> to = destinations(layout, light, measurement);
+  const std::vector<Destination> to = destinations(modulation, layout, light, measurement);
   const auto goes_nowhere = [&](std::uint32_t channel) {
     return std::holds_alternative<std::monostate>(to[channel]);
   };
@@ -187,6 +218,12 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
              of.row.slot.area == DeviceSlot::Area::unwrapped ||
              (of.row.slot.area == DeviceSlot::Area::electrons && (!layout.mean || values.size() != pixels)))
       values.clear();
+  });
+  for_each_unrounded(measurement, [&](const ChannelIndex &of, auto &, auto &unrounded) {
+    if (layout.rests && layout.holds(of.row))
+      unrounded.resize(pixels);
+    else
+      unrounded.clear();
   });
   const bool keeps_ids = options.keep_sample_ids || options.keep_visibility;
   for (auto *ids : {&measurement.sample_triangle_id, &measurement.sample_pixel_id})

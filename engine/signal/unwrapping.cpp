@@ -86,6 +86,8 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
   Stopwatch stopwatch;
   frame.unwrapped_distance_m.resize(pixels);
   frame.unwrap_ok.resize(pixels);
+  const bool are_unrounded = !frame.returns.front().unrounded_distance_m.empty();
+  frame.unrounded_unwrapped_distance_m.resize(are_unrounded ? pixels : 0);
   tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
     Remainders remainders{};
     bool known = true, sure = true;
@@ -95,7 +97,9 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
       const double noise_m =
           of.distance_noise_m.empty() ? 0.0 : static_cast<double>(of.distance_noise_m[pixel]);
       const bool is_full = std::isnan(noise_m);
-      remainders[i] = {static_cast<double>(of.distance_m[pixel]), ambiguity_m, 1.0 / ambiguity_m,
+      remainders[i] = {are_unrounded ? of.unrounded_distance_m[pixel]
+                                     : static_cast<double>(of.distance_m[pixel]),
+                       ambiguity_m, 1.0 / ambiguity_m,
                        is_full ? 0.0 : 1.0 / (noise_m * noise_m + tolerance_m * tolerance_m)};
       known = known && std::isfinite(remainders[i].distance_m);
       sure = sure && !is_full;
@@ -105,6 +109,8 @@ void unwrap_distances(const Sensor &sensor, Measurement &frame) {
       of_pixel = unwrapped(remainders, count, sensor.unwrap_range_m);
     of_pixel.ok = of_pixel.ok && sure;
     frame.unwrapped_distance_m[pixel] = static_cast<float>(of_pixel.distance_m);
+    if (are_unrounded)
+      frame.unrounded_unwrapped_distance_m[pixel] = of_pixel.distance_m;
     frame.unwrap_ok[pixel] = of_pixel.ok ? 1 : 0;
   });
   stopwatch.add_to(frame, "unwrap");

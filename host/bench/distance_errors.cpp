@@ -61,12 +61,14 @@ std::vector<bool> on_edges(const TruePixels &truth, const Measurement &found, st
 ErrorsByPlace distance_errors(const TruePixels &truth, const std::vector<bool> &edges,
                               const Measurement &found) {
   const reference::FrameReturn &expected = truth.frame.returns.front();
-  const std::vector<float> &distance_m = found.returns.front().distance_m;
+  const Return &of = found.returns.front();
   std::vector<double> beside_m, on_m;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     if (std::isnan(expected.distance_m[i]))
       continue;
-    const auto found_m = static_cast<double>(distance_m[truth.pixels[i]]);
+    const double found_m = of.unrounded_distance_m.empty()
+                               ? static_cast<double>(of.distance_m[truth.pixels[i]])
+                               : of.unrounded_distance_m[truth.pixels[i]];
     const double error_m =
         std::isfinite(found_m)
             ? std::abs(std::remainder(found_m - expected.distance_m[i], expected.ambiguity_m))

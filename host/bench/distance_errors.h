@@ -30,7 +30,7 @@ struct ErrorsByPlace {
 };
 
 // The errors of pixels that are not dark in the reference. An error is half the ambiguity range, the largest
-// that there is, where the device has no distance.
+// that there is, where the device has no distance. Of unrounded distances where the frame has them.
 ErrorsByPlace distance_errors(const TruePixels &truth, const std::vector<bool> &edges,
                               const Measurement &found);
 

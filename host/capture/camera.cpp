@@ -2,6 +2,7 @@
 
 #include "engine/electronics/electrons.h"
 #include "engine/electronics/scatter.h"
+#include "engine/model/channels.h"
 #include "engine/signal/unwrapping.h"
 #include "host/capture/progress.h"
 
@@ -31,6 +32,7 @@ void set_extras(const Extras &extras, SimulatorOptions &options) {
   options.keep_sample_ids = extras.sample_triangles;
   options.keep_visibility = extras.reached;
   options.keep_taps = extras.taps;
+  options.keep_unrounded = extras.unrounded;
   options.count_electrons = extras.electrons_at_once;
   options.allowed.complex_returns = !extras.electrons_of_polar;
   const PathForms all;
@@ -153,6 +155,9 @@ Measurement Camera::measurement_of(const reference::Frame &frame, const Exposure
   if (!extras_.taps && !sensor_.electronics)
     for (Return &of_frequency : measurement.returns)
       of_frequency.taps.clear();
+  if (!extras_.unrounded)
+    for_each_unrounded(
+        measurement, [](const ChannelIndex &, auto &, std::vector<double> &unrounded) { unrounded.clear(); });
   return measurement;
 }
 

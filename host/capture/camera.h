@@ -18,6 +18,7 @@ struct Extras {
   bool sample_triangles = false;   // Measurement::sample_triangle_id, not from the reference
   bool reached = false;            // Measurement::sample_visibility, not from the reference
   bool taps = false;               // Return::taps, and those in electrons
+  bool unrounded = false;          // Return::unrounded_distance_m and the like
   bool electrons_at_once = false;  // SimulatorOptions::count_electrons: nothing is added to the frames' light
   bool electrons_of_polar = false; // then of amplitude and phase, as beside noiseless channels: the same bits
   bool diodes_in_a_loop = false;   // nothing is summed beforehand, and the sum is a pass of its own

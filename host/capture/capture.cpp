@@ -39,7 +39,12 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
   for (const Format format : request.formats)
     head.formats.push_back(format_name(format));
   head.channels = request.channels.names();
+  head.output_precision = request.output_precision;
   return head;
+}
+
+bool has_distances(const std::set<Format> &formats) {
+  return formats.empty() || std::ranges::any_of(formats, [](Format format) { return format != Format::png; });
 }
 
 } // namespace
@@ -69,6 +74,9 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
   if (request.formats == std::set{Format::png} && !request.channels.have_previews())
     throw Error(ExitCode::usage, "--format png: no picture is made of any of --channels, expected another "
                                  "format beside it");
+  if (request.output_precision == OutputPrecision::float64 && !has_distances(request.formats))
+    throw Error(ExitCode::usage, "--output-precision float64: only exr, npz, h5, npy and csv hold values; "
+                                 "expected one of them among --format");
 }
 
 Setup requested_setup(const CaptureRequest &request, const SetupDocument &document, SetupLoader &loader) {
@@ -120,10 +128,11 @@ Setup measurable(const CaptureRequest &request, Setup setup) {
 } // namespace
 
 Capture::Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
-                 const WantedChannels &measured, const std::shared_ptr<Camera> &camera)
+                 const WantedChannels &measured, const std::shared_ptr<Camera> &camera, bool keep_unrounded)
     : setup_(measurable(request, std::move(setup))), frames_(frames_to_write(request, setup_)),
       formats_(request.formats), channels_(request.channels), max_error_m_(request.accuracy.max_error_m),
-      exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured),
+      exposures_(setup_, camera, keep_taps, request.accuracy, request.paths, measured,
+                 keep_unrounded || request.output_precision == OutputPrecision::float64),
       sequence_(setup_,
                 {frames_, request.output_directory,
                  request.resume ? RunFolder::Earlier::kept : RunFolder::Earlier::made_again,
@@ -186,11 +195,12 @@ MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, cons
 }
 
 std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted,
-                                   std::size_t maps) {
+                                   std::size_t maps, bool keep_unrounded) {
   std::size_t most = 0;
   for (const Sensor &sensor : setup.start.sensors) {
     const std::size_t values = maps * sensor.modulation_hz.size() * sensor.pixel_count();
-    most = std::max(most, bytes_of_frame(sensor, keep_taps, setup.bounces, wanted) + values * sizeof(float));
+    most = std::max(most, bytes_of_frame(sensor, keep_taps, setup.bounces, wanted, keep_unrounded) +
+                              values * sizeof(double));
   }
   return most;
 }

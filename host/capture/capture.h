@@ -31,6 +31,7 @@ struct CaptureRequest {
   bool resume = false; // frames that are whole there stay
   std::set<Format> formats;
   WantedChannels channels;
+  OutputPrecision output_precision = OutputPrecision::float32;
 };
 
 // The setup with what is asked for instead of its own values. Its warnings go to stderr. Throws Error: input,
@@ -57,20 +58,22 @@ public:
   Capture(const CaptureRequest &request, const std::string &command, bool keep_taps)
       : Capture(request, requested_setup(request), command, keep_taps, request.channels) {}
   // Of `setup`, which is the requested one, changed.
-  // Measured are the channels that `measured` wants, beside those of the request.
+  // Measured are the channels that `measured` wants, beside those of the request, and unrounded distances
+  // where the request or the command asks for them.
   Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
-          const WantedChannels &measured)
+          const WantedChannels &measured, bool keep_unrounded = false)
       : Capture(request, std::move(setup), command, keep_taps, measured,
-                std::make_shared<Camera>(request.device)) {}
+                std::make_shared<Camera>(request.device), keep_unrounded) {}
   // With a camera that nobody else uses meanwhile.
   Capture(const CaptureRequest &request, Setup setup, const std::string &command, bool keep_taps,
-          const WantedChannels &measured, const std::shared_ptr<Camera> &camera);
+          const WantedChannels &measured, const std::shared_ptr<Camera> &camera, bool keep_unrounded = false);
 
   const Setup &setup() const { return setup_; }
   std::uint32_t frame_count() const { return frames_.count(); } // that were asked for
   const std::set<Format> &formats() const { return formats_; }
   const WantedChannels &channels() const { return channels_; } // of the request
-  const FrameSequence &sequence() const { return sequence_; }  // with what it has written
+  OutputPrecision output_precision() const { return sequence_.run().output_precision; }
+  const FrameSequence &sequence() const { return sequence_; } // with what it has written
   // Of the frames in the directory that were asked for, sensor by sensor, as its records have them. As
   // FrameSequence::for_each_record().
   void for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const;
@@ -103,9 +106,9 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at);
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats);
 
-// The bytes of the setup's largest frame of the wanted channels, with or without its taps, and with so many
-// maps more of each frequency.
+// The bytes of the setup's largest frame of the wanted channels, with or without its taps and unrounded
+// distances, and with so many maps of doubles more of each frequency.
 std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted = {},
-                                   std::size_t maps = 0);
+                                   std::size_t maps = 0, bool keep_unrounded = false);
 
 } // namespace pmdsim

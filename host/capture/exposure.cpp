@@ -76,19 +76,23 @@ double samples_of_frame(const Setup &setup) {
 }
 
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces,
-                           const WantedChannels &wanted) {
+                           const WantedChannels &wanted, bool keep_unrounded) {
   const std::size_t frequencies = sensor.modulation_hz.size(), taps = keep_taps ? sensor.taps : 0;
-  std::size_t channels = 0;
-  for (const ChannelRow &row : channel_rows)
+  std::size_t bytes = 0; // of a pixel
+  for (const ChannelRow &row : channel_rows) {
+    const bool is_twice = keep_unrounded && !std::holds_alternative<std::monostate>(row.unrounded);
+    const std::size_t of_channel = sizeof(float) + (is_twice ? sizeof(double) : 0);
     if (wanted.has(row) && has_channel(row, sensor, bounces))
-      channels += is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1;
-  return channels * sizeof(float) * sensor.pixel_count();
+      bytes += of_channel * (is_of_taps(row) ? frequencies * taps : is_of_frequency(row) ? frequencies : 1);
+  }
+  return bytes * sensor.pixel_count();
 }
 
 Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Exposure &expose, bool keep_taps,
                                const AddToExposure &add, const std::function<void()> &between) {
   std::optional<Measurement> frame;
   std::vector<Return> returns;
+  bool keeps_unrounded = false;
   BouncesOfTaps bounces(sensor);
   ElectronsRequest electrons{.keep_taps = keep_taps, .between = between};
   for (std::size_t i = 0; i < sensor.modulation_hz.size(); ++i) {
@@ -97,6 +101,7 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
       const double time_s = tap_time_s(sensor, frame_s, i, k);
       Measurement exposure = expose(i, time_s);
       bounces.add(exposure, i, k);
+      keeps_unrounded = !exposure.returns.front().unrounded_distance_m.empty();
       taps.push_back(std::move(exposure.returns.front().taps[k]));
       if (add)
         add(i, k, time_s, exposure, with_added.emplace_back(taps.back()));
@@ -109,8 +114,12 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
         frame = std::move(exposure);
       }
     }
-    returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i]));
+    returns.push_back(return_from_taps(std::move(taps), sensor.modulation_hz[i], true));
     bounces.finish(returns.back(), i);
+    if (!keeps_unrounded) {
+      returns.back().unrounded_distance_m.clear();
+      returns.back().unrounded_direct_distance_m.clear();
+    }
     if (add)
       set_from_taps(returns.back(), std::move(with_added), sensor.modulation_hz[i]);
   }
@@ -128,15 +137,18 @@ Measurement measure_tap_by_tap(const Sensor &sensor, double frame_s, const Expos
 }
 
 Exposures::Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy,
-                     std::uint32_t paths, const WantedChannels &wanted)
-    : Exposures(setup, std::make_shared<Camera>(device), keep_taps, accuracy, paths, wanted) {}
+                     std::uint32_t paths, const WantedChannels &wanted, bool keep_unrounded)
+    : Exposures(setup, std::make_shared<Camera>(device), keep_taps, accuracy, paths, wanted, keep_unrounded) {
+}
 
 Exposures::Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps,
-                     const Accuracy &accuracy, std::uint32_t paths, const WantedChannels &wanted)
+                     const Accuracy &accuracy, std::uint32_t paths, const WantedChannels &wanted,
+                     bool keep_unrounded)
     : setup_(setup), wanted_(wanted), leaves_noiseless_(leaves_noiseless(wanted, setup.start.sensors)),
       keep_taps_(keep_taps && wanted.have_taps()), accuracy_(accuracy), camera_(std::move(camera)),
       others_(setup, camera_->wanted(), paths, are_others_asked_for()), instants_(setup) {
   camera_->give({.taps = keep_taps_ || exposes_any_tap_by_tap(setup),
+                 .unrounded = keep_unrounded,
                  .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
                  .electrons_of_polar = leaves_noiseless_,
                  .paths = paths});

@@ -66,10 +66,10 @@ inline constexpr const char *tap_by_tap_is_exact =
 double samples_of_frame(const Setup &setup, const Sensor &sensor);
 double samples_of_frame(const Setup &setup);
 
-// Bytes of the wanted channels of one frame, with or without its taps and what light that bounces adds;
-// shadows included, whether or not there are.
+// Bytes of the wanted channels of one frame, with or without its taps, unrounded distances and what light
+// that bounces adds; shadows included, whether or not there are.
 std::size_t bytes_of_frame(const Sensor &sensor, bool keep_taps, const Bounces &bounces,
-                           const WantedChannels &wanted = {});
+                           const WantedChannels &wanted = {}, bool keep_unrounded = false);
 
 // Times of the same pass add up; a pass that is new comes last.
 void add_passes(std::vector<PassTime> &sum, const std::vector<PassTime> &passes);
@@ -103,13 +103,13 @@ public:
   // Throws Error (no_device). Without `keep_taps` frames have no taps, however they are taken. Frames whose
   // taps are exposures of their own are taken in mode exact whatever `accuracy` says: a bound of each
   // exposure's error is no bound of the phase and distance that follow from a tap of each.
-  // `paths` as Extras. Of the channels of a frame only those that are wanted are there, and what no other
-  // needs is not computed; they have the bits that they have in a whole frame.
+  // `paths` and `keep_unrounded` as Extras. Of the channels of a frame only those that are wanted are there,
+  // and what no other needs is not computed; they have the bits that they have in a whole frame.
   Exposures(const Setup &setup, const std::string &device, bool keep_taps, const Accuracy &accuracy = {},
-            std::uint32_t paths = 0, const WantedChannels &wanted = {});
+            std::uint32_t paths = 0, const WantedChannels &wanted = {}, bool keep_unrounded = false);
   // With a camera that others may have used before, and nobody does meanwhile.
   Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool keep_taps, const Accuracy &accuracy,
-            std::uint32_t paths, const WantedChannels &wanted);
+            std::uint32_t paths, const WantedChannels &wanted, bool keep_unrounded);
 
   const Camera &camera() const { return *camera_; }
   // As Simulator::reuse().

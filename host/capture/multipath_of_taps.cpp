@@ -32,8 +32,7 @@ std::vector<float> multipath_m(const Return &whole, const Return &direct, double
   std::vector<float> added_m;
   for (std::size_t pixel = 0; pixel < whole.distance_m.size(); ++pixel)
     added_m.push_back(static_cast<float>(
-        wrapped(static_cast<double>(whole.distance_m[pixel]) - static_cast<double>(direct.distance_m[pixel]),
-                ambiguity_m)));
+        wrapped(whole.unrounded_distance_m[pixel] - direct.unrounded_distance_m[pixel], ambiguity_m)));
   return added_m;
 }
 
@@ -72,7 +71,7 @@ void BouncesOfTaps::finish(Return &of_frequency, std::size_t frequency) {
   std::vector<float> error_m = std::exchange(error_m_, {});
   if (direct_taps_.empty())
     return;
-  Return direct = return_from_taps(std::exchange(direct_taps_, {}), sensor_.modulation_hz[frequency]);
+  Return direct = return_from_taps(std::exchange(direct_taps_, {}), sensor_.modulation_hz[frequency], true);
   for (std::size_t pixel = 0; pixel < error_m.size(); ++pixel)
     if (std::isnan(of_frequency.distance_m[pixel]))
       error_m[pixel] = no_value;
@@ -82,6 +81,7 @@ void BouncesOfTaps::finish(Return &of_frequency, std::size_t frequency) {
   of_frequency.direct_amplitude = std::move(direct.amplitude);
   of_frequency.direct_phase_rad = std::move(direct.phase_rad);
   of_frequency.direct_distance_m = std::move(direct.distance_m);
+  of_frequency.unrounded_direct_distance_m = std::move(direct.unrounded_distance_m);
 }
 
 } // namespace pmdsim

@@ -20,8 +20,8 @@ public:
 
   // The exposure that gives the tap of the frequency, which it measured alone. In the order of taps.
   void add(const Measurement &exposure, std::size_t frequency, std::size_t tap);
-  // Fills the channels of multipath in what the frequency returns, from all of its exposures since the last
-  // call; multipath_error_m is the largest of theirs.
+  // Fills the channels of multipath in what the frequency returns, its unrounded distance among it, from all
+  // of its exposures since the last call; multipath_error_m is the largest of theirs.
   void finish(Return &of_frequency, std::size_t frequency);
   // All exposures together; the error claimed is the largest that one of the first frequency claims, NaN
   // where there are no channels of multipath. Nothing where no light bounces.

@@ -53,9 +53,9 @@ TakenFrame Session::take(std::size_t sensor, std::uint32_t number, const FrameRe
     auto setup = with_samples(setup_, request.samples);
     const Setup &of = *setup;
     request.channels.require_in(of, request.accuracy);
-    taking_.reset(
-        new Taking{std::move(setup), request,
-                   Exposures(of, camera_, true, request.accuracy, request.paths, request.channels)});
+    taking_.reset(new Taking{std::move(setup), request,
+                             Exposures(of, camera_, true, request.accuracy, request.paths, request.channels,
+                                       request.output_precision == OutputPrecision::float64)});
   }
   return taking_->exposures.take(sensor, number, Light::beside_lens, progress);
 }

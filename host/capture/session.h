@@ -5,6 +5,7 @@
 #include "host/capture/exposure.h"
 #include "host/input/setup/document.h"
 #include "host/input/setup/setup.h"
+#include "host/output/files/manifest.h"
 
 #include <memory>
 #include <optional>
@@ -19,10 +20,11 @@ struct FrameRequest {
   std::optional<SampleChoice> samples; // instead of the setup's
   std::uint32_t paths = 0;             // of the reference, as Extras
   WantedChannels channels{};
+  OutputPrecision output_precision = OutputPrecision::float32;
 
   bool operator==(const FrameRequest &other) const {
     return accuracy == other.accuracy && samples == other.samples && paths == other.paths &&
-           channels.names() == other.channels.names();
+           channels.names() == other.channels.names() && output_precision == other.output_precision;
   }
 };
 

@@ -68,6 +68,13 @@ Values &values_of(Measurement &frame, const ChannelIndex &channel) {
   return *values;
 }
 
+// Of a channel that may be there in double, too; in a frame that has room for it.
+std::vector<double> &unrounded_of(Measurement &frame, const ChannelIndex &channel) {
+  if (const auto of_frame = std::get_if<std::vector<double> Measurement::*>(&channel.row.unrounded))
+    return frame.**of_frame;
+  return frame.returns[channel.frequency].*std::get<std::vector<double> Return::*>(channel.row.unrounded);
+}
+
 template <class Which>
 void move_values(Measurement &from, Measurement &to, const Which &which) {
   for_each_channel(from, [&](const ChannelIndex &channel, auto &values) {
@@ -76,6 +83,13 @@ void move_values(Measurement &from, Measurement &to, const Which &which) {
     auto &there = values_of<std::remove_cvref_t<decltype(values)>>(to, channel);
     if (there.empty())
       there = std::exchange(values, {});
+  });
+  for_each_unrounded(from, [&](const ChannelIndex &channel, auto &, std::vector<double> &unrounded) {
+    if (unrounded.empty() || !which(channel))
+      return;
+    std::vector<double> &there = unrounded_of(to, channel);
+    if (there.empty())
+      there = std::exchange(unrounded, {});
   });
 }
 
@@ -236,11 +250,13 @@ void name_light(FramePart part, const Sensor &sensor, Measurement &frame) {
       of.direct_amplitude = std::exchange(of.amplitude, {});
       of.direct_phase_rad = std::exchange(of.phase_rad, {});
       of.direct_distance_m = std::exchange(of.distance_m, {});
+      of.unrounded_direct_distance_m = std::exchange(of.unrounded_distance_m, {});
     }
     if (is_noiseless) {
       of.amplitude_noiseless = std::exchange(of.amplitude, {});
       of.phase_rad_noiseless = std::exchange(of.phase_rad, {});
       of.distance_m_noiseless = std::exchange(of.distance_m, {});
+      of.unrounded_distance_m_noiseless = std::exchange(of.unrounded_distance_m, {});
     }
   }
 }

@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Deformations of one frame, a map each frequency.
-using Maps = std::vector<std::vector<float>>;
+// A map each frequency of one frame.
+using Maps = std::vector<std::vector<double>>;
 
 // The report of one sensor's frame, to scripts and people.
 struct DeformedFrame {
@@ -45,14 +45,15 @@ AccuracyReport of_difference(const AccuracyReport &bistatic, const AccuracyRepor
 // One sensor's frame, taken both ways.
 struct TakenPair {
   TakenFrame bistatic;
-  Maps monostatic_m, deformations_mm; // the latter once it is written
+  Maps monostatic_m, deformations_mm;           // the latter, and the next, once it is written
+  std::vector<std::vector<float>> rounded_mm{}; // deformations
 };
 
 // Wrapped, a map each frequency.
 Maps deformations_mm(const TakenPair &pair) {
   Maps deformations;
   for (std::size_t i = 0; i < pair.monostatic_m.size(); ++i)
-    deformations.push_back(deformation_mm(pair.bistatic.measurement.returns[i].distance_m,
+    deformations.push_back(deformation_mm(pair.bistatic.measurement.returns[i].unrounded_distance_m,
                                           pair.monostatic_m[i], pair.bistatic.sensor.ambiguity_m(i)));
   return deformations;
 }
@@ -80,17 +81,21 @@ bool is_asked_for(const Channel &channel, const WantedChannels &channels) {
 std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair> &pair,
                                            const FrameRecord &record, const Capture &capture) {
   const Measurement &bistatic = pair->bistatic.measurement;
+  const bool is_unrounded = capture.output_precision() == OutputPrecision::float64;
   const Maps &deformations = pair->deformations_mm;
   ChannelSet set{bistatic.resolution, {}};
   const bool has_deformation = capture.channels().has_own(deformation_channel);
   for (std::size_t i = 0; has_deformation && i < deformations.size(); ++i)
     set.channels.push_back(
-        {deformation_channel, "mm", std::span(deformations[i]), frequency_of(i, deformations.size()),
-         Preview{"deformation", ColourScale::zero_centred}, "bistatic minus monostatic distance, wrapped"});
+        {deformation_channel, "mm", std::span(pair->rounded_mm[i]), frequency_of(i, deformations.size()),
+         Preview{"deformation", ColourScale::zero_centred}, "bistatic minus monostatic distance, wrapped",
+         is_unrounded ? std::span<const double>(deformations[i]) : std::span<const double>()});
   ChannelSet measured = channels_of(bistatic);
   for (Channel &channel : measured.channels)
     if (is_asked_for(channel, capture.channels())) {
       channel.preview = std::nullopt;
+      if (!is_unrounded)
+        channel.unrounded = {};
       set.channels.push_back(std::move(channel));
     }
   const auto frame = std::make_shared<const FrameToWrite>(
@@ -108,7 +113,7 @@ std::shared_ptr<TakenPair> take_pair(Capture &capture, const SensorFrame &at, De
   auto pair = std::make_shared<TakenPair>();
   pair->bistatic = capture.take(at, Light::in_lens, at.time_s, ", monostatic");
   for (Return &of_frequency : pair->bistatic.measurement.returns)
-    pair->monostatic_m.push_back(std::move(of_frequency.distance_m));
+    pair->monostatic_m.push_back(std::move(of_frequency.unrounded_distance_m));
   const AccuracyReport monostatic = pair->bistatic.measurement.accuracy;
   pair->bistatic = {}; // its memory first
   pair->bistatic = capture.take(at, Light::beside_lens, at.next_s, ", bistatic");
@@ -155,15 +160,17 @@ std::deque<DeformedFrame> deform(Capture &capture) {
         first.empty() || first.front().record.frame == at.frame ? &first.emplace_back(*told) : nullptr;
     return {record_of(pair->bistatic, at), [pair, told, kept, &capture](FrameRecord &record) {
               pair->deformations_mm = deformations_mm(*pair);
-              for (const std::vector<float> &deformation : pair->deformations_mm)
+              for (const std::vector<double> &deformation : pair->deformations_mm) {
                 told->statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
+                pair->rounded_mm.emplace_back(deformation.begin(), deformation.end());
+              }
               record.told = deformed_json(*told);
               if (kept)
                 kept->statistics = told->statistics;
               return deformation_files(pair, told->record, capture);
             }};
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, capture.channels(), 2), 2.0);
+  capture.write(measure, bytes_of_largest_frame(capture.setup(), false, capture.channels(), 3, true), 2.0);
   return first;
 }
 
@@ -238,7 +245,8 @@ void run_deform(const Options &options) {
   Setup setup = requested_setup(options.capture);
   leave_out_electronics(setup);
   const WantedChannels measured = options.capture.channels.with(row_of(&Return::distance_m));
-  Capture capture(options.capture, std::move(setup), "deform", false, measured);
+  constexpr bool keep_unrounded = true;
+  Capture capture(options.capture, std::move(setup), "deform", false, measured, keep_unrounded);
   const std::deque<DeformedFrame> first = deform(capture);
   const std::string report = report_of_run(options, capture);
   if (options.json)

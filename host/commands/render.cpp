@@ -80,6 +80,11 @@ void print_render_json(const Capture &capture, const std::string &report) {
   pieces.end();
 }
 
+std::size_t bytes_of_largest(const Capture &capture) {
+  return bytes_of_largest_frame(capture.setup(), true, capture.channels(), 0,
+                                capture.output_precision() == OutputPrecision::float64);
+}
+
 // Writes all frames and returns what is to be said of the first that is made here.
 std::string render(Capture &capture) {
   std::string text;
@@ -91,7 +96,7 @@ std::string render(Capture &capture) {
     first = first.value_or(at.frame);
     return rendered_frame(taken, at, capture.formats());
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), true, capture.channels()));
+  capture.write(measure, bytes_of_largest(capture));
   return text;
 }
 
@@ -105,7 +110,7 @@ void render_variant(Capture &capture, const std::string &name) {
                           return files(record);
                         }};
   };
-  capture.write(measure, bytes_of_largest_frame(capture.setup(), true, capture.channels()));
+  capture.write(measure, bytes_of_largest(capture));
 }
 
 ordered_json variant_json(const Variant &variant, const Capture &capture) {

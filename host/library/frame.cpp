@@ -5,6 +5,7 @@
 #include "host/library/objects.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <limits>
 #include <variant>
@@ -22,25 +23,26 @@ std::shared_ptr<FrameObject> frame_of(const pmdsim_frame *handle) {
 ChannelSet channels_of(const ReadFrame &frame) {
   ChannelSet set{frame.resolution, {}};
   for (const ReadChannel &channel : frame.channels)
-    std::visit(
-        [&](const auto &values) {
-          set.channels.push_back({channel.name, channel.unit, std::span(values)});
-        },
-        channel.values);
+    if (const auto *doubles = std::get_if<std::vector<double>>(&channel.values)) {
+      set.channels.push_back({channel.name, channel.unit, std::span<const float>()});
+      set.channels.back().unrounded = *doubles;
+    } else if (const auto *floats = std::get_if<std::vector<float>>(&channel.values)) {
+      set.channels.push_back({channel.name, channel.unit, std::span(*floats)});
+    } else {
+      set.channels.push_back(
+          {channel.name, channel.unit, std::span(std::get<std::vector<std::uint32_t>>(channel.values))});
+    }
   return set;
 }
 
 void tell(const FrameObject &frame, std::size_t index, pmdsim_channel *channel) {
   const Channel &of = frame.channels.channels[index];
-  const bool is_float = std::holds_alternative<std::span<const float>>(of.values);
-  const void *values = std::visit([](const auto &span) -> const void * { return span.data(); }, of.values);
-  const pmdsim_channel told{sizeof(pmdsim_channel),
-                            frame.names[index].c_str(),
-                            of.unit.c_str(),
-                            is_float ? PMDSIM_FLOAT32 : PMDSIM_UINT32,
-                            frame.channels.resolution.y,
-                            frame.channels.resolution.x,
-                            values};
+  constexpr std::array types{PMDSIM_FLOAT32, PMDSIM_UINT32, PMDSIM_FLOAT64}; // of ChannelValues
+  const ChannelValues known = written_values(of);
+  const void *values = std::visit([](const auto &span) -> const void * { return span.data(); }, known);
+  const pmdsim_channel told{
+      sizeof(pmdsim_channel),      frame.names[index].c_str(),  of.unit.c_str(), types.at(known.index()),
+      frame.channels.resolution.y, frame.channels.resolution.x, values};
   fill_struct(&told, sizeof(told), sizeof(told), &required(channel, "channel"), "channel");
 }
 

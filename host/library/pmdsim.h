@@ -146,6 +146,7 @@ typedef struct pmdsim_render_options {
   const char *channels; /* names, separated by commas; NULL: all. What only others need is not computed */
   uint32_t paths;       /* of the reference, for each pixel where light bounces; 0: it chooses */
   int strict;           /* a frame some of whose pixels may be off by more is PMDSIM_BAD_ACCURACY */
+  const char *output_precision; /* of distances, "float32" or "float64"; NULL: float32 */
 } pmdsim_render_options;
 
 /* Measures frame `frame` of the sensor with the index `sensor`, both from 0; the same bits as the program
@@ -159,7 +160,7 @@ PMDSIM_API pmdsim_status pmdsim_frame_read(const char *file, pmdsim_frame **fram
 
 PMDSIM_API pmdsim_status pmdsim_frame_destroy(pmdsim_frame *frame);
 
-typedef enum pmdsim_type { PMDSIM_FLOAT32 = 0, PMDSIM_UINT32 = 1 } pmdsim_type;
+typedef enum pmdsim_type { PMDSIM_FLOAT32 = 0, PMDSIM_UINT32 = 1, PMDSIM_FLOAT64 = 2 } pmdsim_type;
 
 /* A view that lives as long as its frame. Floats are NaN where nothing was measured, ids 4294967295
  * (docs/outputs.md, "Channels"). */

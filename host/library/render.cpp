@@ -99,11 +99,18 @@ WantedChannels channels_of(const char *text) {
   }
 }
 
+OutputPrecision output_precision_of(const char *text) {
+  const std::map<std::string, OutputPrecision> precisions{{"float32", OutputPrecision::float32},
+                                                          {"float64", OutputPrecision::float64}};
+  return text ? named(precisions, "output_precision", text) : OutputPrecision::float32;
+}
+
 FrameRequest request_of(const pmdsim_render_options *given, bool on_reference) {
   const pmdsim_render_options options =
       given ? struct_of(given, sizeof(pmdsim_render_options), "options") : pmdsim_render_options{};
   return {accuracy_of(options, on_reference), samples_of(options.samples),
-          paths_of(options.paths, on_reference), channels_of(options.channels)};
+          paths_of(options.paths, on_reference), channels_of(options.channels),
+          output_precision_of(options.output_precision)};
 }
 
 nlohmann::ordered_json report_of(const TakenFrame &taken, std::uint32_t frame, const Setup &setup,

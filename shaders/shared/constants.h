@@ -68,6 +68,7 @@ PMDSIM_CONSTANT constant_bits_by_row = 53; // 1: a sample's bits lie where its r
 PMDSIM_CONSTANT constant_cosine_fraction = 54; // float; of pattern_power, what is left of its order
 PMDSIM_CONSTANT constant_beams = 55; // 1: what rounding does within beams is kept beside the light
 PMDSIM_CONSTANT constant_keeps_mean = 56; // 1: the last frequency is 0 Hz, whose sum is the mean light's
+PMDSIM_CONSTANT constant_keeps_rests = 57; // 1: what rounding takes from distance and range is a channel, too
 
 PMDSIM_CONSTANT lists_no_pixel = 0; // the uniform-pixel pass takes all, and none can be beyond the bound
 PMDSIM_CONSTANT lists_in_two = 1;   // what does not: in list_unshadowed or list_rest

@@ -21,6 +21,7 @@ layout(constant_id = constant_tiled) const uint tiled = 0;
 layout(constant_id = constant_lit_is_kept) const uint lit_is_kept = 0;
 layout(constant_id = constant_keeps_terms) const uint keeps_terms = 0;
 layout(constant_id = constant_keeps_bounds) const uint keeps_bounds = 0;
+layout(constant_id = constant_keeps_rests) const uint keeps_rests = 0;
 layout(constant_id = constant_precise_sum) const uint precise_sum = 0;
 
 // The slots of engine/model/channels.h: of the ground truth (which the host may find in records instead, but for the range), and
@@ -36,6 +37,7 @@ const uint channel_distance_m = 2;
 const uint channel_range_m = 3; // the same of each frequency: it fills a pair
 const uint channel_tap = 4;     // the first
 const uint bound_channel = channel_tap + (keep_taps != 0 ? (taps + 1) / 2 * 2 : 0); // in a pair of its own
+const uint rest_channels = bound_channel + (keeps_bounds != 0 ? 2 : 0); // a pair: of distance and range
 
 float nan() { return uintBitsToFloat(0x7fc00000u); }
 
@@ -183,8 +185,24 @@ RealComplex precise_return(PixelSum sum, Frequency frequency) {
                                        : demodulate_harmonics_precisely(sum, frequency);
 }
 
+// A mean over the samples hit, to be rounded to float; not known where there is none.
+struct MeanOfHits {
+  Real exact;
+  bool is_known;
+};
+
+float rounded(MeanOfHits mean) { return mean.is_known ? high(mean.exact) : nan(); }
+
+// Stores what rounding took, and at the ends of its interval the distance's clamping; up to whole ambiguities.
+void store_rests(Channels to, Frequency frequency, uint pixel, Real distance, float distance_m, MeanOfHits range) {
+  if (keeps_rests == 0)
+    return;
+  vec2 rests = vec2(high(add(distance, real(-distance_m))), rest(range.exact));
+  store_pair(to, frequency.first_channel + rest_channels, pixel, floatBitsToUint(rests));
+}
+
 // `turns` in [-1, 1]. Phase and distance are not known where nothing returns. Returns the distance, or 0.
-float store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, float range_m) {
+float store_phase(Channels to, Frequency frequency, uint pixel, float amplitude, Real turns, MeanOfHits range) {
   bool is_known = amplitude > 0.0;
   turns = add(turns, real(high(turns) < 0.0 ? 1.0 : 0.0));
   turns = add(turns, real(high(turns) >= 1.0 ? -1.0 : 0.0));
@@ -199,15 +217,16 @@ float store_phase(Channels to, Frequency frequency, uint pixel, float amplitude,
   float rounded_m = distance_m;
   if (precise_sum != 0 && high(distance) > frequency.below.y)
     distance_m = 0.0;
-  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), range_m)));
+  store_pair(to, channel + channel_distance_m, pixel, floatBitsToUint(vec2(is_known ? distance_m : nan(), rounded(range))));
+  store_rests(to, frequency, pixel, distance, distance_m, range);
   return is_known ? rounded_m : 0.0;
 }
 
 // The mean of what was summed over the samples hit; `samples`: S x S.
-float mean_over_hits(Real sum, PixelSum pixel, uint samples) {
+MeanOfHits mean_over_hits(Real sum, PixelSum pixel, uint samples) {
   if (samples > 1)
     sum = divide(sum, real(float(max(pixel.hits, 1u))));
-  return pixel.hits > 0u ? high(sum) : nan();
+  return MeanOfHits(sum, pixel.hits > 0u);
 }
 
 // What the bound of a pixel's return asks for: |z| over what one sample's unit return would come to, and the distance, or 0.
@@ -254,7 +273,7 @@ Return store_return(Channels to, Frequency frequency, uint samples, uint pixel, 
 }
 
 void store_ground_truth(Channels to, uint samples, uint pixel, PixelSum sum) {
-  vec2 truth = vec2(float(sum.hits) / float(samples), mean_over_hits(sum.depth, sum, samples));
+  vec2 truth = vec2(float(sum.hits) / float(samples), rounded(mean_over_hits(sum.depth, sum, samples)));
   store_pair(to, channel_coverage, pixel, floatBitsToUint(truth));
 }
 

@@ -1,5 +1,6 @@
 // The rows of channels against what else lists them: the shader that stores them, and the documents.
 
+#include "engine/model/channel_names.h"
 #include "engine/model/channels.h"
 
 #include <catch2/catch.hpp>
@@ -88,6 +89,21 @@ TEST_CASE("the documents list the channels as their rows say") {
   for (const ChannelRow &row : channel_rows)
     expected.push_back(documented(row));
   CHECK(documented_rows() == expected);
+}
+
+TEST_CASE("the name of a rest tells the channel that it belongs to") {
+  for (const auto &[name, rest] : {std::pair("distance_m", "distance_rest_m"),
+                                   {"f1.direct_distance_m", "f1.direct_distance_rest_m"},
+                                   {"distance_m_noiseless", "distance_rest_m_noiseless"},
+                                   {"deformation_mm", "deformation_rest_mm"}}) {
+    CHECK(rest_name(name) == rest);
+    CHECK(name_of_rest(rest) == name);
+    CHECK(name_of_rest(name) == std::nullopt);
+  }
+  CHECK(name_of_rest("crest_m") == std::nullopt);
+  CHECK(name_of_rest("_rest") == "");
+  for (const ChannelRow &row : channel_rows)
+    CHECK(name_of_rest(row.name) == std::nullopt);
 }
 
 TEST_CASE("pictures are of floats, and names differ") {

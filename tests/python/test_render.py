@@ -260,6 +260,34 @@ class Render(unittest.TestCase):
         with self.assertRaises(pmdsim.AccuracyError):
             render("0.05um")
 
+    def test_distances_in_float64(self) -> None:
+        single = pmdsim.render(small_setup())
+        double = pmdsim.render(small_setup(), output_precision="float64")
+        self.assertEqual(single.channels, double.channels)
+        for name in single.channels:
+            expected = np.float64 if name in ("distance_m", "range_m") else single[name].dtype
+            self.assertEqual(double[name].dtype, expected, name)
+            np.testing.assert_array_equal(double[name].astype(single[name].dtype), single[name])
+        self.assertTrue(np.any(double.distance_m != single.distance_m))
+        with pmdsim.Simulator(small_setup()) as simulator:
+            np.testing.assert_array_equal(simulator.render(output_precision="float64").range_m, double.range_m)
+            self.assertEqual(simulator.render(output_precision="float32").range_m.dtype, np.float32)
+        with self.assertRaisesRegex(pmdsim.ArgumentError, "output_precision: expected float32 or float64"):
+            pmdsim.render(small_setup(), output_precision="double")
+
+    def test_float64_of_files(self) -> None:
+        double = pmdsim.render(small_setup(), output_precision="float64")
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            (place / "setup.json").write_text(json.dumps(small_setup()))
+            for kind in ("npy", "npz", "h5", "exr"):
+                options = ["--format", kind, "--output-precision", "float64"]
+                write_by_program(place / "setup.json", place / kind, *options)
+                (frame,) = pmdsim.load(place / kind).frames
+                for name in ("distance_m", "range_m"):
+                    self.assertEqual(frame[name].dtype, np.float64, f"{name} in {kind}")
+                    np.testing.assert_allclose(frame[name], double[name], rtol=2**-48 if kind == "exr" else 0)
+
     def test_what_there_is(self) -> None:
         self.assertIn("distance_m", [channel["name"] for channel in pmdsim.channels()])
         self.assertIn("sensors", pmdsim.schema()["properties"])

@@ -111,6 +111,19 @@ TEST_CASE("bounds lie behind each frequency's taps, where they are kept") {
   CHECK(with.number({row_of(&Return::error_bound_m), 2}) + 2 == with.lit_channel());
 }
 
+TEST_CASE("what rounding takes lies behind each frequency's bounds, where it is kept") {
+  Modulation signal = signal_with_taps();
+  signal.keeps_bounds = true;
+  const ChannelLayout without(signal);
+  signal.keeps_rests = true;
+  const ChannelLayout with(signal);
+  CHECK(with.channels() == without.channels() + 6);
+  for (std::uint32_t f = 0; f < 3; ++f) {
+    CHECK(with.rest_channels(f) == with.number({row_of(&Return::error_bound_m), f}) + 2);
+    CHECK(with.rest_channels(f) + 2 == with.first_channel(f + 1));
+  }
+}
+
 TEST_CASE("a frequency's turns and its ambiguity, to double precision") {
   const auto records = frequency_records(signal_with_taps(), 2.5, {}, 240);
   REQUIRE(records.size() == modulation_hz.size());

@@ -185,6 +185,7 @@ public:
       to_.amplitude_noiseless = to_.amplitude;
       to_.phase_rad_noiseless = to_.phase_rad;
       to_.distance_m_noiseless = to_.distance_m;
+      to_.unrounded_distance_m_noiseless = to_.unrounded_distance_m;
     }
     to_.saturated.resize(pixels);
     to_.distance_noise_m.resize(pixels);
@@ -232,8 +233,10 @@ private:
     const bool is_known = z_e != 0.0;
     to_.amplitude[pixel] = static_cast<float>(radiance_per_e * std::abs(z_e));
     to_.phase_rad[pixel] = static_cast<float>(is_known ? phase_rad : no_number);
-    to_.distance_m[pixel] =
-        static_cast<float>(is_known ? noiseless_.ambiguity_m * phase_rad / turn_rad : no_number);
+    const double distance_m = is_known ? noiseless_.ambiguity_m * phase_rad / turn_rad : no_number;
+    to_.distance_m[pixel] = static_cast<float>(distance_m);
+    if (!to_.unrounded_distance_m.empty())
+      to_.unrounded_distance_m[pixel] = distance_m;
   }
 
   void set_noise(std::uint32_t pixel, const std::complex<double> &z_e, double radiance_per_e) {

@@ -42,6 +42,8 @@ Return rounded(const FrameReturn &exact) {
   result.multipath_m = rounded(exact.multipath_m);
   result.multipath_error_m = rounded(exact.multipath_error_m);
   result.indirect_share = rounded(exact.indirect_share);
+  result.unrounded_distance_m = exact.distance_m;
+  result.unrounded_direct_distance_m = exact.direct_distance_m;
   return result;
 }
 
@@ -155,6 +157,7 @@ Measurement to_measurement(const Frame &frame) {
   for (const FrameReturn &of_frequency : frame.returns)
     measurement.returns.push_back(rounded(of_frequency));
   measurement.range_m = rounded(frame.range_m);
+  measurement.unrounded_range_m = frame.range_m;
   measurement.z_m = rounded(frame.z_m);
   measurement.coverage = rounded(frame.coverage);
   measurement.lit = rounded(frame.lit);

@@ -53,9 +53,9 @@ private:
   std::vector<RunForm> field_forms_;
   std::vector<shader::Frequency> field_frequencies_;
   std::optional<float> backscatter_;
-  bool vignetting_, lit_, holds_, keeps_bounds_, reports_kept_, complex_returns_;
+  bool vignetting_, lit_, holds_, keeps_bounds_, keeps_rests_, reports_kept_, complex_returns_;
   const vulkan::Buffer *later_;
-  std::uint32_t first_tap_, bound_;
+  std::uint32_t first_tap_, bound_, rests_;
   std::vector<std::array<float, 2>> tap_phasors_; // of those that are kept
   PixelLoops loops_;
 };
@@ -94,10 +94,12 @@ PixelsOnHost::PixelsOnHost(const PassSetup &on, const SourceGroups &groups, cons
       frequency_count_(on.modulation.modulations()), backscatter_(on.scene.backscatter),
       vignetting_(on.sensor.vignetting == Vignetting::cos4), lit_(on.modulation.lit),
       holds_(holds_pixels(on.modulation)), keeps_bounds_(on.modulation.keeps_bounds),
-      reports_kept_(on.modulation.reports_kept), complex_returns_(on.modulation.complex_returns),
-      later_(scope.later), first_tap_(row_of(&Return::taps).slot.index),
+      keeps_rests_(on.modulation.keeps_rests), reports_kept_(on.modulation.reports_kept),
+      complex_returns_(on.modulation.complex_returns), later_(scope.later),
+      first_tap_(row_of(&Return::taps).slot.index),
       bound_(ChannelLayout(on.modulation).number({row_of(&Return::error_bound_m)}) -
              frequencies_.front().first_channel),
+      rests_(ChannelLayout(on.modulation).rest_channels(0) - frequencies_.front().first_channel),
       tap_phasors_(tap_phasors(on.modulation.keep_taps ? on.modulation.taps : 0)),
       loops_(widest_pixel_loops(on.options.host_vector_bits)) {
   if (frequency_count_ > most_pixel_frequencies || on.scene.paint.painted || !buffers_.channels.is_mapped())
@@ -180,8 +182,10 @@ void PixelsOnHost::make(const shader::Strip &strip) const {
                        .later = later ? reinterpret_cast<std::uint32_t *>(later + 1) : nullptr,
                        .later_count = later ? &later->count : nullptr,
                        .keeps_bounds = keeps_bounds_,
+                       .keeps_rests = keeps_rests_,
                        .first_tap = first_tap_,
                        .bound = bound_,
+                       .rests = rests_,
                        .complex_returns = complex_returns_,
                        .kept_taps = static_cast<std::uint32_t>(tap_phasors_.size()),
                        .tap_phasors = reinterpret_cast<const float(*)[2]>(tap_phasors_.data()),

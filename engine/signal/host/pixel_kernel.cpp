@@ -169,16 +169,31 @@ void store_taps(const PixelWork &of, const shader::Frequency &frequency, const V
     store_channels(of, frequency.first_channel + of.first_tap + k, samples, tap(k), tap(k + 1));
 }
 
+// The range, to be rounded to float.
+struct Range {
+  Wide exact;
+  Floats rounded_m; // not known where nothing is hit
+};
+
+// What rounding took, and at the ends of its interval the distance's clamping; up to whole ambiguities.
+void store_rests(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
+                 const Floats &distance_rest_m, const Range &range) {
+  if (of.keeps_rests)
+    store_channels(of, frequency.first_channel + of.rests, samples, distance_rest_m,
+                   narrow(range.exact - wide(range.rounded_m)));
+}
+
 // The return with all of its phase, and the range.
 void store_complex(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-                   const Complex &whole, const Floats &range_m) {
+                   const Complex &whole, const Range &range) {
   store_channels(of, frequency.first_channel, samples, whole.re, whole.im);
-  store_channels(of, frequency.first_channel + 2, samples, all(0.0f), range_m);
+  store_channels(of, frequency.first_channel + 2, samples, all(0.0f), range.rounded_m);
+  store_rests(of, frequency, samples, all(0.0f), range);
 }
 
 // As store_phase of shaders/signal/demodulation.glsl; `turns` in [-1, 1]. Returns the distance, or 0.
 Floats store_phase(const PixelWork &of, const shader::Frequency &frequency, const VectorSamples &samples,
-                   const Floats &amplitude, const Wide &turns, const Floats &range_m) {
+                   const Floats &amplitude, const Wide &turns, const Range &range) {
   const Ints is_known = amplitude > 0.0f;
   const Floats nan = all(std::numeric_limits<float>::quiet_NaN()), none = all(0.0f);
   const Floats rough = narrow(turns);
@@ -190,8 +205,10 @@ Floats store_phase(const PixelWork &of, const shader::Frequency &frequency, cons
   const double ambiguity_m = of_pair(frequency.ambiguity_m);
   store_channels(of, frequency.first_channel, samples, amplitude,
                  limited(within * two_pi, frequency.below.x));
-  const Floats distance_m = limited(within * ambiguity_m, frequency.below.y);
-  store_channels(of, frequency.first_channel + 2, samples, distance_m, range_m);
+  const Wide distance = within * ambiguity_m;
+  const Floats distance_m = limited(distance, frequency.below.y);
+  store_channels(of, frequency.first_channel + 2, samples, distance_m, range.rounded_m);
+  store_rests(of, frequency, samples, narrow(distance - wide(distance_m)), range);
   return is_known ? distance_m : none;
 }
 
@@ -238,13 +255,14 @@ void store_lit(const PixelWork &of, const VectorSamples &samples) {
 }
 
 void store_nothing(const PixelWork &of, const VectorSamples &samples, HeldPixels &held) {
-  const Floats none = all(0.0f), nan = all(std::numeric_limits<float>::quiet_NaN());
+  const Floats none = all(0.0f);
+  const Range unknown{Wide(), all(std::numeric_limits<float>::quiet_NaN())};
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
     if (of.complex_returns) {
-      store_complex(of, of.frequencies[f], samples, Complex(), nan);
+      store_complex(of, of.frequencies[f], samples, Complex(), unknown);
       continue;
     }
-    store_phase(of, of.frequencies[f], samples, none, Wide(), nan);
+    store_phase(of, of.frequencies[f], samples, none, Wide(), unknown);
     store_taps(of, of.frequencies[f], samples, Complex());
     if (of.holds)
       hold(of, f, samples, Terms(), none, none, Terms(), Ints{}, held);
@@ -349,7 +367,8 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
   const Floats none = all(0.0f), backscatter = backscatter_of(of, samples);
   const Ints sees = load<Ints>(samples.sees) != 0;
   const Ints shines = sees & (backscatter > 0.0f); // black may not be a number
-  const Floats range_m = sees ? narrow(returns.range) : all(std::numeric_limits<float>::quiet_NaN());
+  const Range range{returns.range,
+                    sees ? narrow(returns.range) : all(std::numeric_limits<float>::quiet_NaN())};
   const Terms lit = scaled(backscatter, returns.terms);
   const Terms terms{shines ? lit.light : none, shines ? lit.weights : none, shines ? lit.beams : none};
   for (std::uint32_t f = 0; f < of.frequency_count; ++f) {
@@ -362,14 +381,14 @@ void store_pixels(const PixelWork &of, const VectorSamples &samples, const Retur
       return all(frequency.amplitude_scale) * (z * unit_phasor(narrow(of_range)));
     };
     if (of.complex_returns) {
-      store_complex(of, frequency, samples, with_all_phase(), range_m);
+      store_complex(of, frequency, samples, with_all_phase(), range);
       continue;
     }
     const Floats size = magnitude(z);
     if (of.kept_taps > 0)
       store_taps(of, frequency, samples, with_all_phase());
     const Floats distance_m = store_phase(of, frequency, samples, frequency.amplitude_scale * size,
-                                          of_range + wide(angle_turns(z)), range_m);
+                                          of_range + wide(angle_turns(z)), range);
     if (of.holds)
       hold(of, f, samples, terms, size, distance_m, scaled(backscatter, turned_terms(of, returns, f)),
            returns.by_field, held);

@@ -27,9 +27,9 @@ struct PixelWork {
   bool holds;               // an error was asked for
   // The list of pixels that may be beyond it and its length, which threads share; nullptr: they are counted.
   std::uint32_t *later, *later_count;
-  bool keeps_bounds;
-  // Of each frequency's channels, the pairs in which taps and bounds begin.
-  std::uint32_t first_tap, bound;
+  bool keeps_bounds, keeps_rests;
+  // Of each frequency's channels, the pairs in which taps, bounds and rests begin.
+  std::uint32_t first_tap, bound, rests;
   bool complex_returns;          // Modulation::complex_returns; then no taps are kept, and nothing is held
   std::uint32_t kept_taps;       // 0: none are
   const float (*tap_phasors)[2]; // exp(j 2 pi k / N)

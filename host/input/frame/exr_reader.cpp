@@ -1,3 +1,4 @@
+#include "engine/model/channel_names.h"
 #include "host/input/frame/frame_bytes.h"
 
 #include <algorithm>
@@ -5,6 +6,8 @@
 #include <fmt/format.h>
 #include <memory>
 #include <openexr.h>
+#include <optional>
+#include <set>
 #include <span>
 #include <type_traits>
 
@@ -91,9 +94,9 @@ private:
     check(exr_get_channels(context_.get(), only_part, &channels));
     require(channels && channels->num_channels > 0, "channels in the EXR file");
     first_row_ = window.min.y;
-    ReadFrame read{
-        checked_resolution(frame_, size(window.min.x, window.max.x), size(window.min.y, window.max.y),
-                           static_cast<std::uint64_t>(channels->num_channels), frame_.content.size())};
+    ReadFrame read{checked_resolution(
+        frame_, size(window.min.x, window.max.x), size(window.min.y, window.max.y),
+        sizeof(float) * static_cast<std::uint64_t>(channels->num_channels), frame_.content.size())};
     const std::span entries(channels->entries, static_cast<std::size_t>(channels->num_channels));
     for (const exr_attr_chlist_entry_t &entry : entries)
       read.channels.push_back(channel(entry, std::size_t{read.resolution.x} * read.resolution.y));
@@ -169,6 +172,44 @@ private:
 
 } // namespace
 
-ReadFrame read_exr(const FrameBytes &frame) { return ExrReader(frame).frame(); }
+namespace {
+
+ReadChannel *floats_named(ReadFrame &frame, const std::string &name) {
+  const auto found = std::ranges::find(frame.channels, name, &ReadChannel::name);
+  const bool are_floats =
+      found != frame.channels.end() && std::holds_alternative<std::vector<float>>(found->values);
+  return are_floats ? &*found : nullptr;
+}
+
+std::vector<double> sums(const std::vector<float> &rounded, const std::vector<float> &rests) {
+  std::vector<double> whole(rounded.size());
+  std::ranges::transform(rounded, rests, whole.begin(), [](float value, float rest) {
+    return static_cast<double>(value) + static_cast<double>(rest);
+  });
+  return whole;
+}
+
+// Puts together what the file has as a channel and its rest.
+void join_rests(ReadFrame &frame) {
+  std::set<std::string> joined;
+  for (const ReadChannel &channel : frame.channels) {
+    const std::optional<std::string> name = name_of_rest(channel.name);
+    const auto *rests = std::get_if<std::vector<float>>(&channel.values);
+    ReadChannel *const rounded = name && rests ? floats_named(frame, *name) : nullptr;
+    if (!rounded)
+      continue;
+    rounded->values = sums(std::get<std::vector<float>>(rounded->values), *rests);
+    joined.insert(channel.name);
+  }
+  std::erase_if(frame.channels, [&](const ReadChannel &channel) { return joined.contains(channel.name); });
+}
+
+} // namespace
+
+ReadFrame read_exr(const FrameBytes &frame) {
+  ReadFrame read = ExrReader(frame).frame();
+  join_rests(read);
+  return read;
+}
 
 } // namespace pmdsim

@@ -20,10 +20,10 @@ bool is_utf8(std::string_view text);
 // "FILE: MESSAGE", (input).
 Error frame_error(const FrameBytes &frame, std::string_view message);
 
-// Takes the size of a frame, of `channels` channels. Throws Error where it is none, or where `stored_bytes`
-// of a file cannot hold so many values, compressed or not.
+// Takes the size of a frame, whose channels have `pixel_bytes` a pixel together. Throws Error where it is
+// none, or where `stored_bytes` of a file cannot hold so many values, compressed or not.
 glm::uvec2 checked_resolution(const FrameBytes &frame, std::uint64_t columns, std::uint64_t rows,
-                              std::uint64_t channels, std::uint64_t stored_bytes);
+                              std::uint64_t pixel_bytes, std::uint64_t stored_bytes);
 
 // What `deform` adds to the channels of engine/model/channels.h.
 inline constexpr std::string_view deformation_name = "deformation_mm";

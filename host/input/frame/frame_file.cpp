@@ -58,12 +58,11 @@ Error frame_error(const FrameBytes &frame, std::string_view message) {
 }
 
 glm::uvec2 checked_resolution(const FrameBytes &frame, std::uint64_t columns, std::uint64_t rows,
-                              std::uint64_t channels, std::uint64_t stored_bytes) {
+                              std::uint64_t pixel_bytes, std::uint64_t stored_bytes) {
   constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
   if (columns < 1 || columns > most || rows < 1 || rows > most)
     throw frame_error(frame, fmt::format("{} x {} pixels, expected 1 to {} a side", columns, rows, most));
-  const std::uint64_t most_values = stored_bytes * most_of_a_byte / sizeof(float);
-  if (columns * rows > most_values / channels)
+  if (columns * rows > stored_bytes * most_of_a_byte / pixel_bytes)
     throw frame_error(frame, fmt::format("expected the values of {} x {} pixels, found {} bytes", columns,
                                          rows, stored_bytes));
   return {columns, rows};

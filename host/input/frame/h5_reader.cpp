@@ -65,8 +65,8 @@ public:
       if (!sizes)
         continue;
       const auto [rows, columns] = *sizes;
-      const glm::uvec2 resolution =
-          checked_resolution(frame_, columns, rows, 1, stored_bytes(object.id(), name));
+      const glm::uvec2 resolution = checked_resolution(frame_, columns, rows, value_bytes(object.id()),
+                                                       stored_bytes(object.id(), name));
       if (!read.channels.empty() && resolution != read.resolution)
         throw frame_error(frame_, fmt::format("dataset {}: expected {} x {} pixels as the others have", name,
                                               read.resolution.x, read.resolution.y));
@@ -113,6 +113,12 @@ private:
     return sizes;
   }
 
+  // Of types that channels may have.
+  std::uint64_t value_bytes(hid_t dataset) const {
+    const Hdf5Handle type = opened(H5Dget_type(dataset), H5Tclose);
+    return H5Tget_size(type.id()) == sizeof(double) ? sizeof(double) : sizeof(float);
+  }
+
   using Filters = std::vector<H5Z_filter_t>;
 
   static Filters filters_of(hid_t creation) {
@@ -150,7 +156,7 @@ private:
     const unsigned deflate_mask = filters.back() == H5Z_FILTER_DEFLATE ? 1u << (filters.size() - 1) : 0;
     for (hsize_t row = 0; row < sizes[0]; row += chunk[0])
       for (hsize_t column = 0; column < sizes[1]; column += chunk[1])
-        if (!is_whole_chunk(dataset, {row, column}, chunk[0] * chunk[1] * sizeof(float), deflate_mask))
+        if (!is_whole_chunk(dataset, {row, column}, chunk[0] * chunk[1] * value_bytes(dataset), deflate_mask))
           return false;
     return true;
   }
@@ -196,9 +202,11 @@ private:
     const std::string unit = unit_of(name);
     if (is_any(H5T_IEEE_F32LE, H5T_IEEE_F32BE))
       return {name, unit, read<float>(dataset, H5T_NATIVE_FLOAT, values)};
+    if (is_any(H5T_IEEE_F64LE, H5T_IEEE_F64BE))
+      return {name, unit, read<double>(dataset, H5T_NATIVE_DOUBLE, values)};
     if (is_any(H5T_STD_U32LE, H5T_STD_U32BE))
       return {name, unit, read<std::uint32_t>(dataset, H5T_NATIVE_UINT32, values)};
-    throw frame_error(frame_, fmt::format("dataset {}: expected float32 or uint32", name));
+    throw frame_error(frame_, fmt::format("dataset {}: expected float32, float64 or uint32", name));
   }
 
   template <class Value>

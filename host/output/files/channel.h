@@ -24,9 +24,17 @@ struct Channel {
   std::optional<std::size_t> frequency = std::nullopt; // index of the one that it belongs to, of several
   std::optional<Preview> preview = std::nullopt;       // floats only; nothing: no picture is made of it
   std::string about{};                                 // what it is, in a line
+  // The same before they were rounded to float, where files shall have that; else empty. Of a channel that
+  // was read there may be these alone.
+  std::span<const double> unrounded{};
 
   std::string name() const { return channel_name(quantity, frequency); }
 };
+
+// The values as files have them that know double.
+using ChannelValues =
+    std::variant<std::span<const float>, std::span<const std::uint32_t>, std::span<const double>>;
+ChannelValues written_values(const Channel &channel);
 
 // Channels of one size.
 struct ChannelSet {
@@ -38,16 +46,18 @@ struct ChannelSet {
 std::optional<std::size_t> frequency_of(std::size_t index, std::size_t count);
 
 // The rows of engine/model/channels.h, of every frequency and tap, but for those that are empty. Views into
-// `measurement`.
+// `measurement`. Unrounded where it has that, too.
 ChannelSet channels_of(const Measurement &measurement);
 
 // One OpenEXR file a frame: scan lines, ZIP, floats as FLOAT and ids as UINT, channels under their own names.
-// Reads the channels where they lie; memory beyond them is that of a few dozen scan lines. May be called from
-// several threads at once. Throws Error (output).
+// EXR knows no double: beside a channel that is unrounded, too, stands another FLOAT of what rounding took
+// (rest_name() of engine/model/channel_names.h), so that both together are the double to 2^-48 of it. Reads
+// the channels where they lie; memory beyond them is that of rests and of a few dozen scan lines. May be
+// called from several threads at once. Throws Error (output).
 void write_exr(OutputFile &file, const ChannelSet &channels);
 
-// NumPy's array file, version 1.0: shape (rows, columns), little-endian, C order, '<f4' or '<u4'; the data
-// start at a multiple of 64 bytes, so that they can be mapped. Source: NumPy's documentation,
+// NumPy's array file, version 1.0: shape (rows, columns), little-endian, C order, '<f4', '<u4' or '<f8'; the
+// data start at a multiple of 64 bytes, so that they can be mapped. Source: NumPy's documentation,
 // numpy.lib.format. Throws Error (output).
 void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resolution);
 // What such a file has before its data.

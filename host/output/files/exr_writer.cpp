@@ -1,9 +1,11 @@
 #include "host/output/files/channel.h"
 
+#include "engine/model/channel_names.h"
 #include "engine/model/error.h"
 #include "host/output/files/zip_block.h"
 
 #include <algorithm>
+#include <deque>
 #include <exception>
 #include <fmt/format.h>
 #include <memory>
@@ -134,9 +136,39 @@ ScanLines scan_lines(const ChannelSet &channels) {
   return lines;
 }
 
+// What rounding took from the channels that are unrounded, too, as channels beside them.
+class Rests {
+public:
+  explicit Rests(const ChannelSet &channels) : with_(channels) {
+    for (const Channel &channel : channels.channels)
+      if (!channel.unrounded.empty())
+        add(channel);
+  }
+  Rests(const Rests &) = delete; // channels look at its values
+  Rests &operator=(const Rests &) = delete;
+
+  const ChannelSet &with() const { return with_; }
+
+private:
+  void add(const Channel &channel) {
+    const auto rounded = std::get<std::span<const float>>(channel.values);
+    std::vector<float> &rests = rests_.emplace_back();
+    rests.reserve(rounded.size());
+    for (std::size_t i = 0; i < rounded.size(); ++i)
+      rests.push_back(static_cast<float>(channel.unrounded[i] - static_cast<double>(rounded[i])));
+    with_.channels.push_back(
+        {rest_name(channel.quantity), channel.unit, std::span<const float>(rests), channel.frequency});
+  }
+
+  ChannelSet with_;
+  std::deque<std::vector<float>> rests_;
+};
+
 } // namespace
 
-void write_exr(OutputFile &file, const ChannelSet &channels) {
+void write_exr(OutputFile &file, const ChannelSet &set) {
+  const Rests rests(set);
+  const ChannelSet &channels = rests.with();
   ExrFile exr(file, channels);
   const ScanLines lines = scan_lines(channels);
   ZipBlock block(lines);

@@ -104,9 +104,9 @@ public:
     const Hdf5Handle creation = made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     check(H5Pset_obj_track_times(creation.id(), false));
     if (rank > 1) {
-      check(H5Pset_chunk(creation.id(), rank, chunk_of(sizes).data()));
-      if constexpr (std::is_same_v<Value, float>)
-        check(H5Pset_fill_value(creation.id(), H5T_NATIVE_FLOAT, &not_a_number));
+      check(H5Pset_chunk(creation.id(), rank, chunk_of(sizes, sizeof(Value)).data()));
+      if constexpr (std::is_floating_point_v<Value>)
+        check(H5Pset_fill_value(creation.id(), type_of<Value>(), &not_a_number<Value>));
     }
     const Hdf5Handle access = made(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     check(H5Pset_chunk_cache(access.id(), 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT));
@@ -162,7 +162,8 @@ public:
   }
 
 private:
-  static constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  template <class Value>
+  static constexpr Value not_a_number = std::numeric_limits<Value>::quiet_NaN();
 
   Hdf5Handle made(hid_t id, herr_t (*close)(hid_t)) const {
     check(id < 0 ? -1 : 0);
@@ -170,8 +171,8 @@ private:
   }
 
   // Of about the same size, as HDF5 writes the last one whole, too.
-  static std::vector<hsize_t> chunk_of(std::vector<hsize_t> sizes) {
-    const hsize_t row_bytes = sizes[1] * sizeof(float), rows = sizes[0];
+  static std::vector<hsize_t> chunk_of(std::vector<hsize_t> sizes, std::size_t bytes_of_value) {
+    const hsize_t row_bytes = sizes[1] * bytes_of_value, rows = sizes[0];
     const hsize_t chunks = (rows * row_bytes + chunk_bytes - 1) / chunk_bytes;
     sizes[0] = (rows + chunks - 1) / chunks;
     return sizes;
@@ -210,10 +211,10 @@ void add_channel(const H5File &h5, const Channel &channel, const glm::uvec2 &res
           h5.check(H5DSattach_scale(dataset.id(), scales[i], i));
         h5.add_text(dataset.id(), "units", channel.unit);
         h5.add_text(dataset.id(), "long_name", channel.about);
-        if constexpr (std::is_same_v<Value, float>)
-          h5.add_number(dataset.id(), "_FillValue", std::numeric_limits<float>::quiet_NaN());
+        if constexpr (std::is_floating_point_v<Value>)
+          h5.add_number(dataset.id(), "_FillValue", std::numeric_limits<Value>::quiet_NaN());
       },
-      channel.values);
+      written_values(channel));
 }
 
 void add_channels(const H5File &h5, const ChannelSet &set) {
@@ -226,8 +227,10 @@ void add_channels(const H5File &h5, const ChannelSet &set) {
 }
 
 Image image_of(const std::string &path, const ChannelSet &set, const FrameLabel &label) {
-  const std::size_t bytes = set.channels.size() * set.resolution.x * set.resolution.y * sizeof(float);
-  Image image{bytes + room_for_names};
+  std::size_t bytes = room_for_names;
+  for (const Channel &channel : set.channels)
+    bytes += std::visit([](auto values) { return values.size_bytes(); }, written_values(channel));
+  Image image{bytes};
   const Hdf5Turn turn;
   H5File h5(path, image);
   add_label(h5, label);

@@ -106,6 +106,10 @@ ordered_json passes_json(const std::vector<PassTime> &passes) {
   return json;
 }
 
+std::string output_precision_name(OutputPrecision precision) {
+  return precision == OutputPrecision::float64 ? "float64" : "float32";
+}
+
 ordered_json head_json(const RunHead &run) {
   ordered_json head{{"program", "pmdsim"},
                     {"version", PMDSIM_VERSION},
@@ -117,6 +121,7 @@ ordered_json head_json(const RunHead &run) {
     head["paths"] = run.paths;
   head["formats"] = run.formats;
   head["channels"] = run.channels.empty() ? ordered_json(nullptr) : ordered_json(run.channels);
+  head["output_precision"] = output_precision_name(run.output_precision);
   head["inputs"] = run.inputs;
   head["setup"] = run.setup;
   head["points"] = how_to_make_points();

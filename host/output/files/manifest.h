@@ -45,6 +45,11 @@ struct FrameRecord {
   nlohmann::ordered_json told{}; // what the command tells of it beyond that
 };
 
+// Of distances in files that know double (NPY, NPZ, HDF5; EXR has them as two channels).
+enum class OutputPrecision { float32, float64 };
+// As the command line has them: "float32", "float64".
+std::string output_precision_name(OutputPrecision precision);
+
 // What a run is, its frames aside: all that decides what they hold.
 struct RunHead {
   std::string command{}; // "render" or "deform"
@@ -55,6 +60,7 @@ struct RunHead {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
   std::vector<std::string> formats{};
   std::vector<std::string> channels{}; // asked for; none: all
+  OutputPrecision output_precision = OutputPrecision::float32;
 };
 
 // As the command line has them: "exact", "reduced", "auto"; "fp32", "fp64".
@@ -113,7 +119,7 @@ nlohmann::ordered_json device_json(const DeviceInfo &device);
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
 // What stands in a manifest before its frames: program, version, command, device, driver, mode and errors
-// that were asked for, formats, inputs, setup, points.
+// that were asked for, formats, channels, output_precision, inputs, setup, points.
 nlohmann::ordered_json head_json(const RunHead &run);
 // A frame as it stands there: what is the same whenever and wherever the run is made, so without times.
 nlohmann::ordered_json frame_json(const FrameRecord &record);

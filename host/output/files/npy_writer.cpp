@@ -13,11 +13,12 @@ constexpr std::size_t alignment_bytes = 64;
 
 const char *type_name(std::span<const float>) { return "<f4"; }
 const char *type_name(std::span<const std::uint32_t>) { return "<u4"; }
+const char *type_name(std::span<const double>) { return "<f8"; }
 
 } // namespace
 
 std::string npy_header(const Channel &channel, const glm::uvec2 &resolution) {
-  const char *type = std::visit([](auto values) { return type_name(values); }, channel.values);
+  const char *type = std::visit([](auto values) { return type_name(values); }, written_values(channel));
   std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type,
                                    resolution.y, resolution.x);
   const std::size_t unpadded = preamble_bytes + header.size() + 1;
@@ -36,7 +37,7 @@ void write_npy(OutputFile &file, const Channel &channel, const glm::uvec2 &resol
         file.write(header);
         file.write({reinterpret_cast<const char *>(values.data()), values.size_bytes()});
       },
-      channel.values);
+      written_values(channel));
 }
 
 } // namespace pmdsim

@@ -79,7 +79,7 @@ std::string_view bytes_of(const Channel &channel) {
       [](auto values) {
         return std::string_view(reinterpret_cast<const char *>(values.data()), values.size_bytes());
       },
-      channel.values);
+      written_values(channel));
 }
 
 } // namespace

@@ -20,36 +20,33 @@ struct Mean {
   double value() const { return sum / count; } // NaN for no value at all
 };
 
-double centre_mm(std::span<const float> deformation_mm, const glm::uvec2 &resolution) {
+double centre_mm(std::span<const double> deformation_mm, const glm::uvec2 &resolution) {
   Mean mean;
   for (std::size_t row = (resolution.y - 1) / 2; row <= resolution.y / 2; ++row)
     for (std::size_t column = (resolution.x - 1) / 2; column <= resolution.x / 2; ++column)
-      if (const float value = deformation_mm[row * resolution.x + column]; !std::isnan(value))
-        mean.add(static_cast<double>(value));
+      if (const double value_mm = deformation_mm[row * resolution.x + column]; !std::isnan(value_mm))
+        mean.add(value_mm);
   return mean.value();
 }
 
 } // namespace
 
-std::vector<float> deformation_mm(std::span<const float> bistatic_distance_m,
-                                  std::span<const float> monostatic_distance_m, double ambiguity_m) {
-  std::vector<float> deformation(bistatic_distance_m.size());
+std::vector<double> deformation_mm(std::span<const double> bistatic_distance_m,
+                                   std::span<const double> monostatic_distance_m, double ambiguity_m) {
+  std::vector<double> deformation(bistatic_distance_m.size());
   std::transform(bistatic_distance_m.begin(), bistatic_distance_m.end(), monostatic_distance_m.begin(),
-                 deformation.begin(), [&](float bistatic_m, float monostatic_m) {
-                   const double difference_m =
-                       static_cast<double>(bistatic_m) - static_cast<double>(monostatic_m);
-                   return static_cast<float>(1e3 * wrapped(difference_m, ambiguity_m));
+                 deformation.begin(), [&](double bistatic_m, double monostatic_m) {
+                   return 1e3 * wrapped(bistatic_m - monostatic_m, ambiguity_m);
                  });
   return deformation;
 }
 
-DeformationStatistics statistics_of(std::span<const float> deformation_mm, const glm::uvec2 &resolution) {
+DeformationStatistics statistics_of(std::span<const double> deformation_mm, const glm::uvec2 &resolution) {
   Mean mean, mean_square;
   double min_mm = std::numeric_limits<double>::quiet_NaN(), max_mm = min_mm;
-  for (const float pixel_mm : deformation_mm) {
-    if (std::isnan(pixel_mm))
+  for (const double value_mm : deformation_mm) {
+    if (std::isnan(value_mm))
       continue;
-    const double value_mm = static_cast<double>(pixel_mm);
     mean.add(value_mm);
     mean_square.add(value_mm * value_mm);
     min_mm = std::fmin(min_mm, value_mm);

@@ -9,9 +9,10 @@
 namespace pmdsim {
 
 // bistatic - monostatic, wrapped to (-ambiguity/2, +ambiguity/2], in millimetres; NaN where either is NaN.
-// `ambiguity_m` is c/(2f). Both spans have one length.
-std::vector<float> deformation_mm(std::span<const float> bistatic_distance_m,
-                                  std::span<const float> monostatic_distance_m, double ambiguity_m);
+// `ambiguity_m` is c/(2f). Both spans have one length. The distances are unrounded, as a float at 2 m has
+// steps of 0.24 um, which is much of a small deformation.
+std::vector<double> deformation_mm(std::span<const double> bistatic_distance_m,
+                                   std::span<const double> monostatic_distance_m, double ambiguity_m);
 
 // Over the pixels that are not NaN; every figure is NaN where there is none.
 struct DeformationStatistics {
@@ -20,6 +21,6 @@ struct DeformationStatistics {
 };
 
 // `deformation_mm` is row-major, rows * columns values.
-DeformationStatistics statistics_of(std::span<const float> deformation_mm, const glm::uvec2 &resolution);
+DeformationStatistics statistics_of(std::span<const double> deformation_mm, const glm::uvec2 &resolution);
 
 } // namespace pmdsim

@@ -39,7 +39,7 @@ void write_profile_csv(OutputFile &file, const ChannelSet &channels, const Senso
     for (const Channel &channel : channels.channels)
       std::visit(
           [&](auto values) { fmt::format_to(std::back_inserter(line), ",{}", values[row_start + column]); },
-          channel.values);
+          written_values(channel));
     file.write(line + '\n');
   }
 }

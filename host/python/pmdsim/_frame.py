@@ -54,8 +54,8 @@ class FrequencyChannels:
 class Frame:
     """What one sensor measured at one time: named arrays.
 
-    Every channel is an array of shape (rows, columns), row 0 at the top, float32 or uint32, read-only: an attribute
-    where its name is one (`frame.distance_m`), and an item (`frame["distance_m"]`). With several modulation
+    Every channel is an array of shape (rows, columns), row 0 at the top, float32 or uint32 (distances float64 where
+    that was asked for), read-only: an attribute where its name is one (`frame.distance_m`), and an item (`frame["distance_m"]`). With several modulation
     frequencies those that each has are `frame.f0.distance_m`, `frame["f0.distance_m"]`, and so on. `frame.channels`
     names them; docs/outputs.md, "Channels", explains them. Floats are NaN where nothing was measured, ids 4294967295.
 

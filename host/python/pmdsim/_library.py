@@ -45,6 +45,7 @@ class RenderOptions(ctypes.Structure):
         ("channels", ctypes.c_char_p),
         ("paths", ctypes.c_uint32),
         ("strict", ctypes.c_int),
+        ("output_precision", ctypes.c_char_p),
     ]
 
 

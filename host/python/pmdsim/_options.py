@@ -70,6 +70,7 @@ def render_options(
     channels: Optional[Channels] = None,
     paths: Optional[int] = None,
     strict: bool = False,
+    output_precision: Optional[str] = None,
 ) -> RenderOptions:
     """The struct for pmdsim_render(), or ArgumentError. `render` documents the arguments."""
     return RenderOptions(
@@ -82,4 +83,5 @@ def render_options(
         channels=_channels(channels),
         paths=0 if paths is None else whole_number(paths, "paths", 1, 10**9),
         strict=int(bool(strict)),
+        output_precision=_one_of(output_precision, "output_precision", ("float32", "float64")),
     )

@@ -366,6 +366,7 @@ class Simulator:
         channels: Optional[Channels] = None,
         paths: Optional[int] = None,
         strict: bool = False,
+        output_precision: Optional[str] = None,
     ) -> Frame:
         """Measures one frame of one sensor. `pmdsim.render` explains the arguments and errors.
 
@@ -374,7 +375,9 @@ class Simulator:
         Frame
             Its arrays stay when the simulator is changed or closed.
         """
-        options = render_options(mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict)
+        options = render_options(
+            mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict, output_precision
+        )
         return self._render(sensor, frame, options, stacklevel=3)
 
     def _render(self, sensor: Union[int, str], frame: int, options: Any, stacklevel: int) -> Frame:

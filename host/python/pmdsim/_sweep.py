@@ -130,7 +130,8 @@ def sweep(
     scene : pmdsim.Scene, optional
         Triangles in place of the setup's scene.
     **options
-        mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict, as for `render`.
+        mode, max_error, max_amplitude_error, precision, samples, channels, paths, strict, output_precision, as for
+        `render`.
 
     Yields
     ------

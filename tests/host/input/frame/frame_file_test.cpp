@@ -10,11 +10,13 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <hdf5_hl.h>
 #include <iterator>
+#include <limits>
 #include <malloc.h>
 #include <random>
 #include <string>
@@ -126,6 +128,62 @@ TEST_CASE("a frame comes back with all its bits, names, units and its size") {
     }
 }
 
+namespace {
+
+// The second of two channels has doubles, too, which wrap at 7.5.
+struct FrameOfDoubles {
+  FrameOfDoubles() {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> any(0.0, 7.5);
+    for (std::size_t i = 0; i < std::size_t{resolution.x} * resolution.y; ++i) {
+      doubles.push_back(any(random));
+      floats.push_back(static_cast<float>(doubles.back()));
+    }
+    doubles[7] = std::numeric_limits<double>::quiet_NaN();
+    doubles[8] = std::nextafter(7.5, 0.0);
+    floats[7] = std::numeric_limits<float>::quiet_NaN();
+    floats[8] = 0.0f;
+  }
+  void write(const std::filesystem::path &path) const {
+    ChannelSet set{resolution,
+                   {{"distance_m", "m", std::span(floats), 0}, {"distance_m", "m", std::span(floats), 1}}};
+    set.channels[1].unrounded = doubles;
+    OutputFile file(path);
+    if (path.extension() == ".exr")
+      write_exr(file, set);
+    else
+      write_h5(file, set, {Sensor{}, 0, 0.0});
+    file.close();
+    file.publish();
+  }
+
+  glm::uvec2 resolution{600, 501};
+  std::vector<double> doubles;
+  std::vector<float> floats;
+};
+
+} // namespace
+
+TEST_CASE("doubles come back from HDF5 with all bits, and from EXR with those of two floats") {
+  const pmdsim::test::TemporaryFolder folder;
+  const FrameOfDoubles written;
+  for (const auto &[name, relative] : {std::pair("frame.h5", 0.0), {"frame.exr", 0x1p-48}}) {
+    INFO(name);
+    written.write(folder.path() / name);
+    const ReadFrame read = read_frame(folder.path() / name);
+    REQUIRE(read.channels.size() == 2);
+    CHECK(read.channels[0].name == "f0.distance_m");
+    CHECK(read.channels[1].name == "f1.distance_m");
+    CHECK(read.channels[1].unit == "m");
+    CHECK(std::holds_alternative<std::vector<float>>(read.channels[0].values));
+    const auto &found = std::get<std::vector<double>>(read.channels[1].values);
+    REQUIRE(found.size() == written.doubles.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      REQUIRE((i == 7 ? std::isnan(found[i])
+                      : std::abs(found[i] - written.doubles[i]) <= relative * written.doubles[i]));
+  }
+}
+
 TEST_CASE("every channel that a frame may have is read from HDF5, in the order in which it is written") {
   const pmdsim::test::TemporaryFolder folder;
   constexpr std::size_t frequencies = 16, taps = 16;
@@ -200,12 +258,12 @@ TEST_CASE("of a HDF5 file that is cut short it is said that it is") {
 
 TEST_CASE("HDF5 files of other things are refused") {
   const pmdsim::test::TemporaryFolder folder;
-  const std::vector<double> values(6, 1.0);
+  const std::vector<int> values(6, 1);
   const hsize_t sizes[2]{2, 3}, others[2]{3, 2};
   check_refused(made_h5(folder, [](hid_t) {}), "expected channels as two-dimensional datasets");
   check_refused(
-      made_h5(folder, [&](hid_t file) { H5LTmake_dataset_double(file, "z_m", 2, sizes, values.data()); }),
-      "dataset z_m: expected float32 or uint32");
+      made_h5(folder, [&](hid_t file) { H5LTmake_dataset_int(file, "z_m", 2, sizes, values.data()); }),
+      "dataset z_m: expected float32, float64 or uint32");
   check_refused(made_h5(folder,
                         [&](hid_t file) {
                           const std::vector<float> floats(6);
