@@ -53,7 +53,9 @@ void add_writing(CLI::App &command, Written &written) {
       .add_option(
           "--channels", written.channels,
           "only these, by names separated by commas, e.g. distance_m,lit; without the numbers of taps, "
-          "with or without the prefix of a frequency. What no other needs is not computed [all]")
+          "with or without the prefix of a frequency; `all`, and on demand `normals` and `rays`. What no "
+          "other "
+          "needs is not computed [all]")
       ->delimiter(',');
   command
       .add_option("--output-precision", written.output_precision,

@@ -41,6 +41,7 @@ struct DeviceSlot {
     none,      // not there: the host makes them of what it reads back, where light bounces
     electrons, // likewise, where the sensor has electronics
     unwrapped, // likewise, where distances are unwrapped
+    view,      // likewise, where it is asked for by name
   };
   Area area;
   std::uint32_t index; // of a tap: that of tap 0
@@ -225,6 +226,54 @@ inline constexpr std::array channel_rows = [] {
        "of the same sample; 4294967295 where it hits nothing",
        &Measurement::object_id,
        {Area::truth, 3}},
+      {"normal_x",
+       "",
+       "x of the normal there, in the camera's frame, turned to the lens; NaN where nothing is hit; only on "
+       "demand",
+       &Measurement::normal_x,
+       {Area::view, 0},
+       std::nullopt,
+       &Measurement::unrounded_normal_x},
+      {"normal_y",
+       "",
+       "y of the normal there, in the camera's frame, turned to the lens; NaN where nothing is hit; only on "
+       "demand",
+       &Measurement::normal_y,
+       {Area::view, 1},
+       std::nullopt,
+       &Measurement::unrounded_normal_y},
+      {"normal_z",
+       "",
+       "z of the normal there, in the camera's frame, turned to the lens; NaN where nothing is hit; only on "
+       "demand",
+       &Measurement::normal_z,
+       {Area::view, 2},
+       std::nullopt,
+       &Measurement::unrounded_normal_z},
+      {"ray_x",
+       "",
+       "x of the unit vector from the lens through the pixel's centre, in the camera's frame; NaN where "
+       "there is none; only on demand",
+       &Measurement::ray_x,
+       {Area::view, 3},
+       std::nullopt,
+       &Measurement::unrounded_ray_x},
+      {"ray_y",
+       "",
+       "y of the unit vector from the lens through the pixel's centre, in the camera's frame; NaN where "
+       "there is none; only on demand",
+       &Measurement::ray_y,
+       {Area::view, 4},
+       std::nullopt,
+       &Measurement::unrounded_ray_y},
+      {"ray_z",
+       "",
+       "z of the unit vector from the lens through the pixel's centre, in the camera's frame; NaN where "
+       "there is none; only on demand",
+       &Measurement::ray_z,
+       {Area::view, 5},
+       std::nullopt,
+       &Measurement::unrounded_ray_z},
   });
 }();
 
@@ -235,6 +284,9 @@ constexpr bool is_of_frequency(const ChannelRow &row) {
   return std::holds_alternative<std::vector<float> Return::*>(row.at) ||
          std::holds_alternative<std::vector<std::uint32_t> Return::*>(row.at) || is_of_taps(row);
 }
+
+// Whether a channel is there only where it is asked for by name.
+constexpr bool is_on_demand(const ChannelRow &row) { return row.slot.area == DeviceSlot::Area::view; }
 
 constexpr const ChannelRow &row_of(const ChannelMember &at) {
   return *std::ranges::find(channel_rows, at, &ChannelRow::at);

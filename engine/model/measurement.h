@@ -92,6 +92,13 @@ struct Measurement {
   std::vector<std::uint32_t> triangle_id;
   std::vector<std::uint32_t> object_id;
 
+  // Only on demand (engine/lens/view_channels.h), in the camera frame (x right, y down, z forward), unit
+  // vectors: the geometric normal of that triangle or disc, turned to the lens, NaN where nothing is hit; and
+  // the way from the lens through the pixel's centre, NaN where the lens has no ray there.
+  std::vector<float> normal_x, normal_y, normal_z, ray_x, ray_y, ray_z;
+  std::vector<double> unrounded_normal_x, unrounded_normal_y, unrounded_normal_z;
+  std::vector<double> unrounded_ray_x, unrounded_ray_y, unrounded_ray_z;
+
   // The id at every sample, (S*rows) x (S*columns), row-major; only filled on request.
   std::vector<std::uint32_t> sample_triangle_id;
   // The sample's pixel ID: row * columns + column + 1, 0 where nothing is seen; not filled by the reference.

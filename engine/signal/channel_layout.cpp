@@ -99,6 +99,7 @@ bool ChannelLayout::holds(const ChannelRow &row) const {
     return mean;
   case Area::electrons:
   case Area::unwrapped:
+  case Area::view:
   case Area::none:
     break;
   }

@@ -215,7 +215,7 @@ Measurement make_measurement(const Sensor &sensor, const Modulation &modulation,
     if (layout.holds(of.row)) // the host fills or clears all others
       values.resize(pixels);
     else if (of.row.slot.area == DeviceSlot::Area::none || of.row.slot.area == DeviceSlot::Area::mean ||
-             of.row.slot.area == DeviceSlot::Area::unwrapped ||
+             of.row.slot.area == DeviceSlot::Area::unwrapped || is_on_demand(of.row) ||
              (of.row.slot.area == DeviceSlot::Area::electrons && (!layout.mean || values.size() != pixels)))
       values.clear();
   });

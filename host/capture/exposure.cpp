@@ -2,6 +2,7 @@
 
 #include "engine/electronics/electrons.h"
 #include "engine/electronics/scatter.h"
+#include "engine/lens/view_channels.h"
 #include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
 #include "engine/signal/unwrapping.h"
@@ -145,8 +146,9 @@ Exposures::Exposures(const Setup &setup, std::shared_ptr<Camera> camera, bool ke
                      const Accuracy &accuracy, std::uint32_t paths, const WantedChannels &wanted,
                      bool keep_unrounded)
     : setup_(setup), wanted_(wanted), leaves_noiseless_(leaves_noiseless(wanted, setup.start.sensors)),
-      keep_taps_(keep_taps && wanted.have_taps()), accuracy_(accuracy), camera_(std::move(camera)),
-      others_(setup, camera_->wanted(), paths, are_others_asked_for()), instants_(setup) {
+      keep_taps_(keep_taps && wanted.have_taps()), keep_unrounded_(keep_unrounded), accuracy_(accuracy),
+      camera_(std::move(camera)), others_(setup, camera_->wanted(), paths, are_others_asked_for()),
+      instants_(setup) {
   camera_->give({.taps = keep_taps_ || exposes_any_tap_by_tap(setup),
                  .unrounded = keep_unrounded,
                  .electrons_at_once = setup.start.others.empty() && !exposes_any_tap_by_tap(setup),
@@ -206,11 +208,27 @@ Measurement Exposures::take_at_once(const View &view, const Sensor &sensor, cons
   const auto add = [&](Measurement &measured) { others_.add_to(sensor, view.time_s, progress, measured); };
   const bool is_reached = part >= FramePart::light && others_.reach(sensor);
   const auto added = is_reached ? Camera::AddLight(add) : nullptr;
+  const auto with_view = [&](Measurement &&measured) {
+    add_view(view.time_s, sensor, measured);
+    return std::move(measured);
+  };
   if (part == FramePart::electrons)
-    return camera_->measure(progress, number, added);
+    return with_view(camera_->measure(progress, number, added));
   Measurement frame = camera_->measure_noiseless(progress, number, added);
   name_light(part, sensor, frame);
-  return frame;
+  return with_view(std::move(frame));
+}
+
+// Adds what the lens and the scene's geometry alone tell, as far as it is wanted, of an instant that is at
+// hand.
+void Exposures::add_view(double time_s, const Sensor &sensor, Measurement &frame) {
+  const auto has_any = [&](std::initializer_list<std::vector<float> Measurement::*> members) {
+    return std::ranges::any_of(members, [&](auto member) { return wanted_.has(row_of(member)); });
+  };
+  if (has_any({&Measurement::ray_x, &Measurement::ray_y, &Measurement::ray_z}))
+    add_rays(sensor, keep_unrounded_, frame);
+  if (has_any({&Measurement::normal_x, &Measurement::normal_y, &Measurement::normal_z}))
+    add_normals(instants_.at(time_s).scene, sensor, keep_unrounded_, frame);
 }
 
 TakenFrame Exposures::take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
@@ -287,7 +305,11 @@ TakenFrame Exposures::take_tap_by_tap(std::size_t sensor, std::uint32_t number, 
     const auto of_exposure = [&](double fraction) {
       progress((before + fraction) / static_cast<double>(exposures));
     };
-    return camera_->measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
+    Measurement exposure =
+        camera_->measure_light(of_exposure, {static_cast<std::uint32_t>(sensor), number, before});
+    if (before == 0)
+      add_view(exposure_s, frame.sensor, exposure);
+    return exposure;
   };
   const auto add = [&](std::size_t frequency, std::size_t tap, double exposure_s, Measurement &exposure,
                        std::vector<float> &correlation) {

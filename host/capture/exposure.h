@@ -144,11 +144,12 @@ private:
   TakenFrame take_tap_by_tap(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                              const std::optional<double> &next_s);
   void prepare(View view, const Accuracy &accuracy);
+  void add_view(double time_s, const Sensor &sensor, Measurement &frame);
   void leave_unwanted(Measurement &frame);
 
   const Setup &setup_;
   WantedChannels wanted_;
-  bool leaves_noiseless_, keep_taps_;
+  bool leaves_noiseless_, keep_taps_, keep_unrounded_;
   Accuracy accuracy_;
   std::shared_ptr<Camera> camera_;
   OtherCameras others_;

@@ -5,6 +5,7 @@
 #include "host/input/file/input_error.h"
 
 #include <fmt/format.h>
+#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -24,6 +25,7 @@ bool is_noiseless(const ChannelRow &row) {
 FramePart part_of(const ChannelRow &row, const Sensor &sensor) {
   switch (row.slot.area) {
   case DeviceSlot::Area::truth:
+  case DeviceSlot::Area::view:
     return FramePart::truth;
   case DeviceSlot::Area::shadow:
     return FramePart::visibility;
@@ -97,9 +99,21 @@ Error no_such_channel(const std::string &problem, const std::vector<std::string>
   return {ExitCode::usage, fmt::format("--channels: {}, expected of {}", problem, fmt::join(known, ", "))};
 }
 
+constexpr std::string_view all_name = "all";
+
+// Channels that one name stands for.
+const std::map<std::string, std::vector<std::string>> &channel_groups() {
+  static const std::map<std::string, std::vector<std::string>> groups{
+      {"normals", {"normal_x", "normal_y", "normal_z"}}, {"rays", {"ray_x", "ray_y", "ray_z"}}};
+  return groups;
+}
+
 Error unknown_channel(const std::string &name, std::vector<std::string> known) {
   for (const ChannelRow &row : channel_rows)
     known.emplace_back(row.name);
+  for (const auto &[group, names] : channel_groups())
+    known.push_back(group);
+  known.emplace_back(all_name);
   return no_such_channel("unknown channel " + in_quotes(name), known);
 }
 
@@ -116,13 +130,13 @@ bool may_have(const ChannelRow &row, const Setup &setup, const Sensor &sensor, c
 
 WantedChannels::WantedChannels(const std::vector<std::string> &names,
                                const std::vector<std::string> &own_names)
-    : names_(names), own_names_(own_names) {
+    : are_all_(std::ranges::find(names, all_name) != names.end()), names_(names), own_names_(own_names) {
   for (const std::string &name : names) {
-    const ChannelName found = channel_named(name);
-    const bool is_own = std::ranges::find(own_names, name) != own_names.end();
-    if (!is_own && (!found.row || found.tap))
-      throw unknown_channel(name, own_names);
-    wanted_.push_back({is_own ? nullptr : found.row, found.frequency, name});
+    const auto group = channel_groups().find(name);
+    if (group != channel_groups().end())
+      std::ranges::for_each(group->second, [&](const std::string &each) { add(each); });
+    else if (name != all_name)
+      add(name);
   }
   if (names.empty())
     throw Error(ExitCode::usage, "--channels: expected at least one name");
@@ -130,14 +144,22 @@ WantedChannels::WantedChannels(const std::vector<std::string> &names,
   names_.erase(std::ranges::unique(names_).begin(), names_.end());
 }
 
+void WantedChannels::add(const std::string &name) {
+  const ChannelName found = channel_named(name);
+  const bool is_own = std::ranges::find(own_names_, name) != own_names_.end();
+  if (!is_own && (!found.row || found.tap))
+    throw unknown_channel(name, own_names_);
+  wanted_.push_back({is_own ? nullptr : found.row, found.frequency, name});
+}
+
 bool WantedChannels::has(const ChannelIndex &channel) const {
-  return are_all() || std::ranges::any_of(wanted_, [&](const Wanted &wanted) {
+  return (are_all() && !is_on_demand(channel.row)) || std::ranges::any_of(wanted_, [&](const Wanted &wanted) {
            return wanted.row == &channel.row && (!wanted.frequency || *wanted.frequency == channel.frequency);
          });
 }
 
 bool WantedChannels::has(const ChannelRow &row) const {
-  return are_all() || std::ranges::find(wanted_, &row, &Wanted::row) != wanted_.end();
+  return (are_all() && !is_on_demand(row)) || std::ranges::find(wanted_, &row, &Wanted::row) != wanted_.end();
 }
 
 bool WantedChannels::has_own(const std::string &name) const {

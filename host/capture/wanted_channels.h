@@ -14,17 +14,19 @@ namespace pmdsim {
 
 class WantedChannels {
 public:
-  // All there are.
+  // All there are, but for those on demand (is_on_demand() of engine/model/channels.h).
   WantedChannels() = default;
   // By the names of files, without the numbers of taps; of several frequencies with a prefix for one of them,
-  // "f1.distance_m", or without for all. Of `own_names` each counts, too: channels that a command makes
+  // "f1.distance_m", or without for all; "normals" and "rays", each of three, and "all" of those that are not
+  // on demand. Of `own_names` each counts, too: channels that a command makes
   // itself. Throws Error (usage) for a name that is none, or where there is no name at all; it lists what
   // there is.
   explicit WantedChannels(const std::vector<std::string> &names,
                           const std::vector<std::string> &own_names = {});
 
-  bool are_all() const { return names_.empty(); }
-  // In the order of the alphabet; none where all are.
+  // But for those on demand.
+  bool are_all() const { return are_all_; }
+  // In the order of the alphabet; none where none was given.
   const std::vector<std::string> &names() const { return names_; }
 
   // Whether a channel is wanted; one of a command; a row, of some frequency; and any that is of taps.
@@ -52,6 +54,9 @@ private:
   static bool is_there(const Wanted &wanted, const Setup &setup, const Sensor &sensor,
                        const Accuracy &accuracy);
 
+  void add(const std::string &name);
+
+  bool are_all_ = true;
   std::vector<Wanted> wanted_;
   std::vector<std::string> names_, own_names_;
 };

@@ -1,13 +1,12 @@
 // Frames: their channels and what is told of them.
 
-#include "engine/lens/lens.h"
+#include "engine/lens/view_channels.h"
 #include "host/library/calls.h"
 #include "host/library/objects.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <limits>
 #include <variant>
 
 namespace pmdsim::library {
@@ -47,14 +46,10 @@ void tell(const FrameObject &frame, std::size_t index, pmdsim_channel *channel) 
 }
 
 void put_directions(const Sensor &sensor, std::span<double> to) {
-  const Lens lens(sensor);
   auto at = to.begin();
-  for (std::uint32_t row = 0; row < sensor.resolution.y; ++row)
-    for (std::uint32_t column = 0; column < sensor.resolution.x; ++column) {
-      const auto ray = lens.ray(lens.on_chip_m({column + 0.5, row + 0.5}));
-      for (glm::length_t i = 0; i < 3; ++i)
-        *at++ = ray ? (*ray)[i] : std::numeric_limits<double>::quiet_NaN();
-    }
+  for (const glm::dvec3 &ray : rays_of(sensor))
+    for (glm::length_t i = 0; i < 3; ++i)
+      *at++ = ray[i];
 }
 
 } // namespace

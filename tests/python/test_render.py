@@ -275,6 +275,22 @@ class Render(unittest.TestCase):
         with self.assertRaisesRegex(pmdsim.ArgumentError, "output_precision: expected float32 or float64"):
             pmdsim.render(small_setup(), output_precision="double")
 
+    def test_normals_and_rays(self) -> None:
+        with self.assertRaisesRegex(pmdsim.ArgumentError, 'normals: the frame has no normal_x, .*"all,normals"'):
+            pmdsim.render(small_setup()).normals
+        frame = pmdsim.render(small_setup(), channels="all,normals,rays", output_precision="float64")
+        self.assertIn("amplitude", frame)
+        self.assertEqual(frame.normals.shape, (6, 8, 3))
+        sees = ~np.isnan(frame.range_m)
+        np.testing.assert_allclose(frame.normals[sees], np.tile([0.0, 0.0, -1.0], (sees.sum(), 1)), atol=1e-12)
+        self.assertTrue(np.isnan(frame.normals[~sees]).all())
+        rays = np.stack([frame.ray_x, frame.ray_y, frame.ray_z], axis=-1)
+        np.testing.assert_array_equal(rays, frame.directions)
+        world = np.array(frame.camera["world_from_camera"])
+        points = (frame.range_m[..., np.newaxis] * rays) @ world[:3, :3].T + world[:3, 3]
+        np.testing.assert_allclose(points, frame.points_of("range_m"), atol=1e-15)
+        np.testing.assert_allclose(points[sees, 2], -2.0, atol=1e-12)
+
     def test_float64_of_files(self) -> None:
         double = pmdsim.render(small_setup(), output_precision="float64")
         with tempfile.TemporaryDirectory() as folder:

@@ -54,10 +54,11 @@ class FrequencyChannels:
 class Frame:
     """What one sensor measured at one time: named arrays.
 
-    Every channel is an array of shape (rows, columns), row 0 at the top, float32 or uint32 (distances float64 where
-    that was asked for), read-only: an attribute where its name is one (`frame.distance_m`), and an item (`frame["distance_m"]`). With several modulation
-    frequencies those that each has are `frame.f0.distance_m`, `frame["f0.distance_m"]`, and so on. `frame.channels`
-    names them; docs/outputs.md, "Channels", explains them. Floats are NaN where nothing was measured, ids 4294967295.
+    Every channel is an array of shape (rows, columns), row 0 at the top, float32 or uint32 (distances float64 where that
+    was asked for), read-only: an attribute where its name is one (`frame.distance_m`), and an item
+    (`frame["distance_m"]`). With several modulation frequencies those that each has are `frame.f0.distance_m`,
+    `frame["f0.distance_m"]`, and so on. `frame.channels` names them; docs/outputs.md, "Channels", explains them. Floats
+    are NaN where nothing was measured, ids 4294967295.
 
     Arrays of a frame that was just measured are views of the library's memory, without a copy; they keep it alive as
     long as one of them lives. Copying and pickling a frame copies its arrays.
@@ -78,6 +79,9 @@ class Frame:
         forward), ...
     directions : float64 (rows, columns, 3)
         Unit vectors from the lens through the pixels' centres, camera frame.
+    normals : float64 (rows, columns, 3)
+        Unit vectors, camera frame, turned to the lens, of what the pixels' central samples see; NaN where that is
+        nothing. ArgumentError unless `channels` asked for "normals".
     points_m : float64 (rows, columns, 3)
         Where the measured distance lies along them, world frame, metres; NaN where nothing returned. Of several
         frequencies `unwrapped_distance_m`; ArgumentError where there is none, or no distance.
@@ -138,6 +142,14 @@ class Frame:
             directions.flags.writeable = False
             self._directions = directions
         return self._directions
+
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        names = ["normal_x", "normal_y", "normal_z"]
+        missing = [name for name in names if name not in self.channels]
+        if missing:
+            raise ArgumentError(f'normals: the frame has no {", ".join(missing)}; ask for channels="all,normals"')
+        return np.stack([self[name].astype(np.float64) for name in names], axis=-1)
 
     @property
     def points_m(self) -> NDArray[np.float64]:

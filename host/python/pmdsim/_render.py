@@ -84,7 +84,7 @@ def render(
     channels : list of str, or str with commas, optional
         Names of channels ("distance_m", "range_m", ...), such as another frame's `channels`; all by default. Of
         several frequencies "distance_m" is that of each, "f1.distance_m" that of one. "tap", and likewise "tap3", is
-        all taps. What only others need is not computed.
+        all taps. "all" is every channel but "normals" and "rays", which frames have only on demand. What only others need is not computed.
     paths : int, optional
         Of the reference, for each pixel where light bounces.
     strict : bool, optional

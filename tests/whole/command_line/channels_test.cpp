@@ -109,6 +109,23 @@ TEST_CASE("channels that there are not are refused, and nothing is written") {
   CHECK(!std::filesystem::exists(wall.space / "out"));
 }
 
+TEST_CASE("normals and rays are written where they are asked for, alone or beside all others") {
+  const WallSetup wall;
+  require_success(wall.run("render", "usual", {"--format", "npy"}));
+  require_success(wall.run("render", "view", {"--format", "npy", "--channels", "normals,ray_z"}));
+  require_success(wall.run("render", "more", {"--format", "npy,h5,exr,csv", "--channels", "all,rays"}));
+  CHECK(wall.space.files("view") == std::vector<std::string>{"0000.record.json", "manifest.json",
+                                                             "pmd_0000.normal_x.npy", "pmd_0000.normal_y.npy",
+                                                             "pmd_0000.normal_z.npy", "pmd_0000.ray_z.npy",
+                                                             "run.json"});
+  CHECK(bytes_in(wall.space / "view/pmd_0000.ray_z.npy") == bytes_in(wall.space / "more/pmd_0000.ray_z.npy"));
+  CHECK(manifest_in(wall.space / "more").at("channels") == nlohmann::json{"all", "rays"});
+  const std::vector<std::string> usual = wall.space.files("usual"), more = wall.space.files("more");
+  CHECK(more.size() == usual.size() + 6); // three channels, and three files of all
+  CHECK(std::ranges::includes(more, usual));
+  CHECK(std::ranges::none_of(usual, [](const std::string &name) { return name.find("ray_") != name.npos; }));
+}
+
 TEST_CASE("the same channels in another order are the same run") {
   const WallSetup wall;
   require_success(wall.run("render", "out", {"--channels", "z_m,distance_m"}));
