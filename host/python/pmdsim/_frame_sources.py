@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ._errors import ArgumentError, InputError
 from ._library import Channel, channels, check, library
 
-_types = {0: np.dtype(np.float32), 1: np.dtype(np.uint32), 2: np.dtype(np.float64)}
+_types: Dict[int, "np.dtype[Any]"] = {0: np.dtype(np.float32), 1: np.dtype(np.uint32), 2: np.dtype(np.float64)}
 
 
 class Source(Protocol):
