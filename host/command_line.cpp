@@ -1,5 +1,7 @@
 #include "host/command_line.h"
 
+#include "host/command_examples.h"
+#include "host/explain/topics.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
 
@@ -101,6 +103,10 @@ void add_importing(CLI::App &command, Written &written) {
       "which of several cameras: cam0, cam1 ... of Kalibr's, 1 or 2 of OpenCV's pairs [the first]");
 }
 
+void add_schema(CLI::App &command, Written &written) {
+  command.add_option("-o,--output", written.options.schema_file, "file for it [stdout]");
+}
+
 void add_suite(CLI::App &bench, Written &written) {
   SuiteOptions &suite = written.suite;
   CLI::Option *named = bench.add_option("--suite", written.suite_name,
@@ -149,6 +155,10 @@ const std::map<std::string, std::vector<std::string>> &default_formats() {
 }
 
 void add_commands(CLI::App &app, Written &written) {
+  CLI::App *fresh = app.add_subcommand(
+      "new", "write a setup to begin with, every line explained, and its scene, into a new folder");
+  add_new(*fresh, written.fresh);
+
   CLI::App *render =
       app.add_subcommand("render", "measure frames: amplitude, phase, distance and ground truth");
   add_setup(*render, written, Setups::several);
@@ -202,11 +212,35 @@ void add_commands(CLI::App &app, Written &written) {
       "import-calibration", "print a sensor, for a setup, from what calibration tools write");
   add_importing(*import_calibration, written);
 
+  CLI::App *explain = app.add_subcommand(
+      "explain",
+      "what a key of a setup, a channel, a warning or an exit code means: unit, default, limits, an example");
+  add_explain(*explain, written.options.explain);
+
+  CLI::App *schema = app.add_subcommand(
+      "schema", "print the JSON Schema of setups, by which editors complete and check them");
+  add_schema(*schema, written);
+
   CLI::App *devices = app.add_subcommand("devices", "list the devices that --device takes");
-  for (CLI::App *command :
-       {render, deform, check, bench, tradeoff, noise, merge, report, import_calibration, devices})
+  for (CLI::App *command : {fresh, render, deform, check, bench, tradeoff, noise, merge, report,
+                            import_calibration, explain, schema, devices}) {
     command->add_flag("--json", written.options.json,
                       "print one JSON object on stdout and nothing else there");
+    const std::string more = command->get_footer();
+    command->footer(examples_text(command->get_name()) + (more.empty() ? "" : "\n" + more));
+  }
+}
+
+void add_suggestions(CommandTable &table) {
+  std::vector<std::string> channels;
+  for (const ChannelRow &row : channel_rows)
+    channels.emplace_back(row.name);
+  channels.emplace_back(deformation_channel);
+  suggest(table, "--channels", channels);
+  suggest(table, "--device", {"cpu", "gpu", "reference"});
+  suggest(table, "--samples", {"auto"});
+  suggest(table, "--shard", {"slurm"});
+  suggest(table, "KEY", topic_names());
 }
 
 } // namespace pmdsim

@@ -2,6 +2,7 @@
 // What the command line offers: its commands and options, with their words, before anything is checked.
 
 #include "host/accuracy_options.h"
+#include "host/manual/command_table.h"
 #include "host/options.h"
 #include "host/report_options.h"
 #include "host/setup_options.h"
@@ -25,12 +26,16 @@ struct Written {
   WrittenReporting reporting;
   std::optional<std::string> samples, frames, shard, paths, suite_name;
   SuiteOptions suite;
+  WrittenNew fresh;
   std::vector<std::string> formats, channels;
   std::optional<std::string> output_precision;
 };
 
 // The formats of the commands that write frames, where none are asked for.
 const std::map<std::string, std::vector<std::string>> &default_formats();
+
+// What completions offer for arguments that take more than a few named values.
+void add_suggestions(CommandTable &table);
 
 // Parsing `app` fills in `written`, which must outlive it.
 void add_commands(CLI::App &app, Written &written);

@@ -1,5 +1,6 @@
 #include "host/options.h"
 
+#include "host/command_examples.h"
 #include "host/command_line.h"
 #include "host/input/calibration/calibration_sensor.h"
 #include "host/input/schema/limits.h"
@@ -162,6 +163,8 @@ Options checked(Written written, const std::string &command) {
   check_comparing(written);
   capture.accuracy = accuracy_of(written.accuracy, names_the_reference(capture.device));
   options.mode_written = written.accuracy.mode.has_value();
+  if (command == "new")
+    options.fresh = new_setup_of(written.fresh);
   if (written.suite_name)
     options.suite = written.suite;
   if (written.samples)
@@ -241,6 +244,10 @@ std::string parse_failure(const CLI::App &app, const CLI::ParseError &error) {
 } // namespace
 
 std::optional<Options> parse_options(int argument_count, const char *const *arguments) {
+  if (argument_count <= 1) {
+    fmt::print("{}", first_steps());
+    return std::nullopt;
+  }
   CLI::App app(
       "pmdsim: what a continuous-wave time-of-flight (PMD) camera measures by the light of many diodes",
       "pmdsim");
@@ -260,7 +267,9 @@ std::optional<Options> parse_options(int argument_count, const char *const *argu
     return std::nullopt;
   }
   if (!manual.empty()) {
-    fmt::print("{}", manual_of(table_of(app), manual));
+    CommandTable table = table_of(app);
+    add_suggestions(table);
+    fmt::print("{}", manual_of(table, manual));
     return std::nullopt;
   }
   return checked(written, app.get_subcommands().front()->get_name());

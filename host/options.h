@@ -2,6 +2,8 @@
 // The command line, parsed and checked.
 
 #include "host/capture/capture.h"
+#include "host/explain_options.h"
+#include "host/new_options.h"
 #include "host/output/page/report_page.h"
 
 #include <cstdint>
@@ -39,11 +41,14 @@ struct Options {
   std::optional<double> pixel_pitch_m;       // along the columns, instead of the default
   std::string sensor_name;                   // instead of the file's; empty where it is not given
   std::string calibrated_camera;             // which of the file's cameras; empty: the first
+  std::optional<NewSetup> fresh;             // new
+  ExplainRequest explain;                    // explain
+  std::filesystem::path schema_file;         // schema; empty: stdout
   bool json = false;
 };
 
-// Nothing where --help or --version was asked for and has been answered on stdout. Throws Error (usage) in
-// one line for what is wrong.
+// Nothing where nothing but words were asked for, by --help, --version or no argument at all, and they have
+// been printed on stdout. Throws Error (usage) in one line for what is wrong.
 std::optional<Options> parse_options(int argument_count, const char *const *arguments);
 
 } // namespace pmdsim

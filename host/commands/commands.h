@@ -15,5 +15,8 @@ void run_merge(const Options &options);
 void run_report(const Options &options);
 void run_import_calibration(const Options &options);
 void run_devices(const Options &options);
+void run_new(const Options &options);
+void run_schema(const Options &options);
+void run_explain(const Options &options);
 
 } // namespace pmdsim

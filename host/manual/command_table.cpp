@@ -66,6 +66,14 @@ CommandTable table_of(const CLI::App &app) {
   return table;
 }
 
+void suggest(CommandTable &table, const std::string &argument, const std::vector<std::string> &values) {
+  for (CommandRow &command : table.commands)
+    for (std::vector<ArgumentRow> *rows : {&command.operands, &command.options})
+      for (ArgumentRow &row : *rows)
+        if (std::ranges::find(row.names, argument) != row.names.end())
+          row.suggestions = values;
+}
+
 const CommandRow *find_command(const CommandTable &table, const std::string &name) {
   const auto found = std::ranges::find(table.commands, name, &CommandRow::name);
   return found == table.commands.end() ? nullptr : &*found;

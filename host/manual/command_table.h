@@ -13,11 +13,12 @@ namespace pmdsim {
 
 // An option, or an operand such as SETUP.
 struct ArgumentRow {
-  std::vector<std::string> names;   // "-o", "--output"; of an operand its name alone: "SETUP"
-  std::string value;                // the kind of its value: "text", "number"; empty for flags
-  std::vector<std::string> choices; // all values that it takes, where they are named
-  bool is_list = false;             // takes several values, separated by commas
-  bool is_repeated = false;         // an operand of which there may be several
+  std::vector<std::string> names;         // "-o", "--output"; of an operand its name alone: "SETUP"
+  std::string value;                      // the kind of its value: "text", "number"; empty for flags
+  std::vector<std::string> choices;       // all values that it takes, where they are named
+  std::vector<std::string> suggestions{}; // some of them, for completions, where `choices` is empty
+  bool is_list = false;                   // takes several values, separated by commas
+  bool is_repeated = false;               // an operand of which there may be several
   bool is_required = false;
   std::string about;
 };
@@ -37,8 +38,16 @@ struct CommandTable {
   std::vector<CommandRow> commands;
 };
 
+// What completions offer for the argument.
+inline const std::vector<std::string> &offered(const ArgumentRow &row) {
+  return row.choices.empty() ? row.suggestions : row.choices;
+}
+
 // Without what --help hides.
 CommandTable table_of(const CLI::App &app);
+
+// Sets the suggestions of the arguments of that name, "--device" or "KEY", of all commands.
+void suggest(CommandTable &table, const std::string &argument, const std::vector<std::string> &values);
 
 // Null where there is none of that name.
 const CommandRow *find_command(const CommandTable &table, const std::string &name);

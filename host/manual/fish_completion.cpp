@@ -18,9 +18,9 @@ std::string quoted(const std::string &text) {
 std::string fish_value(const ArgumentRow &row) {
   if (row.value.empty())
     return "";
-  if (row.choices.empty())
+  if (offered(row).empty())
     return " -r -F";
-  const std::string choices = fmt::format("{}", fmt::join(row.choices, " "));
+  const std::string choices = fmt::format("{}", fmt::join(offered(row), " "));
   return row.is_list ? fmt::format(" -x -a '(__fish_append , {})'", choices)
                      : fmt::format(" -x -a '{}'", choices);
 }
@@ -43,9 +43,15 @@ std::string fish_completion(const CommandTable &table) {
   for (const CommandRow &command : table.commands)
     script +=
         fmt::format("complete -c pmdsim -n {} -f -a {} -d {}\n", none, command.name, quoted(command.about));
-  for (const CommandRow &command : table.commands)
+  for (const CommandRow &command : table.commands) {
+    const std::string seen = "__fish_seen_subcommand_from " + command.name;
     for (const ArgumentRow &row : command.options)
-      script += line_of("__fish_seen_subcommand_from " + command.name, row);
+      script += line_of(seen, row);
+    for (const ArgumentRow &row : command.operands)
+      if (!offered(row).empty())
+        script += fmt::format("complete -c pmdsim -n {} -a '{}' -d {}\n", quoted(seen),
+                              fmt::join(offered(row), " "), quoted(row.names.front()));
+  }
   return script;
 }
 

@@ -1,5 +1,7 @@
 #include "host/manual/manual.h"
 
+#include "host/manual/exit_codes.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -9,40 +11,6 @@
 
 namespace pmdsim {
 namespace {
-
-constexpr std::string_view exit_codes = R"(.SH EXIT STATUS
-An error is one line on the standard error that names the file, the place in it, and what was expected.
-.TP
-.B 0
-done
-.TP
-.B 1
-internal error
-.TP
-.B 2
-the command line is wrong
-.TP
-.B 3
-an input is wrong
-.TP
-.B 4
-no usable device
-.TP
-.B 5
-out of memory
-.TP
-.B 6
-the device was lost
-.TP
-.B 7
-an output cannot be written
-.TP
-.B 8
-the accuracy asked for cannot be reached
-.TP
-.B 130
-interrupted
-)";
 
 constexpr std::string_view environment = R"(.SH ENVIRONMENT
 .TP
@@ -121,6 +89,15 @@ std::string item_of(const ArgumentRow &row) {
   return item + "\n" + roff(row.about) + "\n";
 }
 
+std::string exit_codes() {
+  std::string text =
+      ".SH EXIT STATUS\nAn error is one line on the standard error that names the file, the place "
+      "in it, and what was expected.\n";
+  for (const ExitCodeRow &row : exit_code_rows)
+    text += fmt::format(".TP\n.B {}\n{}\n", row.code, roff(row.about));
+  return text;
+}
+
 std::string in_synopsis(const ArgumentRow &operand) {
   const std::string text = italic(operand.names.front()) + (operand.is_repeated ? " ..." : "");
   return operand.is_required ? text : fmt::format("[{}]", text);
@@ -197,7 +174,7 @@ std::string man_page(const CommandTable &table, const std::string &version) {
   for (const CommandRow &command : table.commands)
     page += fmt::format(".TP\n{}\n{}\n", bold(command.name), roff(command.about));
   page += items("OPTIONS", table.options);
-  page += exit_codes;
+  page += exit_codes();
   page += environment;
   return page + other_pages(table, table.program);
 }
@@ -212,7 +189,7 @@ std::string man_page(const CommandTable &table, const CommandRow &command, const
   page += items("OPERANDS", command.operands);
   page += items("OPTIONS", command.options);
   page += sections_of(command.footer);
-  page += exit_codes;
+  page += exit_codes();
   return page + other_pages(table, name);
 }
 

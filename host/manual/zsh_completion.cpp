@@ -17,10 +17,10 @@ std::string escaped(const std::string &text, std::string_view special) {
 }
 
 std::string zsh_value(const ArgumentRow &row) {
-  if (row.choices.empty())
+  if (offered(row).empty())
     return ":_files";
-  return row.is_list ? fmt::format(":_values -s , value {}", fmt::join(row.choices, " "))
-                     : fmt::format(":({})", fmt::join(row.choices, " "));
+  return row.is_list ? fmt::format(":_values -s , value {}", fmt::join(offered(row), " "))
+                     : fmt::format(":({})", fmt::join(offered(row), " "));
 }
 
 // A specification of _arguments for each of the option's names.

@@ -34,6 +34,9 @@ check_bash() {
   expect 'a value behind =' 'fp32 fp64 ' "$(complete_in_bash pmdsim bench --precision = fp)"
   expect 'a list' 'exr,npy ' "$(complete_in_bash pmdsim render --format exr,npy)"
   expect 'a list behind =' 'exr,png ' "$(complete_in_bash pmdsim render --format = exr,pn)"
+  expect 'a kind' 'star step ' "$(complete_in_bash pmdsim new st)"
+  expect 'a channel in a list' 'lit,multipath_error_m lit,multipath_m ' "$(complete_in_bash pmdsim render --channels lit,multip)"
+  expect 'a key' 'focal_length_m ' "$(complete_in_bash pmdsim explain focal)"
   expect 'a file' ' ' "$(complete_in_bash pmdsim render ro)"
   expect 'the hidden command' ' ' "$(complete_in_bash pmdsim manu)"
 }

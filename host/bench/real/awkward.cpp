@@ -1,6 +1,6 @@
 // Scenes that are awkward for whatever traces them.
 #include "host/bench/real/kinds.h"
-#include "host/bench/real/mesh.h"
+#include "host/shapes/mesh.h"
 
 #include <algorithm>
 #include <cmath>

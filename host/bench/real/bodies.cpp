@@ -1,6 +1,6 @@
 // Smooth and rough bodies before a wall, and hills.
 #include "host/bench/real/kinds.h"
-#include "host/bench/real/mesh.h"
+#include "host/shapes/mesh.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Scenes of many thin parts.
 #include "host/bench/real/kinds.h"
-#include "host/bench/real/mesh.h"
+#include "host/shapes/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -273,6 +273,8 @@ void check_schema(const json &document, const json &schema_document, const std::
     throw explained(deepest_failure(failures, document, schema_document, file), schema_document);
 }
 
+std::string expected_value(const json &schema, const json &part) { return expectation(schema, part); }
+
 ordered_json with_defaults(const json &document, const ordered_json &schema) {
   return filled(schema, schema, document);
 }

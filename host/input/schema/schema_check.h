@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 namespace pmdsim {
@@ -15,6 +16,9 @@ extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that a
 // A wrong key or value is thrown as Error (input) with its JSON pointer in `file`.
 void check_schema(const nlohmann::json &document, const nlohmann::json &schema,
                   const std::filesystem::path &file);
+
+// The value that a part of a schema asks for, as errors say it: "an integer from 1 to 16".
+std::string expected_value(const nlohmann::json &schema, const nlohmann::json &part);
 
 // A valid document with every absent key that has a `default` filled in, keys in the schema's order.
 nlohmann::ordered_json with_defaults(const nlohmann::json &document, const nlohmann::ordered_json &schema);

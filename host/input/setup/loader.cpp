@@ -33,6 +33,7 @@ ordered_json with_all_defaults(json document, const ordered_json &schema) {
     if (!illuminator.contains("pose"))
       illuminator["pose"] = {{"sensor", document.at("sensors").at(0).at("name")}};
   ordered_json setup = with_defaults(document, schema);
+  setup.erase("$schema"); // is for editors; the same run has it or not
   for (ordered_json &illuminator : setup.at("illuminators"))
     if (illuminator.at("diodes").contains("file"))
       illuminator.erase("pattern");

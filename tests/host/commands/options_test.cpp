@@ -1,10 +1,13 @@
 // The command line, parsed.
 
 #include "engine/model/error.h"
+#include "host/command_examples.h"
 #include "host/options.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
+#include <string>
 #include <vector>
 
 using namespace pmdsim;
@@ -34,6 +37,23 @@ std::string refusal(const std::vector<const char *> &more) {
 }
 
 } // namespace
+
+TEST_CASE("the examples that help shows are command lines") {
+  for (const CommandExample &example : command_examples()) {
+    INFO(example.line);
+    std::vector<std::string> words;
+    std::istringstream in{std::string(example.line)};
+    for (std::string word; in >> word;)
+      words.push_back(word);
+    std::vector<const char *> arguments;
+    for (const std::string &word : words)
+      arguments.push_back(word.c_str());
+    REQUIRE(words.front() == "pmdsim");
+    const Options options = parse_options(static_cast<int>(arguments.size()), arguments.data()).value();
+    CHECK(options.command == example.command);
+    CHECK(examples_text(example.command).find(example.about) != std::string::npos);
+  }
+}
 
 TEST_CASE("without a word about accuracy the mode is exact") {
   const Options options = rendered({});

@@ -90,6 +90,14 @@ TEST_CASE("completions know commands, options and values") {
     CHECK_FALSE(holds(script, "secret"));
     CHECK_FALSE(holds(script, "internal"));
   }
+  CommandTable suggesting = table;
+  suggest(suggesting, "--size", {"small", "large"});
+  suggest(suggesting, "FILE", {"horse"});
+  for (const std::string &script :
+       {bash_completion(suggesting), zsh_completion(suggesting), fish_completion(suggesting)})
+    for (const char *word : {"small large", "horse"})
+      CHECK(holds(script, word));
+  CHECK_FALSE(holds(man_page(suggesting, suggesting.commands.front(), "1"), "horse")); // it takes others, too
   CHECK(holds(zsh_completion(table), "a '\\''picture'\\'' of"));
   CHECK(holds(zsh_completion(table), "which \\[all\\]"));
   CHECK(holds(fish_completion(table), "a \\'picture\\' of"));

@@ -1,4 +1,4 @@
-#include "host/bench/real/mesh.h"
+#include "host/shapes/mesh.h"
 
 #include <algorithm>
 #include <cmath>

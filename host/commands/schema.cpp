@@ -1,0 +1,20 @@
+#include "host/commands/commands.h"
+#include "host/input/schema/schema_check.h"
+#include "host/output/files/manifest.h"
+#include "host/output/files/output_file.h"
+#include "host/report/report.h"
+
+namespace pmdsim {
+
+void run_schema(const Options &options) {
+  if (options.schema_file.empty())
+    return print(std::string(setup_schema_text));
+  OutputFile file(options.schema_file);
+  file.write(setup_schema_text);
+  file.close();
+  file.publish();
+  if (options.json)
+    print(json_text({{"outputs", {options.schema_file.string()}}}));
+}
+
+} // namespace pmdsim
