@@ -2,6 +2,7 @@
 
 #include "engine/electronics/electrons.h"
 #include "engine/electronics/scatter.h"
+#include "engine/lens/seen_normal.h"
 #include "engine/model/channels.h"
 #include "engine/model/tap_sequence.h"
 #include "engine/signal/unwrapping.h"
@@ -249,6 +250,14 @@ void Exposures::reuse(Measurement &&frame) {
     return camera_->reuse(std::move(frame));
   const std::scoped_lock lock(spare_mutex_);
   move_missing(frame, spare_);
+}
+
+std::vector<glm::vec3> Exposures::normals_of(const TakenFrame &frame, double time_s) {
+  const auto of = [&](const Scene &scene) {
+    return seen_normals(scene, frame.measurement.triangle_id, frame.sensor.world_from_camera.translation_m);
+  };
+  // After taps that are exposures of their own the scene is that of the last of them.
+  return instants_.holds(time_s) ? of(instants_.at(time_s).scene) : of(setup_.at(time_s).scene);
 }
 
 std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
