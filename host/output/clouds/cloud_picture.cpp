@@ -154,7 +154,7 @@ int side_of_points(const PointCloud &cloud, const Extent &extent, const View &vi
   const glm::dvec2 &pitch_m = cloud.sensor().pixel_pitch_m;
   const double pixel_rad = std::max(pitch_m.x, pitch_m.y) / cloud.sensor().image_distance_m();
   const double away_m = glm::length(extent.middle_m - cloud.sensor().world_from_camera.translation_m);
-  const double side = 1.3 * pixel_rad * away_m / view.depth_m * view.scale;
+  const double side = 1.6 * pixel_rad * away_m / view.depth_m * view.scale;
   constexpr double smallest = 1.0, largest = 12.0;
   return static_cast<int>(std::ceil(std::clamp(side, smallest, largest)));
 }
@@ -179,10 +179,10 @@ void draw_scale(Canvas &canvas, const View &view) {
   const double fifth_m = 0.2 * whole.width / pixels_a_metre;
   const double power = std::pow(10.0, std::floor(std::log10(fifth_m)));
   const double length_m = power * (fifth_m >= 5.0 * power ? 5.0 : fifth_m >= 2.0 * power ? 2.0 : 1.0);
-  const double right = whole.right() - 12.0, y = whole.bottom() - 14.0;
-  const double left = right - length_m * pixels_a_metre;
+  const double left = whole.left + 12.0, y = whole.bottom() - 14.0; // the camera is on the right
+  const double right = left + length_m * pixels_a_metre;
   canvas.line({left, y}, {right, y}, black, 3.0);
-  canvas.text(0.5 * (left + right), y - 14.0, value_text(length_m) + " m in the middle", Anchor::centre);
+  canvas.text(left, y - 14.0, value_text(length_m) + " m in the middle", Anchor::left);
 }
 
 std::string caption_of(const PointCloud &cloud) {
