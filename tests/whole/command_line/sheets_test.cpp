@@ -89,9 +89,9 @@ TEST_CASE("an edited record costs the pictures alone") {
   const PictureFrames frames(2);
   frames.render("out", {"--frames", "0:1"});
   const std::string record = frames.record("out", 0);
-  auto json = nlohmann::ordered_json::parse(bytes_in(record));
-  json["sensors"][0]["thumbnails"][0]["resolution"] = {128, 128};
-  frames.work.write("out/0000.record.json", json.dump());
+  auto edited = nlohmann::ordered_json::parse(bytes_in(record));
+  edited["sensors"][0]["thumbnails"][0]["resolution"] = {128, 128};
+  frames.work.write("out/0000.record.json", edited.dump());
   frames.render("out", {"--resume"});
   CHECK(frames.sheets("out").empty());
   CHECK(frames.frames_in_manifest("out") == 4);
@@ -105,8 +105,8 @@ TEST_CASE("render and deform tell of the pictures") {
   for (const char *command : {"render", "deform"}) {
     const Run run = run_pmdsim({command, frames.setup, "--device", "reference", "--format", "png", "-o",
                                 frames.work / command, "--json"});
-    const auto json = nlohmann::json::parse(run.output);
-    const auto told = json.at(std::string(command) == "render" ? "sheets" : "outputs");
+    const auto report = nlohmann::json::parse(run.output);
+    const auto told = report.at(std::string(command) == "render" ? "sheets" : "outputs");
     CHECK(std::ranges::any_of(told, [](const std::string &path) { return path.ends_with(".apng"); }));
   }
 }
