@@ -30,9 +30,9 @@ void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &c
 
 void write_cloud_picture(OutputFile &file, const FrameToWrite &frame) {
   const PointCloud cloud(frame.sensor, frame.channels);
-  const std::string title = picture_title("point cloud", frame, cloud.distance().frequency);
+  const CloudPicture picture(cloud);
   const std::scoped_lock alone(drawing_mutex());
-  draw_cloud(cloud, title).write_png(file);
+  picture.draw(picture_title("point cloud", frame, cloud.distance().frequency)).write_png(file);
 }
 
 // Null where there are no distances.

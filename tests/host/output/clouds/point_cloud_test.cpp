@@ -76,6 +76,11 @@ struct RandomFrame {
   }
 };
 
+Canvas picture_of(const RandomFrame &frame) {
+  const PointCloud cloud(frame.sensor, frame.channels);
+  return CloudPicture(cloud).draw("title");
+}
+
 } // namespace
 
 TEST_CASE("a point cloud has the measured point of every pixel that has a distance") {
@@ -149,14 +154,14 @@ TEST_CASE("colours of points grow with amplitude, from the ends of viridis") {
 TEST_CASE("a picture of a point cloud shows its points in their colours") {
   RandomFrame frame;
   frame.amplitude.assign(pixels, 1.0f);
-  Canvas canvas = draw_cloud({frame.sensor, frame.channels}, "title");
+  Canvas canvas = picture_of(frame);
   const auto yellow = [](std::uint32_t pixel) { return pixel == 0xfde725; };
   CHECK(count_pixels(canvas, yellow) > 500);
   frame.distance_m.assign(pixels, nan_value);
-  Canvas empty = draw_cloud({frame.sensor, frame.channels}, "title");
+  Canvas empty = picture_of(frame);
   CHECK(count_pixels(empty, yellow) == 0);
   frame.distance_m[3] = 1e-30f; // in the lens
-  CHECK(draw_cloud({frame.sensor, frame.channels}, "title").width() == canvas.width());
+  CHECK(picture_of(frame).width() == canvas.width());
 }
 
 TEST_CASE("the nearer of two points hides the other in a picture") {
@@ -174,11 +179,11 @@ TEST_CASE("the nearer of two points hides the other in a picture") {
     }
   frame.channels.channels = {{"amplitude", "W/(m² sr)", std::span<const float>(frame.amplitude)},
                              {"distance_m", "m", std::span<const float>(frame.distance_m)}};
-  Canvas canvas = draw_cloud({frame.sensor, frame.channels}, "title");
+  Canvas canvas = picture_of(frame);
   const int plate = count_pixels(canvas, [](std::uint32_t pixel) { return pixel == 0xfde725; });
   CHECK(plate > 2000);
   std::reverse(frame.distance_m.begin(), frame.distance_m.end());
   std::reverse(frame.amplitude.begin(), frame.amplitude.end());
-  Canvas turned = draw_cloud({frame.sensor, frame.channels}, "title");
+  Canvas turned = picture_of(frame);
   CHECK(count_pixels(turned, [](std::uint32_t pixel) { return pixel == 0xfde725; }) == plate);
 }
