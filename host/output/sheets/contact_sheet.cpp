@@ -18,7 +18,8 @@ struct Grid {
   double width, height; // of an image
 
   Box cell(std::size_t index) const {
-    const auto column = static_cast<double>(index % columns), row = static_cast<double>(index / columns);
+    const std::size_t row_number = index / columns;
+    const auto column = static_cast<double>(index % columns), row = static_cast<double>(row_number);
     return {margin + column * (width + cell_gap), top + row * (height + label_height + cell_gap), width,
             height};
   }
