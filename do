@@ -145,20 +145,22 @@ make_wheel() {
 
 demo() {
   local out=$root/out/demo figure
-  for figure in showroom paper_ring paper_half_ring; do
+  printf '\n'
+  "$program" render "$root/scenes/showroom/showroom.json" --format png,ply -o "$out/showroom"
+  printf '\n'
+  "$program" deform "$root/scenes/showroom/showroom.json" -o "$out/showroom_deformation"
+  for figure in paper_ring paper_half_ring; do
     printf '\n'
     "$program" deform "$root/scenes/$figure.json" -o "$out/$figure"
   done
-  printf '\n'
-  "$program" render "$root/scenes/showroom.json" --format png,ply -o "$out/showroom_frame"
   for figure in paper_moire room; do
     printf '\n'
     "$program" render "$root/scenes/$figure.json" -o "$out/$figure"
   done
   printf '\nThe pictures are in %s:\n' "$out"
   (cd "$out" && find . -name '*.png' | sort | sed 's,^\./,  ,')
-  printf '%s\n' "Look first at showroom_frame/pmd_0000.amplitude.png, a room with its shadows, at what the light's place adds to" \
-    "its distances, showroom/pmd_0000.deformation_mm.png, and at its points, showroom_frame/pmd_0000.cloud.png and .ply."
+  printf '%s\n' "Look first at showroom/pmd_0000.amplitude.png, a room with its shadows, at what the light's place adds to its" \
+    "distances, showroom_deformation/pmd_0000.deformation_mm.png, and at its points, showroom/pmd_0000.cloud.png and .ply."
   printf '%s\n' "Figure 11 of the paper is paper_ring/, figure 13 paper_half_ring/, figure 6's pattern paper_moire/."
 }
 

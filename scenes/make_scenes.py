@@ -270,7 +270,7 @@ def showroom():
     put("column", upright(0.16, 3.2, 48), stone, (-1.5, 0, -2.0))
     put("crate", box(0.6, 0.6, 0.6), cardboard, (1.55, 0, -2.1), 25)
     put("small crate", box(0.35, 0.35, 0.35), cardboard, (1.5, 0.6, -2.1), -20)
-    scene.write_glb("showroom.glb")
+    scene.write_glb("showroom/showroom.glb")
 
 
 def moving():
