@@ -30,7 +30,7 @@ say() { printf '%s\n' "do: $*" >&2; }
 usage() {
   cat >&2 <<'END'
 usage: ./do COMMAND
-  demo       install what is missing, build, compute the paper's figures 6, 11 and 13
+  demo       install what is missing, build, compute a furnished room and the paper's figures 6, 11 and 13
   run ARGS   run pmdsim with ARGS, e.g. ./do run deform scenes/paper_ring.json
   test       build and run what every change must pass, some minutes; prints the accuracy tables
              --smoke  only a few cases of each kind, within a minute
@@ -145,6 +145,10 @@ make_wheel() {
 
 demo() {
   local out=$root/out/demo figure
+  printf '\n'
+  "$program" render "$root/scenes/showroom/showroom.json" --format png,ply -o "$out/showroom"
+  printf '\n'
+  "$program" deform "$root/scenes/showroom/showroom.json" -o "$out/showroom_deformation"
   for figure in paper_ring paper_half_ring; do
     printf '\n'
     "$program" deform "$root/scenes/$figure.json" -o "$out/$figure"
@@ -155,6 +159,8 @@ demo() {
   done
   printf '\nThe pictures are in %s:\n' "$out"
   (cd "$out" && find . -name '*.png' | sort | sed 's,^\./,  ,')
+  printf '%s\n' "Look first at showroom/pmd_0000.amplitude.png, a room with its shadows, at what the light's place adds to its" \
+    "distances, showroom_deformation/pmd_0000.deformation_mm.png, and at its points, showroom/pmd_0000.cloud.png and .ply."
   printf '%s\n' "Figure 11 of the paper is paper_ring/, figure 13 paper_half_ring/, figure 6's pattern paper_moire/."
 }
 

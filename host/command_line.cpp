@@ -47,7 +47,7 @@ void add_writing(CLI::App &command, Written &written) {
   add_output(command, written);
   command
       .add_option("--format", written.formats,
-                  fmt::format("what to write: exr, npz, h5, npy, png, csv, separated by commas [{}]",
+                  fmt::format("what to write: exr, npz, h5, npy, ply, png, csv, separated by commas [{}]",
                               fmt::join(default_formats().at(command.get_name()), ",")))
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(format_names.begin(), format_names.end())));

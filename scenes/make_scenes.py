@@ -215,6 +215,64 @@ def room():
     scene.write_glb("room.glb")
 
 
+def upright(radius, height, slices):
+    """A closed cylinder about the y axis, standing on y = 0, without its hidden bottom."""
+    around = [2 * math.pi * part / slices for part in range(slices)]
+    foot = [(radius * math.sin(angle), 0, radius * math.cos(angle)) for angle in around]
+    positions = foot + [(x, height, z) for x, _, z in foot] + [(0, height, 0)]
+    indices = []
+    for part in range(slices):
+        following = (part + 1) % slices
+        indices += [part, following, slices + following, part, slices + following, slices + part]
+        indices += [slices + part, slices + following, 2 * slices]
+    return positions, indices
+
+
+def together(*parts):
+    """One mesh of several (shape, (x, y, z)): each moved there."""
+    positions, indices = [], []
+    for (shape, corners), (x, y, z) in parts:
+        first = len(positions)
+        positions += [(px + x, py + y, pz + z) for px, py, pz in shape]
+        indices += [first + corner for corner in corners]
+    return positions, indices
+
+
+def on_legs(width, depth, height, thickness, leg, *more):
+    """A plate on four legs, closed on all sides, and more parts."""
+    x, z = (width - leg) / 2, (depth - leg) / 2
+    length = height - thickness
+    legs = [(closed_bar(leg, length, leg), (sx * x, length / 2, sz * z)) for sx in (-1, 1) for sz in (-1, 1)]
+    return together((closed_bar(width, thickness, depth), (0, height - thickness / 2, 0)), *legs, *more)
+
+
+def showroom():
+    """A table with a ball on it, two chairs, a column and crates in the corner of a room."""
+    scene = Gltf()
+    paint, wood, stone = (scene.material(*of) for of in (("wall paint", 0.8), ("wood", 0.5), ("stone", 0.35)))
+    carpet, rubber, cardboard = (scene.material(*of) for of in (("carpet", 0.3), ("rubber", 0.7), ("cardboard", 0.45)))
+
+    def put(name, shape, material, place, turn_deg=0.0, axis=(0, 1, 0)):
+        half = math.radians(turn_deg) / 2
+        rotation = [math.sin(half) * along for along in axis] + [math.cos(half)]
+        mesh = shape if isinstance(shape, int) else scene.mesh(*shape, material)
+        scene.node({"name": name, "mesh": mesh, "translation": list(place), "rotation": rotation})
+
+    put("floor", rectangle(-2.4, 3.4, -2.5, 2.5), carpet, (0, 0, -0.5), -90, (1, 0, 0))
+    put("back wall", rectangle(-2.4, 3.4, 0, 3.2), paint, (0, 0, -3))
+    put("left wall", rectangle(-2.5, 2.5, 0, 3.2), paint, (-2.4, 0, -0.5), 90)
+    put("table", on_legs(1.3, 0.75, 0.74, 0.05, 0.06), wood, (0.1, 0, -1.1), 12)
+    put("ball", sphere(0.17, 48, 32), rubber, (0.25, 0.91, -1.1))
+    back = (closed_bar(0.44, 0.45, 0.04), (0, 0.68, -0.2))
+    chair = scene.mesh(*on_legs(0.44, 0.44, 0.45, 0.04, 0.05, back), wood)
+    put("left chair", chair, wood, (-0.95, 0, -0.75), 70)
+    put("right chair", chair, wood, (0.55, 0, -1.95), -10)
+    put("column", upright(0.16, 3.2, 48), stone, (-1.5, 0, -2.0))
+    put("crate", box(0.6, 0.6, 0.6), cardboard, (1.55, 0, -2.1), 25)
+    put("small crate", box(0.35, 0.35, 0.35), cardboard, (1.5, 0.6, -2.1), -20)
+    scene.write_glb("showroom/showroom.glb")
+
+
 def moving():
     """A board that moves away at 1 m/s before a wall, a box that turns once in 2 s, a lamp that swings by."""
     scene = Gltf()
@@ -410,6 +468,7 @@ def main():
     wall("wall_2m.gltf", 0.4, 2.0)
     wall("wall_0m3.gltf", 0.45, 0.3)
     room()
+    showroom()
     bars()
     closed_box()
     penumbra()

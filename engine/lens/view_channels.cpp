@@ -62,6 +62,19 @@ glm::dvec3 seen_normal(const Scene &scene, const Pose &camera_from_world, std::u
   return (glm::dot(normal, first_m) > 0.0 ? -1.0 : 1.0) / length * normal;
 }
 
+std::vector<glm::vec3> seen_normals_in_world(const Scene &scene, std::span<const std::uint32_t> shapes,
+                                             const Pose &world_from_camera) {
+  const Pose camera_from_world = inverse(world_from_camera);
+  std::vector<glm::vec3> normals(shapes.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t pixel) {
+    normals[pixel] =
+        glm::vec3(shapes[pixel] == no_id
+                      ? unknown
+                      : world_from_camera.direction(seen_normal(scene, camera_from_world, shapes[pixel])));
+  });
+  return normals;
+}
+
 void add_rays(const Sensor &sensor, bool keep_unrounded, Measurement &frame) {
   const VectorChannels channels{{&frame.ray_x, &frame.ray_y, &frame.ray_z},
                                 {&frame.unrounded_ray_x, &frame.unrounded_ray_y, &frame.unrounded_ray_z},

@@ -7,6 +7,7 @@
 #include "engine/model/sensor.h"
 
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace pmdsim {
@@ -18,6 +19,10 @@ std::vector<glm::dvec3> rays_of(const Sensor &sensor);
 // The geometric normal of a shape of the scene in the camera frame, unit length, turned to the lens; of a
 // disc, which faces the lens, the way there. NaN of a triangle without area.
 glm::dvec3 seen_normal(const Scene &scene, const Pose &camera_from_world, std::uint32_t shape);
+
+// The same in the world frame, of each pixel's shape; NaN where its id is no_id.
+std::vector<glm::vec3> seen_normals_in_world(const Scene &scene, std::span<const std::uint32_t> shapes,
+                                             const Pose &world_from_camera);
 
 // Fills Measurement::ray_x and the like, from the sensor alone.
 void add_rays(const Sensor &sensor, bool keep_unrounded, Measurement &frame);

@@ -50,9 +50,10 @@ struct DeviceSlot {
 // The values that the ends of a picture's colours stand for.
 enum class ColourScale {
   sequential,   // from the least to the greatest value, but for the outermost 0.5 % on either side
-  zero_centred, // the same, made symmetric about zero
+  zero_centred, // the same, made symmetric about zero where the values are not far from it
   turn,         // always [0, 2 pi)
   share,        // always [0, 1]
+  category,     // ids: a colour each
 };
 
 struct Preview {
@@ -225,7 +226,8 @@ inline constexpr std::array channel_rows = [] {
        "",
        "of the same sample; 4294967295 where it hits nothing",
        &Measurement::object_id,
-       {Area::truth, 3}},
+       {Area::truth, 3},
+       Preview{"object", Scale::category}},
       {"normal_x",
        "",
        "x of the normal there, in the camera's frame, turned to the lens; NaN where nothing is hit; only on "

@@ -2,6 +2,7 @@
 
 #include "engine/model/error.h"
 #include "host/input/file/input_error.h"
+#include "host/output/sheets/sheets.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ RunHead head_of(const CaptureRequest &request, const Setup &setup, const std::st
                .accuracy = request.accuracy,
                .paths = request.paths,
                .setup = setup.as_used,
+               .objects = setup.start.scene.objects,
                .inputs = inputs_json(setup.inputs)};
   for (const Format format : request.formats)
     head.formats.push_back(format_name(format));
@@ -71,6 +73,10 @@ void require_measurable(const CaptureRequest &request, const Setup &setup) {
   request.channels.require_in(setup, request.accuracy);
   if (request.accuracy.strict && exposes_any_tap_by_tap(setup))
     throw Error(ExitCode::accuracy, fmt::format("--strict: {}", tap_by_tap_is_exact));
+  if (request.formats.contains(Format::ply) && !request.channels.has(row_of(&Return::distance_m)) &&
+      !request.channels.has(row_of(&Measurement::unwrapped_distance_m)))
+    throw Error(ExitCode::usage, "--format ply: points need a distance, expected distance_m or "
+                                 "unwrapped_distance_m among --channels");
   if (request.formats == std::set{Format::png} && !request.channels.have_previews())
     throw Error(ExitCode::usage, "--format png: no picture is made of any of --channels, expected another "
                                  "format beside it");
@@ -151,6 +157,8 @@ TakenFrame Capture::take(const SensorFrame &at, Light light, std::optional<doubl
     warning->place += fmt::format(", frame {}", at.frame);
     warn(*warning);
   }
+  if (formats_.contains(Format::ply))
+    taken.normals = exposures_.normals_of(taken, at.time_s);
   return taken;
 }
 
@@ -163,8 +171,15 @@ void Capture::write(const FrameSequence::Measure &measure, std::size_t part_byte
       bar_->reach(at.frames_done * work_of_frame);
     return measure(at);
   };
-  sequence_.write(measure_next, part_bytes);
+  sequence_.write(measure_next, part_bytes + bytes_of_normals());
   bar_.reset(); // before anything is printed
+}
+
+std::size_t Capture::bytes_of_normals() const {
+  std::size_t most = 0;
+  for (const Sensor &sensor : setup_.start.sensors)
+    most = std::max<std::size_t>(most, sensor.pixel_count() * sizeof(glm::vec3));
+  return formats_.contains(Format::ply) ? most : 0;
 }
 
 void Capture::for_each_sensor_frame(const std::function<void(const nlohmann::ordered_json &)> &use) const {
@@ -175,7 +190,7 @@ void Capture::for_each_sensor_frame(const std::function<void(const nlohmann::ord
 }
 
 FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
-  const auto &[sensor, measurement, mode] = taken;
+  const auto &[sensor, measurement, mode, normals] = taken;
   return {sensor,
           at.frame,
           at.time_s,
@@ -188,10 +203,14 @@ FrameRecord record_of(const TakenFrame &taken, const SensorFrame &at) {
 
 MeasuredPart rendered_frame(const std::shared_ptr<const TakenFrame> &taken, const SensorFrame &at,
                             const std::set<Format> &formats) {
-  auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken});
-  return {record_of(*taken, at),
-          [frame = std::move(frame), formats](FrameRecord &) { return files_of(frame, formats); }};
+  auto frame = std::make_shared<const FrameToWrite>(FrameToWrite{
+      taken->sensor, at.frame, at.time_s, channels_of(taken->measurement), taken, taken->normals});
+  const bool in_sheets = at.is_in_sheets && formats.contains(Format::png);
+  return {record_of(*taken, at), [frame = std::move(frame), formats, in_sheets](FrameRecord &record) {
+            if (in_sheets)
+              record.thumbnails = thumbnails_json(frame->channels);
+            return files_of(frame, formats);
+          }};
 }
 
 std::size_t bytes_of_largest_frame(const Setup &setup, bool keep_taps, const WantedChannels &wanted,

@@ -89,6 +89,8 @@ public:
   void write(const FrameSequence::Measure &measure, std::size_t part_bytes, double exposures_of_sample = 1.0);
 
 private:
+  std::size_t bytes_of_normals() const; // of the largest sensor's frame
+
   Setup setup_;
   FrameRange frames_;
   std::set<Format> formats_;

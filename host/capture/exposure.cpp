@@ -281,6 +281,14 @@ void Exposures::reuse(Measurement &&frame) {
   move_missing(frame, spare_);
 }
 
+std::vector<glm::vec3> Exposures::normals_of(const TakenFrame &frame, double time_s) {
+  const auto of = [&](const Scene &scene) {
+    return seen_normals_in_world(scene, frame.measurement.triangle_id, frame.sensor.world_from_camera);
+  };
+  // After taps that are exposures of their own the scene is that of the last of them.
+  return instants_.holds(time_s) ? of(instants_.at(time_s).scene) : of(setup_.at(time_s).scene);
+}
+
 std::shared_ptr<const TakenFrame> Exposures::share(TakenFrame &&frame) {
   const auto give_back = [this](TakenFrame *held) {
     const std::unique_ptr<TakenFrame> owned(held);

@@ -95,6 +95,8 @@ struct TakenFrame {
   Sensor sensor; // where it was when the frame began
   Measurement measurement;
   Mode mode = Mode::exact; // that it was taken in
+  // Of each pixel's surface, by triangle_id, world frame, turned to the lens; only on request.
+  std::vector<glm::vec3> normals{};
 };
 
 // Takes frames of a setup, which must outlive it, on one device.
@@ -122,6 +124,9 @@ public:
   // among others.
   TakenFrame take(std::size_t sensor, std::uint32_t number, Light light, const Progress &progress,
                   std::optional<double> next_s = std::nullopt);
+
+  // TakenFrame::normals of a frame that began at that time; none where it has no triangle_id.
+  std::vector<glm::vec3> normals_of(const TakenFrame &frame, double time_s);
 
 private:
   // The view that the camera is prepared for, at one frequency alone or at all of them.

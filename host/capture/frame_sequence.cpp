@@ -4,6 +4,7 @@
 #include "host/capture/pipeline.h"
 #include "host/capture/progress.h"
 #include "host/input/file/content_hash.h"
+#include "host/output/sheets/sheets.h"
 #include "host/report/report.h"
 
 #include <algorithm>
@@ -54,6 +55,9 @@ std::uint32_t FrameSequence::begin() {
         !std::ranges::binary_search(recorded, frame) || !folder_->whole(frame))
       to_do_.push_back(frame);
   to_do_at_start_ = static_cast<std::uint32_t>(to_do_.size());
+  if (to_do_at_start_ > 0 && !folder_->is_joined())
+    for (const Sensor &sensor : setup_.start.sensors)
+      remove_sheets(request_.directory, sensor.name);
   return to_do_at_start_;
 }
 
@@ -61,6 +65,7 @@ void FrameSequence::write(const Measure &measure, std::size_t part_bytes) {
   try {
     make_all(measure, part_bytes);
     throw_if_interrupted();
+    sheets_ = write_sheets(request_.directory, throw_if_interrupted);
     folder_->write_manifest();
   } catch (const Error &error) {
     files_.clear(); // first, as the disk may be full
@@ -174,6 +179,7 @@ SensorFrame FrameSequence::part(std::uint32_t frame, std::size_t sensor) const {
     part.next_s = part.time_s;
   else if (const auto next = next_after(frame))
     part.next_s = setup_.frames.time_s(*next);
+  part.is_in_sheets = is_in_sheets(frame, setup_.frames.count);
   part.frames_done = to_do_at_start_ - static_cast<std::uint32_t>(to_do_.size() + taken_.size()) - 1;
   return part;
 }
@@ -215,6 +221,8 @@ std::string FrameSequence::written_text() const {
   if (made_.count > 1)
     text += made_.in_a_row ? fmt::format("  and the same of {}\n", frames_text(made_.first + 1, made_.last))
                            : fmt::format("  and the same of {} frames more\n", made_.count - 1);
+  for (const std::string &name : sheets_)
+    text += fmt::format("  {}\n", path_of(name));
   text += fmt::format("  {}\n", path_of(manifest_name));
   if (const std::uint32_t kept = request_.frames.count() - to_do_at_start_; kept > 0)
     text += fmt::format("{} frame{} there before\n", kept, kept == 1 ? " was" : "s were");

@@ -27,6 +27,7 @@ struct SensorFrame {
   std::optional<double>
       next_s{}; // when the frame of the part after this one most likely begins, if there is one
   std::uint32_t frames_done = 0; // of those that were to be made at the start, by whichever process
+  bool is_in_sheets = false;     // pictures of the whole run show the frame
 };
 
 // A measured part of a frame.
@@ -71,6 +72,8 @@ public:
   const std::filesystem::path &path() const { return request_.directory; }
   // A name with the directory in front.
   std::string path_of(const std::string &name) const { return (request_.directory / name).string(); }
+  // The names of pictures of the whole run, where this process has made them.
+  const std::vector<std::string> &sheets() const { return sheets_; }
   // "written:" and the paths below it, those of the first frame that this process made for all.
   std::string written_text() const;
 
@@ -107,6 +110,7 @@ private:
   WrittenFiles files_;             // of the frame that is published next, and
   std::vector<FrameRecord> parts_; // its sensors' records
   Made made_;
+  std::vector<std::string> sheets_;
 };
 
 } // namespace pmdsim

@@ -2,6 +2,8 @@
 
 #include "engine/model/error.h"
 #include "host/capture/progress.h"
+#include "host/output/clouds/cloud_picture.h"
+#include "host/output/clouds/ply_writer.h"
 #include "host/output/files/h5_writer.h"
 #include "host/output/pictures/preview.h"
 #include "host/output/tables/profile.h"
@@ -16,11 +18,28 @@ namespace {
 
 void write_preview(OutputFile &file, const FrameToWrite &frame, const Channel &channel) {
   const Preview &preview = *channel.preview;
+  const glm::uvec2 &resolution = frame.channels.resolution;
   const std::string title = picture_title(std::string(preview.quantity), frame, channel.frequency);
   const std::scoped_lock alone(drawing_mutex());
-  draw_preview(std::get<std::span<const float>>(channel.values), frame.channels.resolution, preview,
-               channel.unit, title)
-      .write_png(file);
+  if (const auto *ids = std::get_if<std::span<const std::uint32_t>>(&channel.values))
+    draw_preview(*ids, resolution, title).write_png(file);
+  else
+    draw_preview(std::get<std::span<const float>>(channel.values), resolution, preview, channel.unit, title)
+        .write_png(file);
+}
+
+void write_cloud_picture(OutputFile &file, const FrameToWrite &frame) {
+  const PointCloud cloud(frame.sensor, frame.channels);
+  const CloudPicture picture(cloud);
+  const std::scoped_lock alone(drawing_mutex());
+  picture.draw(picture_title("point cloud", frame, cloud.distance().frequency)).write_png(file);
+}
+
+// Null where there are no distances.
+const Channel *cloud_of(const FrameToWrite &frame, const std::set<Format> &formats, Format format) {
+  const Channel *distances = distances_of_cloud(frame.channels);
+  const bool is_shown = distances && (format != Format::png || distances->preview);
+  return formats.contains(format) && is_shown ? distances : nullptr;
 }
 
 } // namespace
@@ -74,6 +93,12 @@ std::vector<FileToWrite> files_of(const std::shared_ptr<const FrameToWrite> &fra
     add(stem + ".h5", [&at = *frame](OutputFile &file) {
       write_h5(file, at.channels, {at.sensor, at.frame, at.time_s});
     });
+  if (cloud_of(*frame, formats, Format::ply))
+    add(stem + ".ply", [&at = *frame](OutputFile &file) {
+      write_ply(file, {at.sensor, at.channels}, at.normals, {at.sensor, at.frame, at.time_s});
+    });
+  if (cloud_of(*frame, formats, Format::png))
+    add(stem + ".cloud.png", [&at = *frame](OutputFile &file) { write_cloud_picture(file, at); });
   if (formats.contains(Format::csv))
     add(stem + ".profile.csv",
         [&at = *frame](OutputFile &file) { write_profile_csv(file, at.channels, at.sensor); });

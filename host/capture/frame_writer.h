@@ -1,6 +1,6 @@
 #pragma once
-// The files of one frame: SENSOR_FRAME.exr, .npz and .h5, SENSOR_FRAME.CHANNEL.npy, SENSOR_FRAME.CHANNEL.png
-// and SENSOR_FRAME.profile.csv, as far as the command line asks for them.
+// The files of one frame: SENSOR_FRAME.exr, .npz, .h5 and .ply, SENSOR_FRAME.CHANNEL.npy,
+// SENSOR_FRAME.CHANNEL.png and SENSOR_FRAME.profile.csv, as far as the command line asks for them.
 
 #include "engine/model/sensor.h"
 #include "host/output/files/channel.h"
@@ -10,15 +10,16 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace pmdsim {
 
-enum class Format { exr, npz, h5, npy, png, csv };
+enum class Format { exr, npz, h5, npy, ply, png, csv };
 // As the command line has them, in the order of Format.
-inline constexpr std::array<std::string_view, 6> format_names{"exr", "npz", "h5", "npy", "png", "csv"};
+inline constexpr std::array<std::string_view, 7> format_names{"exr", "npz", "h5", "npy", "ply", "png", "csv"};
 std::string format_name(Format format);
 // Of one of these names.
 Format format_named(std::string_view name);
@@ -34,7 +35,9 @@ struct FrameToWrite {
   std::uint32_t frame;
   double time_s; // when it began
   ChannelSet channels;
-  std::shared_ptr<const void> measured; // what the channels look at
+  std::shared_ptr<const void> measured; // what the channels and the normals look at
+  // Of each pixel's surface, world frame, turned to the lens; empty where they are not known.
+  std::span<const glm::vec3> normals{};
 };
 
 // "distance, pmd, frame 0"; of several frequencies "distance, 20 MHz, pmd, frame 0".

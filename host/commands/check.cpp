@@ -86,7 +86,8 @@ ordered_json report_json(const Setup &setup, const Findings &findings) {
   std::ranges::copy(warnings_of(setup, findings), std::back_inserter(warnings));
   const ordered_json sensors = array_of(findings.sensors, sensor_json);
   ordered_json report{{"triangles", setup.start.scene.triangles.size()},
-                      {"points", setup.start.scene.discs.size()}};
+                      {"points", setup.start.scene.discs.size()},
+                      {"objects", objects_json(setup.start.scene.objects)}};
   report.update(light_json(findings.light));
   report["shadows"] = setup.shadows == Shadows::automatic ? "auto" : "off";
   report["shadow_casters"] = findings.shadow_casters;
@@ -197,12 +198,24 @@ std::string bounces_text(const Setup &setup) {
       1e3 * setup.bounces.max_error_m, forecast->elements, forecast->frame_s);
 }
 
+// The first few, by object_id; a name may hold anything, so it stands as JSON has it.
+std::string objects_text(const std::vector<std::string> &objects) {
+  constexpr std::size_t most = 8;
+  std::string text = fmt::format("{}", objects.size());
+  for (std::size_t id = 0; id < std::min(objects.size(), most); ++id)
+    text +=
+        fmt::format("{} {} {}", id == 0 ? ":" : ",", id,
+                    ordered_json(objects[id]).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  return text + (objects.size() > most ? ", ... (--json has all)" : "");
+}
+
 std::string report_text(const Setup &setup, const Findings &findings) {
   const Scene &scene = setup.start.scene;
   std::string text = fmt::format("{} is valid\n\n", setup.file.string()) +
                      line("triangles", fmt::format("{}", scene.triangles.size()));
   if (!scene.discs.empty())
     text += line("points", fmt::format("{}", scene.discs.size()));
+  text += line("objects", objects_text(scene.objects));
   text += illuminators_text(findings) +
           line("shadows", shadows_text(setup.shadows, findings.shadow_casters)) +
           line("bounces", bounces_text(setup)) + line("frames", frames_text(setup.frames)) +

@@ -4,6 +4,7 @@
 #include "host/commands/report_of_run.h"
 #include "host/output/files/manifest.h"
 #include "host/output/pictures/plots.h"
+#include "host/output/sheets/sheets.h"
 #include "host/output/tables/deformation.h"
 #include "host/output/tables/profile.h"
 #include "host/report/report.h"
@@ -78,8 +79,9 @@ bool is_asked_for(const Channel &channel, const WantedChannels &channels) {
   return channel.quantity != distance.name || channels.has({distance, channel.frequency.value_or(0)});
 }
 
-std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair> &pair,
-                                           const FrameRecord &record, const Capture &capture) {
+// The deformations, where they are asked for, come first.
+std::shared_ptr<const FrameToWrite> deformation_frame(const std::shared_ptr<const TakenPair> &pair,
+                                                      const FrameRecord &record, const Capture &capture) {
   const Measurement &bistatic = pair->bistatic.measurement;
   const bool is_unrounded = capture.output_precision() == OutputPrecision::float64;
   const Maps &deformations = pair->deformations_mm;
@@ -98,12 +100,17 @@ std::vector<FileToWrite> deformation_files(const std::shared_ptr<const TakenPair
         channel.unrounded = {};
       set.channels.push_back(std::move(channel));
     }
-  const auto frame = std::make_shared<const FrameToWrite>(
-      FrameToWrite{pair->bistatic.sensor, record.frame, record.time_s, std::move(set), pair});
-  std::vector<FileToWrite> files = files_of(frame, capture.formats());
-  if (has_deformation && capture.formats().contains(Format::png))
-    for (std::size_t i = 0; i < deformations.size(); ++i)
-      files.push_back(profile_plot(frame, frame->channels.channels[i]));
+  return std::make_shared<const FrameToWrite>(FrameToWrite{pair->bistatic.sensor, record.frame, record.time_s,
+                                                           std::move(set), pair, pair->bistatic.normals});
+}
+
+std::vector<FileToWrite> deformation_files(const std::shared_ptr<const FrameToWrite> &frame,
+                                           const std::set<Format> &formats) {
+  std::vector<FileToWrite> files = files_of(frame, formats);
+  if (formats.contains(Format::png))
+    for (const Channel &channel : frame->channels.channels)
+      if (channel.quantity == deformation_channel)
+        files.push_back(profile_plot(frame, channel));
   return files;
 }
 
@@ -158,7 +165,8 @@ std::deque<DeformedFrame> deform(Capture &capture) {
     const std::shared_ptr<TakenPair> pair = take_pair(capture, at, *told);
     DeformedFrame *kept =
         first.empty() || first.front().record.frame == at.frame ? &first.emplace_back(*told) : nullptr;
-    return {record_of(pair->bistatic, at), [pair, told, kept, &capture](FrameRecord &record) {
+    const bool in_sheets = at.is_in_sheets && capture.formats().contains(Format::png);
+    return {record_of(pair->bistatic, at), [pair, told, kept, in_sheets, &capture](FrameRecord &record) {
               pair->deformations_mm = deformations_mm(*pair);
               for (const std::vector<double> &deformation : pair->deformations_mm) {
                 told->statistics.push_back(statistics_of(deformation, pair->bistatic.measurement.resolution));
@@ -167,7 +175,10 @@ std::deque<DeformedFrame> deform(Capture &capture) {
               record.told = deformed_json(*told);
               if (kept)
                 kept->statistics = told->statistics;
-              return deformation_files(pair, told->record, capture);
+              const auto frame = deformation_frame(pair, told->record, capture);
+              if (in_sheets)
+                record.thumbnails = thumbnails_json(frame->channels);
+              return deformation_files(frame, capture.formats());
             }};
   };
   capture.write(measure, bytes_of_largest_frame(capture.setup(), false, capture.channels(), 3, true), 2.0);
@@ -198,6 +209,8 @@ void print_deform_json(const Capture &capture, const std::string &report) {
       for (const std::string name : of_sensor.at("manifest").at("outputs"))
         add(sequence.path_of(name));
     });
+    for (const std::string &name : sequence.sheets())
+      add(sequence.path_of(name));
     add(sequence.path_of(manifest_name));
   });
   pieces.end();

@@ -4,9 +4,12 @@
 #include "host/commands/commands.h"
 #include "host/output/files/manifest.h"
 #include "host/output/run/run_folder.h"
+#include "host/output/sheets/sheets.h"
 #include "host/report/report.h"
 
 #include <fmt/format.h>
+#include <string>
+#include <vector>
 
 namespace pmdsim {
 namespace {
@@ -22,19 +25,23 @@ Merged manifest_made_again(const Options &options) {
 
 void run_merge(const Options &options) {
   const auto &into = options.capture.output_directory;
+  const auto &folder = into.empty() ? options.merged.front() : into;
   const Merged merged =
       into.empty() ? manifest_made_again(options)
                    : merge_runs({options.merged, into, options.capture.frames}, throw_if_interrupted);
-  const std::string manifest = ((into.empty() ? options.merged.front() : into) / manifest_name).string();
+  std::vector<std::string> written;
+  for (const std::string &sheet : write_sheets(folder, throw_if_interrupted))
+    written.push_back((folder / sheet).string());
+  written.push_back((folder / manifest_name).string());
   if (options.json)
     print(json_text({{"run", merged.run_hash},
                      {"frames", merged.frames},
                      {"linked", merged.linked},
                      {"copied", merged.copied},
-                     {"outputs", {manifest}}}));
+                     {"outputs", written}}));
   else
     print(fmt::format("{} frames, {} files linked, {} copied\n\nwritten:\n  {}\n", merged.frames,
-                      merged.linked, merged.copied, manifest));
+                      merged.linked, merged.copied, fmt::join(written, "\n  ")));
 }
 
 } // namespace pmdsim

@@ -36,7 +36,7 @@ std::string spread_line(const std::string &quantity, const std::vector<float> &v
 }
 
 std::string frame_text(const TakenFrame &taken, std::uint32_t frame) {
-  const auto &[sensor, measurement, mode] = taken;
+  const auto &[sensor, measurement, mode, normals] = taken;
   std::string text = fmt::format("{}, frame {}, {:.3f} ms\n", sensor.name, frame, measurement.frame_ms);
   const std::string head = fmt::format("{:<24}{:>12}{:>12}{:>12}\n", "", "min", "median", "max");
   std::string lines;
@@ -76,6 +76,10 @@ void print_render_json(const Capture &capture, const std::string &report) {
   pieces.list("frames", [&](const JsonPieces::Add &add) {
     capture.for_each_sensor_frame(
         [&](const ordered_json &of_sensor) { add(frame_told(of_sensor, capture.sequence())); });
+  });
+  pieces.list("sheets", [&](const JsonPieces::Add &add) {
+    for (const std::string &name : capture.sequence().sheets())
+      add(capture.sequence().path_of(name));
   });
   pieces.end();
 }

@@ -127,8 +127,9 @@ PMDSIM_API pmdsim_status pmdsim_simulator_load_mesh(pmdsim_simulator *simulator,
 PMDSIM_API pmdsim_status pmdsim_simulator_set(pmdsim_simulator *simulator, const char *json);
 
 /* {"device", "driver", "setup" (as used, all defaults filled in), "sensors" (their names), "frames" (their
- * number), "warnings" ({"code", "place", "text"} each)}, as JSON that lives until the next call with the
- * simulator. Without a setup "setup" is null, and nothing follows. */
+ * number), "objects" (the names of the scene's, by object_id), "warnings" ({"code", "place", "text"} each)},
+ * as JSON that lives until the next call with the simulator. Without a setup "setup" is null, and nothing
+ * follows. */
 PMDSIM_API pmdsim_status pmdsim_simulator_describe(pmdsim_simulator *simulator, const char **json);
 
 /* Ends the call that the simulator is in, soon, with PMDSIM_CANCELLED; from any thread, but from no signal

@@ -37,6 +37,7 @@ nlohmann::ordered_json description_of(const SimulatorObject &simulator) {
   json["setup"] = setup.as_used;
   json["sensors"] = array_of(setup.start.sensors, [](const Sensor &sensor) { return sensor.name; });
   json["frames"] = setup.frames.count;
+  json["objects"] = setup.start.scene.objects;
   json["warnings"] = array_of(setup.warnings, warning_json);
   return json;
 }

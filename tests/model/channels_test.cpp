@@ -106,10 +106,12 @@ TEST_CASE("the name of a rest tells the channel that it belongs to") {
     CHECK(name_of_rest(row.name) == std::nullopt);
 }
 
-TEST_CASE("pictures are of floats, and names differ") {
+TEST_CASE("pictures are of floats and ids, and names differ") {
   for (const ChannelRow &row : channel_rows) {
     INFO(row.name);
-    CHECK_FALSE((row.preview && (is_id(row) || is_of_taps(row))));
+    CHECK_FALSE((row.preview && is_of_taps(row)));
+    if (row.preview)
+      CHECK(is_id(row) == (row.preview->scale == ColourScale::category));
     CHECK(std::ranges::count(channel_rows, row.name, &ChannelRow::name) == 1);
     CHECK(&row_of(row.at) == &row);
   }

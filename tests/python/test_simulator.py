@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import json
 import os
+import pickle
 import shutil
 import tempfile
 import threading
@@ -31,6 +32,18 @@ class SimulatorTest(unittest.TestCase):
             self.assertNotEqual(first.distance_m.tobytes(), second.distance_m.tobytes())
             self.assertEqual(first.distance_m.tobytes(), third.distance_m.tobytes())
             self.assertEqual(simulator.setup.sensors[0].focal_length_m, 0.0018)
+
+    def test_objects_have_names(self) -> None:
+        with pmdsim.Simulator() as simulator:
+            self.assertEqual(simulator.objects, {})
+            simulator.load(scenes / "room.json")
+            simulator.set("sensors/0/resolution", [8, 8])
+            names = {0: "wall", 1: "floor", 2: "box", 3: "sphere"}
+            self.assertEqual(simulator.objects, names)
+            frame = simulator.render()
+            self.assertEqual(frame.objects, names)
+            self.assertEqual(frame.objects[frame.object_id[0, 0]], "wall")
+            self.assertEqual(pickle.loads(pickle.dumps(frame)).objects, names)
 
     def test_files_stay_where_they_were_when_the_process_goes_elsewhere(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -22,7 +22,7 @@ struct Channel {
   std::string unit;     // "" for ids and ratios
   std::variant<std::span<const float>, std::span<const std::uint32_t>> values;
   std::optional<std::size_t> frequency = std::nullopt; // index of the one that it belongs to, of several
-  std::optional<Preview> preview = std::nullopt;       // floats only; nothing: no picture is made of it
+  std::optional<Preview> preview = std::nullopt;       // nothing: no picture is made of it
   std::string about{};                                 // what it is, in a line
   // The same before they were rounded to float, where files shall have that; else empty. Of a channel that
   // was read there may be these alone.

@@ -99,6 +99,13 @@ ordered_json device_json(const DeviceInfo &device) {
           {"driver", device.driver}, {"usable", device.usable}, {"lacks", device.lacks}};
 }
 
+ordered_json objects_json(const std::vector<std::string> &objects) {
+  ordered_json json = ordered_json::array();
+  for (const std::string &name : objects)
+    json.push_back({{"id", json.size()}, {"name", name}});
+  return json;
+}
+
 ordered_json passes_json(const std::vector<PassTime> &passes) {
   ordered_json json = ordered_json::object();
   for (const PassTime &pass : passes)
@@ -124,6 +131,7 @@ ordered_json head_json(const RunHead &run) {
   head["output_precision"] = output_precision_name(run.output_precision);
   head["inputs"] = run.inputs;
   head["setup"] = run.setup;
+  head["objects"] = objects_json(run.objects);
   head["points"] = how_to_make_points();
   return head;
 }

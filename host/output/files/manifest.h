@@ -43,6 +43,8 @@ struct FrameRecord {
   std::optional<BouncesReport> bounces{}; // nothing without
   std::vector<NamedFile> outputs{};
   nlohmann::ordered_json told{}; // what the command tells of it beyond that
+  // What pictures of the whole run need of it (host/output/sheets/sheets.h), if they show it.
+  nlohmann::ordered_json thumbnails{};
 };
 
 // Of distances in files that know double (NPY, NPZ, HDF5; EXR has them as two channels).
@@ -54,9 +56,10 @@ std::string output_precision_name(OutputPrecision precision);
 struct RunHead {
   std::string command{}; // "render" or "deform"
   std::string device{}, driver{};
-  Accuracy accuracy{};            // asked for
-  std::uint32_t paths = 0;        // asked of the reference; 0: as many as it chooses
-  nlohmann::ordered_json setup{}; // as used
+  Accuracy accuracy{};                // asked for
+  std::uint32_t paths = 0;            // asked of the reference; 0: as many as it chooses
+  nlohmann::ordered_json setup{};     // as used
+  std::vector<std::string> objects{}; // their names, by object_id
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array(); // the files that went into it
   std::vector<std::string> formats{};
   std::vector<std::string> channels{}; // asked for; none: all
@@ -115,11 +118,14 @@ nlohmann::ordered_json warning_json(const Warning &warning);
 // index, name, kind, driver, usable, lacks.
 nlohmann::ordered_json device_json(const DeviceInfo &device);
 
+// [{"id": as in object_id, "name": of the glTF node}, ...]
+nlohmann::ordered_json objects_json(const std::vector<std::string> &objects);
+
 // {"NAME": milliseconds, ...}
 nlohmann::ordered_json passes_json(const std::vector<PassTime> &passes);
 
 // What stands in a manifest before its frames: program, version, command, device, driver, mode and errors
-// that were asked for, formats, channels, output_precision, inputs, setup, points.
+// that were asked for, formats, channels, output_precision, inputs, setup, objects, points.
 nlohmann::ordered_json head_json(const RunHead &run);
 // A frame as it stands there: what is the same whenever and wherever the run is made, so without times.
 nlohmann::ordered_json frame_json(const FrameRecord &record);

@@ -65,7 +65,7 @@ constexpr std::size_t places_of_row = 32;
 
 PageScale scale_of(std::string_view name, const ChannelRow *row, bool is_integer) {
   if (row && row->preview)
-    return static_cast<PageScale>(row->preview->scale); // the first four are those of ColourScale
+    return static_cast<PageScale>(row->preview->scale); // ColourScale's come first, in its order
   if (is_integer)
     return name == "saturated" ? PageScale::bits : name == "unwrap_ok" ? PageScale::share : PageScale::ids;
   if (name.find("phase_rad") != std::string_view::npos)

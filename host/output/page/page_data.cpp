@@ -3,7 +3,7 @@
 #include "host/input/frame/frame_file.h"
 #include "host/output/page/channel_words.h"
 #include "host/output/page/packed_values.h"
-#include "host/output/pictures/preview.h"
+#include "host/output/pictures/colouring.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +78,10 @@ std::string kind_of() {
 // Of quantities with a sign, too, the values' own range: the page makes it even about zero where that tells
 // more.
 void add_range(ordered_json &json, std::span<const float> values, PageScale scale) {
-  const Range range = preview_range(values, scale == PageScale::turn    ? ColourScale::turn
-                                            : scale == PageScale::share ? ColourScale::share
-                                                                        : ColourScale::sequential);
+  const ColourScale as = scale == PageScale::turn    ? ColourScale::turn
+                         : scale == PageScale::share ? ColourScale::share
+                                                     : ColourScale::sequential;
+  const Range range = colouring_of(spread_of_values(values), as).range;
   json["range"] = {range.min, range.max};
   std::vector<float> finite;
   std::ranges::copy_if(values, std::back_inserter(finite), [](float value) { return std::isfinite(value); });

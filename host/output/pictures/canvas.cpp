@@ -6,7 +6,9 @@
 #include <cmath>
 #include <exception>
 #include <fmt/format.h>
+#include <functional>
 #include <new>
+#include <string_view>
 
 namespace pmdsim {
 namespace {
@@ -39,7 +41,7 @@ double capital_height(cairo_t *context) {
 }
 
 struct PngSink {
-  OutputFile &file;
+  std::function<void(std::string_view)> write;
   std::exception_ptr failure;
 };
 
@@ -47,12 +49,20 @@ struct PngSink {
 cairo_status_t append(void *closure, const unsigned char *bytes, unsigned count) {
   auto &sink = *static_cast<PngSink *>(closure);
   try {
-    sink.file.write({reinterpret_cast<const char *>(bytes), count});
+    sink.write({reinterpret_cast<const char *>(bytes), count});
     return CAIRO_STATUS_SUCCESS;
   } catch (...) {
     sink.failure = std::current_exception();
     return CAIRO_STATUS_WRITE_ERROR;
   }
+}
+
+cairo_status_t write_surface(cairo_surface_t *surface, std::function<void(std::string_view)> write) {
+  PngSink sink{std::move(write), {}};
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface, &append, &sink);
+  if (sink.failure)
+    std::rethrow_exception(sink.failure);
+  return status;
 }
 
 } // namespace
@@ -184,13 +194,18 @@ void Canvas::frame(const Box &box, const Axis &bottom, const Axis &left, const s
 }
 
 void Canvas::write_png(OutputFile &file) const {
-  PngSink sink{file, {}};
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), &append, &sink);
-  if (sink.failure)
-    std::rethrow_exception(sink.failure);
+  const cairo_status_t status =
+      write_surface(surface_.get(), [&](std::string_view bytes) { file.write(bytes); });
   if (status != CAIRO_STATUS_SUCCESS)
     throw Error(ExitCode::output, fmt::format("{}: cannot be written: {}", file.path().string(),
                                               cairo_status_to_string(status)));
+}
+
+std::string Canvas::png() const {
+  std::string png;
+  if (write_surface(surface_.get(), [&](std::string_view bytes) { png += bytes; }) != CAIRO_STATUS_SUCCESS)
+    throw std::bad_alloc(); // there is nothing else that could fail
+  return png;
 }
 
 double text_width(const std::string &text, double size) {

@@ -72,6 +72,8 @@ public:
 
   // Throws Error (output).
   void write_png(OutputFile &file) const;
+  // The file's bytes.
+  std::string png() const;
 
 private:
   SurfacePtr surface_;

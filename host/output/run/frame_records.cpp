@@ -36,6 +36,8 @@ ordered_json sensor_json(const FrameRecord &part) {
                     {"bytes", array_of(part.outputs, [](const NamedFile &file) { return file.bytes; })}};
   if (!part.told.is_null())
     json["told"] = part.told;
+  if (!part.thumbnails.is_null())
+    json["thumbnails"] = part.thumbnails;
   return json;
 }
 

@@ -3,7 +3,8 @@
 // and what is only so this time. "0007.record.json" of frame 7:
 //   {"frame": 7, "run": the run's hash, "host": name, "sensors": for each
 //      {"manifest": its entry there, "frame_ms", "passes_ms", "check_ms", "bytes": of each output,
-//       "told": what the command says beyond that, if anything}}
+//       "told": what the command says beyond that, if anything,
+//       "thumbnails": of frames that pictures of the whole run show (host/output/sheets/thumbnail.h)}}
 
 #include "host/output/files/manifest.h"
 

@@ -70,7 +70,8 @@ bool give_name(const ByteLocks &file, const fs::path &temporary, const fs::path 
 
 // Whether a run leaves files of that name, its own or a frame's.
 bool is_of_a_run(const std::string &name) {
-  static const std::regex names(R"(run\.json|manifest\.json|\d{4,}\.record\.json|.+_\d{4,}\..+)");
+  static const std::regex names(
+      R"(run\.json|manifest\.json|\d{4,}\.record\.json|.+_\d{4,}\..+|.+\.(sheet\.png|apng))");
   return std::regex_match(name, names);
 }
 

@@ -77,6 +77,8 @@ class Frame:
     camera : dict
         As OpenCV has it: "camera_matrix", "distortion", "world_from_camera" (4 x 4, camera frame x right, y down, z
         forward), ...
+    objects : dict of int to str
+        The names of the scene's objects by their ids: `frame.objects[frame.object_id[row, column]]`.
     directions : float64 (rows, columns, 3)
         Unit vectors from the lens through the pixels' centres, camera frame.
     normals : float64 (rows, columns, 3)
@@ -129,6 +131,10 @@ class Frame:
     @property
     def camera(self) -> Dict[str, Any]:
         return self._reported("camera")
+
+    @property
+    def objects(self) -> Dict[int, str]:
+        return dict(enumerate(self._reported("objects")))
 
     def _reported(self, key: str) -> Any:
         if key not in self.report:

@@ -8,7 +8,7 @@ import os
 import re
 import weakref
 from functools import lru_cache
-from typing import Any, Dict, List, Mapping, Optional, Protocol, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Protocol, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,8 +73,9 @@ class _Memory:
 class LibrarySource:
     """A frame in the library's memory."""
 
-    def __init__(self, handle: FrameHandle) -> None:
+    def __init__(self, handle: FrameHandle, objects: Sequence[str] = ()) -> None:
         self._handle = handle
+        self._objects = objects  # their names, by object_id
         self._channels = self._read_channels()
 
     def _read_channels(self) -> Dict[str, Channel]:
@@ -101,7 +102,10 @@ class LibrarySource:
     def report(self) -> Dict[str, Any]:
         text = ctypes.c_char_p()
         check(library().pmdsim_frame_report(self._handle.value, ctypes.byref(text)))
-        return json.loads(text.value or b"{}")
+        report: Dict[str, Any] = json.loads(text.value or b"{}")
+        if self._objects:
+            report["objects"] = list(self._objects)
+        return report
 
     def directions(self, shape: Tuple[int, int]) -> NDArray[np.float64]:
         values = np.empty((*shape, 3))

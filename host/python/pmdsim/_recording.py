@@ -102,6 +102,8 @@ class Recording:
         docs/outputs.md, "The manifest".
     sensors : list of str
         The sensors' names, in the manifest's order.
+    objects : dict of int to str
+        The names of the scene's objects by their ids, as object_id has them.
     frames : sequence of Frame
         All frames of all sensors in the manifest's order, each read when it is asked for. Of .npy files each channel
         is mapped into memory, and read when it is used.
@@ -118,6 +120,7 @@ class Recording:
         self.folder = file_name(folder, "folder")
         self.manifest: Dict[str, Any] = _read_manifest(self.folder)
         self._entries: List[Dict[str, Any]] = self.manifest["frames"]
+        self.objects: Dict[int, str] = _objects_of(self.manifest, self.folder)
         self.sensors: List[str] = list(dict.fromkeys(entry["sensor"] for entry in self._entries))
         self._by_key = {(entry["sensor"], entry["frame"]): entry for entry in self._entries}
 
@@ -168,6 +171,7 @@ class Recording:
 
     def _read(self, entry: Dict[str, Any]) -> Frame:
         files = [os.path.join(self.folder, name) for name in entry.get("outputs", ())]
+        entry = {**entry, "objects": list(self.objects.values())} if self.objects else entry
         arrays = {_channel_of(file, entry): file for file in files if file.endswith(".npy")}
         if arrays:
             return Frame(FileSource(arrays, entry))
@@ -218,6 +222,15 @@ class Recording:
         }
         times = [self._by_key[name, number].get("time_s", np.nan) for number in numbers]
         return xarray.Dataset(variables, coords={"frame": numbers, "time_s": ("frame", times)}, attrs={"sensor": name})
+
+
+def _objects_of(manifest: Mapping[str, Any], folder: str) -> Dict[int, str]:
+    """Earlier versions named no objects."""
+    try:
+        return {index: str(of["name"]) for index, of in enumerate(manifest.get("objects", ()))}
+    except (KeyError, TypeError) as error:
+        file = os.path.join(folder, "manifest.json")
+        raise InputError(f"{file}: /objects: expected a list of objects with names", file, "/objects") from error
 
 
 def _channel_of(file: str, entry: Mapping[str, Any]) -> str:

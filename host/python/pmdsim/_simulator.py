@@ -329,6 +329,11 @@ class Simulator:
         return list(self._told("sensors") or ())
 
     @property
+    def objects(self) -> Dict[int, str]:
+        """The names of the scene's objects by their ids, as object_id has them; none without a setup."""
+        return dict(enumerate(self._told("objects") or ()))
+
+    @property
     def frame_count(self) -> int:
         """The number of frames that the setup has; 0 without one."""
         return int(self._told("frames") or 0)
@@ -392,7 +397,7 @@ class Simulator:
             )
             return FrameHandle(result.value or 0)
 
-        measured = Frame(LibrarySource(self._call(measure, self._setup_file)))
+        measured = Frame(LibrarySource(self._call(measure, self._setup_file), self._told("objects") or ()))
         for told in measured.report.get("warnings", ()):
             warnings.warn(warning_of(told), stacklevel=stacklevel)
         return measured

@@ -27,6 +27,6 @@ TEST_CASE("pictures show multipath and its share, and no channel without bounces
   for (const FileToWrite &file : part.files(part.record))
     names.push_back(file.name);
   std::ranges::sort(names);
-  CHECK(names == std::vector<std::string>{"pmd_0000.distance_m.png", "pmd_0000.indirect_share.png",
-                                          "pmd_0000.multipath_m.png"});
+  CHECK(names == std::vector<std::string>{"pmd_0000.cloud.png", "pmd_0000.distance_m.png",
+                                          "pmd_0000.indirect_share.png", "pmd_0000.multipath_m.png"});
 }

@@ -1,3 +1,5 @@
+#include "engine/model/scene.h"
+#include "host/output/pictures/key.h"
 #include "host/output/pictures/preview.h"
 #include "tests/host/output/directory_content.h"
 #include "tests/host/output/nan_value.h"
@@ -47,29 +49,6 @@ TEST_CASE("shrinking averages what has a value; of angles it takes one") {
   CHECK(preview_image(values, {2048, 1}, Scale::turn).values[0] == 1.0f);
 }
 
-TEST_CASE("the range leaves outliers out and suits its scale") {
-  std::vector<float> values(1001);
-  std::iota(values.begin(), values.end(), 0.0f);
-  values.back() = 1e9f;
-  CHECK(preview_range(values, Scale::sequential).min == 5.0);
-  CHECK(preview_range(values, Scale::sequential).max == 995.0);
-  CHECK(preview_range(values, Scale::zero_centred).min == -995.0);
-  CHECK(preview_range(values, Scale::zero_centred).max == 995.0);
-  CHECK(preview_range(values, Scale::turn).max == Approx(6.283185307));
-  CHECK(preview_range(values, Scale::share).min == 0.0);
-  CHECK(preview_range(values, Scale::share).max == 1.0);
-}
-
-TEST_CASE("constant and empty images have a range of some extent about their value") {
-  for (const float value : {0.0f, 2.0f, -1e-20f, 1e20f, nan_value})
-    for (const Scale scale : {Scale::sequential, Scale::zero_centred, Scale::turn}) {
-      const Range range = preview_range(std::vector{value, value}, scale);
-      CHECK(range.span() > 0.0);
-      if (scale == Scale::sequential && !std::isnan(value))
-        CHECK(0.5 * (range.min + range.max) == Approx(static_cast<double>(value)));
-    }
-}
-
 TEST_CASE("a preview shows its pixels' colours, and grey with a legend where there is no value") {
   const Preview preview{"deformation", Scale::zero_centred};
   Canvas full = draw_preview(std::vector{-1.0f, 1.0f}, {2, 1}, preview, "mm", "title");
@@ -77,9 +56,9 @@ TEST_CASE("a preview shows its pixels' colours, and grey with a legend where the
   CHECK(area_of(full, 0x00509b) >= pixel_area);
   CHECK(area_of(full, 0x8e240f) >= pixel_area);
   CHECK(area_of(full, grey) < 100); // of the edges of letters
-  Canvas gap = draw_preview(std::vector{-1.0f, nan_value}, {2, 1}, preview, "mm", "title");
-  CHECK(area_of(gap, 0x00509b) >= pixel_area);
-  CHECK(area_of(gap, grey) >= pixel_area + 14 * 14);
+  Canvas gap = draw_preview(std::vector{-1.0f, nan_value, 1.0f}, {3, 1}, preview, "mm", "title");
+  CHECK(area_of(gap, 0x00509b) >= 170 * 170);
+  CHECK(area_of(gap, grey) >= 170 * 170 + 13 * 13);
 }
 
 TEST_CASE("shares have the colours of a scale from 0 to 1, whatever is in the frame") {
@@ -88,6 +67,41 @@ TEST_CASE("shares have the colours of a scale from 0 to 1, whatever is in the fr
   CHECK(area_of(none, 0x440154) >= 2 * 256 * 256);
   Canvas all = draw_preview(std::vector{1.0f, 1.0f}, {2, 1}, preview, "", "title");
   CHECK(area_of(all, 0xfde725) >= 2 * 256 * 256);
+}
+
+TEST_CASE("an image of one value has no bar, but the value's colour in its legend") {
+  const Preview preview{"deformation", Scale::zero_centred};
+  constexpr int image_area = 2 * 256 * 256, swatch_area = 13 * 13;
+  Canvas constant = draw_preview(std::vector{2.632f, 2.632f}, {2, 1}, preview, "mm", "title");
+  CHECK(area_of(constant, 0x21908d) >= image_area); // the middle of the map
+  CHECK(area_of(constant, 0x21908d) + area_of(constant, 0x20908d) >= image_area + swatch_area);
+  CHECK(area_of(constant, 0x440154) == 0); // an end of it
+  CHECK(area_of(constant, grey) < 100);
+  Canvas gap = draw_preview(std::vector{2.632f, nan_value}, {2, 1}, preview, "mm", "title");
+  CHECK(area_of(gap, grey) >= image_area / 2 + swatch_area);
+  Canvas none = draw_preview(std::vector{nan_value, nan_value}, {2, 1}, preview, "mm", "title");
+  CHECK(area_of(none, grey) >= image_area + swatch_area);
+}
+
+TEST_CASE("ids have a colour each, in the image and in the legend") {
+  Canvas canvas = draw_preview(std::vector<std::uint32_t>{0, 1, 1, no_id}, {4, 1}, "title");
+  constexpr int pixel_area = 128 * 128, swatch_area = 13 * 13;
+  CHECK(area_of(canvas, 0x2e78b5) >= pixel_area + swatch_area);
+  CHECK(area_of(canvas, 0xf59e38) >= 2 * pixel_area + swatch_area);
+  CHECK(area_of(canvas, grey) >= pixel_area + swatch_area);
+}
+
+TEST_CASE("of many ids the legend names a few") {
+  std::vector<std::uint32_t> ids(1000);
+  std::iota(ids.begin(), ids.end(), 0u);
+  const Canvas canvas = draw_preview(ids, {1000, 1}, "title");
+  CHECK(canvas.height() < 400);
+}
+
+TEST_CASE("values for people") {
+  CHECK(value_text(2.63249) == "2.632");
+  CHECK(value_text(-0.0) == "0");
+  CHECK(value_text(-1.5e-7) == "−1.5e−07");
 }
 
 TEST_CASE("frames of extreme shapes can be drawn") {

@@ -289,8 +289,11 @@ TEST_CASE("temporary files go with the last who lives there, and nobody else's")
   const Folder folder;
   std::filesystem::create_directory(folder.path);
   const std::set<std::string> leftovers{".pmd_0001.exr.0123abcd.partial",
-                                        ".0001.record.json.0123abcd.partial", ".run.json.00000000.partial",
-                                        ".manifest.json.ffffffff.partial"};
+                                        ".0001.record.json.0123abcd.partial",
+                                        ".run.json.00000000.partial",
+                                        ".manifest.json.ffffffff.partial",
+                                        ".pmd.distance_m.sheet.png.0123abcd.partial",
+                                        ".pmd.distance_m.apng.0123abcd.partial"};
   const std::set<std::string> others{".tradeoff.csv.0123abcd.partial", ".pmd_0001.exr.partial",
                                      ".pmd_0001.exr.0123abcx.partial", "pmd_0001.exr.0123abcd.partial"};
   const auto write_all = [&] {
@@ -309,9 +312,9 @@ TEST_CASE("temporary files go with the last who lives there, and nobody else's")
     write_all();
     {
       RunFolder second = folder.entered();
-      CHECK(there(leftovers) == 4);
+      CHECK(there(leftovers) == std::ssize(leftovers));
     }
-    CHECK(there(leftovers) == 4);
+    CHECK(there(leftovers) == std::ssize(leftovers));
     folder.make(first, 0);
   }
   CHECK(there(leftovers) == 0);

@@ -50,9 +50,9 @@ TEST_CASE("render writes only the channels that are asked for, with the bytes th
   const std::vector<std::string> options{"--format", "npy,png,csv", "--channels", "z_m,distance_m"};
   require_success(wall.run("render", "some", options));
   CHECK(wall.space.files("some") ==
-        std::vector<std::string>{"0000.record.json", "manifest.json", "pmd_0000.distance_m.npy",
-                                 "pmd_0000.distance_m.png", "pmd_0000.profile.csv", "pmd_0000.z_m.npy",
-                                 "run.json"});
+        std::vector<std::string>{"0000.record.json", "manifest.json", "pmd_0000.cloud.png",
+                                 "pmd_0000.distance_m.npy", "pmd_0000.distance_m.png", "pmd_0000.profile.csv",
+                                 "pmd_0000.z_m.npy", "run.json"});
   for (const std::string name : {"z_m", "distance_m"})
     CHECK(bytes_in(wall.space / ("some/pmd_0000." + name + ".npy")) ==
           bytes_in(wall.space / ("all/pmd_0000." + name + ".npy")));

@@ -25,6 +25,7 @@ TEST_CASE("Every setup that ships loads without a warning") {
       {"paper_half_ring.json", {2, 120}},
       {"paper_moire.json", {2, 48}},
       {"room.json", {9950, 240}},
+      {"showroom/showroom.json", {3350, 96}},
       {"bars.json", {1010, 240}},
       {"closed_box.json", {332, 240}},
       {"penumbra.json", {4, 240}},
