@@ -2,7 +2,8 @@
 // Documents beside JSON Schemas: checks that say in one line what is wrong, where, and what was expected, and
 // defaults.
 
-#include <filesystem>
+#include "host/input/file/input_error.h"
+
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -12,9 +13,8 @@ namespace pmdsim {
 extern const std::string_view setup_schema_text; // a setup file
 extern const std::string_view gltf_schema_text;  // the parts of glTF 2.0 that are read
 
-// A wrong key or value is thrown as Error (input) with its JSON pointer in `file`.
-void check_schema(const nlohmann::json &document, const nlohmann::json &schema,
-                  const std::filesystem::path &file);
+// A wrong key or value is thrown as Error (input) with its place in the document, which is at `root`.
+void check_schema(const nlohmann::json &document, const nlohmann::json &schema, const Place &root);
 
 // A valid document with every absent key that has a `default` filled in, keys in the schema's order.
 nlohmann::ordered_json with_defaults(const nlohmann::json &document, const nlohmann::ordered_json &schema);
